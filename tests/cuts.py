@@ -31,4 +31,4 @@ def points_on(f: Polynomial, row: np.ndarray) -> np.ndarray:
 def fibre(equation: str, row: np.ndarray) -> Fibre:
     """All points of a reduced plane curve on a line."""
     f = curve(equation)
-    return Fibre(Cut(2, 0, (f,)), 1, points_on(f, row))
+    return Fibre(Cut(2, 0, (f,)), row[None], points_on(f, row))

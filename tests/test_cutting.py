@@ -39,8 +39,8 @@ def is_alone(distance: Fraction) -> bool:
     x, y = Polynomial.variables(2)
     equations = Equations((x**2 - distance**2, y - 1), 2)
     zero = np.array([[float(distance), 1.0]], dtype=complex)
-    fibre = Fibre(Cut(2, 0, equations.polynomials), 0, zero)
-    return cutting_in_digits.is_alone(fibre, 0, equations, NO_SLICE)
+    fibre = Fibre(Cut(2, 0, equations.polynomials), NO_SLICE, zero)
+    return cutting_in_digits.is_alone(fibre, 0, equations)
 
 
 def test_doubles_are_enough_to_see_that_no_other_zero_is_near(monkeypatch) -> None:

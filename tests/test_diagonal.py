@@ -49,7 +49,7 @@ def test_surfaces_meet_in_curves_of_the_product_of_their_degrees(
     assert found.notes == [] and found.bare == []
     assert sizes(found) == {1: degree}
     assert common.original.residuals(points(found, common)).max() < 1e-12
-    (row,) = found.rows[1]
+    (row,) = found.fibres[1][0].rows
     own = np.vstack([fibre.x for fibre in found.fibres[1]])
     assert np.abs(row[0] + own @ row[1:]).max() < 1e-12
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -98,14 +99,14 @@ def circle_and_slice(error: float) -> tuple[PolynomialSystem, WitnessSet, Fibre]
     (component,) = nag.decompose(system).components
     (fibre,) = component.fibres
     moved = fibre.points + error * np.array([[1, -1j], [1j, 1]])
-    return system, component, Fibre(fibre.cut, 1, moved)
+    return system, component, replace(fibre, points=moved)
 
 
 @pytest.mark.parametrize("error", [1e-15, 1e-12, 1e-9])
 def test_points_that_are_off_become_the_doubles_next_to_the_zeros(error: float) -> None:
     system, component, fibre = circle_and_slice(error)
     reference = Reference.of(system, fibre.points, component.slice.rows)
-    sharp = sharpened(fibre, component.slice.rows)
+    sharp = sharpened(fibre)
     assert (off(reference, sharp.fibre.points) <= sharp.radii).all()
     assert (sharp.radii < 1e-15).all() and (sharp.digits > 16).all()
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from cuts import curve, fibre
 
-from nag.decomposition.hypersurface import Sections, hypersurface_section, intersect
+from nag.decomposition.hypersurface import hypersurface_section, intersect
 from nag.tracking.run import Run
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
@@ -25,7 +25,7 @@ def test_a_circle_meets_a_line_in_its_two_points(seed: int) -> None:
     rng = np.random.default_rng(seed)
     flag = random_rows(rng, 2, 2)
     points = fibre(CIRCLE, flag[0])
-    ends = intersect(points, curve(LINE), flag, complex(unit_complex(rng)), TRACKER)
+    ends = intersect(points, curve(LINE), complex(unit_complex(rng)), TRACKER)
     found = finite(ends)[:, :2]
     assert ends.counts.tracked == 2 and ends.regular.all()
     assert np.abs(found[np.argsort(found[:, 0].real)] - [[-0.8, -0.6], [0.8, 0.6]]).max() < 1e-14
@@ -45,7 +45,7 @@ def test_ends_are_as_many_as_the_product_of_the_degrees(
 ) -> None:
     rng = np.random.default_rng(7)
     flag = random_rows(rng, 2, 2)
-    ends = intersect(fibre(CIRCLE, flag[0]), curve(equation), flag, 1j, TRACKER)
+    ends = intersect(fibre(CIRCLE, flag[0]), curve(equation), 1j, TRACKER)
     counted = (ends.regular.sum(), (ends.finite & ~ends.regular).sum(), ends.counts.at_infinity)
     assert counted == (regular, singular, infinite) and ends.counts.failed == 0
 
@@ -54,23 +54,23 @@ def test_what_lies_on_the_hypersurface_stays_and_the_rest_is_cut() -> None:
     rng = np.random.default_rng(8)
     flag = random_rows(rng, 2, 2)
     both = fibre(f"({CIRCLE})*({LINE})", flag[0])
-    crossed = hypersurface_section(Sections({1: [both]}, flag), curve(LINE), rng, TRACKER)
+    crossed = hypersurface_section({1: [both]}, curve(LINE), rng, TRACKER)
     (kept,) = crossed.kept[1]
     assert len(kept) == 1 and abs(3 * kept.x[0, 0] - 4 * kept.x[0, 1]) < 1e-12
-    ((cut, ends),) = crossed.ends[0]
-    assert cut.polynomials[-1] == curve(LINE) and ends.counts.tracked == 2
+    (ends,) = crossed.ends[0]
+    assert ends.cut.polynomials[-1] == curve(LINE) and ends.counts.tracked == 2
     found = finite(ends)[:, :2]
     assert np.abs(np.abs(found) - [[0.8, 0.6]] * 2).max() < 1e-8
-    assert crossed.before.flag is flag and crossed.counts.tracked == 2
+    assert crossed.counts.tracked == 2
 
 
 def test_the_whole_plane_is_cut_to_the_hypersurface_itself() -> None:
     rng = np.random.default_rng(10)
     flag = random_rows(rng, 2, 2)
     point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
-    plane = Fibre(Cut(2, 0, ()), 2, point[None])
-    crossed = hypersurface_section(Sections({2: [plane]}, flag), curve(CIRCLE), rng, TRACKER)
-    found = finite(crossed.ends[1][0][1])[:, :2]
+    plane = Fibre(Cut(2, 0, ()), flag, point[None])
+    crossed = hypersurface_section({2: [plane]}, curve(CIRCLE), rng, TRACKER)
+    found = finite(crossed.ends[1][0])[:, :2]
     assert len(found) == 2
     assert np.abs((found**2).sum(axis=1) - 1).max() < 1e-14
     assert np.abs(flag[0, 0] + found @ flag[0, 1:]).max() < 1e-14

@@ -13,7 +13,7 @@ from nag.decomposition.power_sums import PowerSums
 from nag.decomposition.splitting import LOST, split
 from nag.decomposition.trace import EVIDENCE
 from nag.tracking.run import Run
-from nag.witness.fibres import Moved
+from nag.witness.fibres import PathEnds
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
 
@@ -24,8 +24,8 @@ def points_of(curves: tuple[str, ...], rng: np.random.Generator) -> tuple[Points
     """Points of plane curves on a random line, and the indices of those of each curve."""
     rows = random_rows(rng, 1, 2)
     fibres = [fibre("*".join(f"({c})" for c in curves), rows[0])]
-    points = Points.of(fibres, rows)
-    each = [Points.of([fibre(c, rows[0])], rows).x for c in curves]
+    points = Points.of(fibres)
+    each = [Points.of([fibre(c, rows[0])]).x for c in curves]
     gaps = np.array([np.linalg.norm(points.x[:, None] - x, axis=2).min(axis=1) for x in each])
     owner = gaps.argmin(axis=0)
     return points, sorted(np.flatnonzero(owner == k).tolist() for k in range(len(curves)))
@@ -85,7 +85,7 @@ def test_a_path_that_was_lost_in_the_trace_joins_nothing(
     points, curves = points_of(CURVES, rng)
     move = trace.move
 
-    def swapping(*arguments, **options) -> list[Moved]:
+    def swapping(*arguments, **options) -> list[PathEnds]:
         (there,) = move(*arguments, **options)
         places = np.arange(len(there.points))
         swapped = [2 * curves[k][0] for k in (1, 2)]

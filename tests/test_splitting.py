@@ -43,7 +43,7 @@ def on(points: np.ndarray, equation: str) -> np.ndarray:
 def on_line(equation: str, rng: np.random.Generator) -> Points:
     """All points of a reduced plane curve on a random line."""
     rows = random_rows(rng, 1, 2)
-    return Points.of([fibre(equation, rows[0])], rows)
+    return Points.of([fibre(equation, rows[0])])
 
 
 def trace_of(points: Points, rng: np.random.Generator) -> Trace:
@@ -171,7 +171,7 @@ def test_a_point_that_is_missing_is_found_by_loops() -> None:
     rng = np.random.default_rng(5)
     rows = random_rows(rng, 1, 2)
     whole = fibre(CUBIC, rows[0])
-    less = Points.of([whole.only(np.arange(3) > 0)], rows)
+    less = Points.of([whole.only(np.arange(3) > 0)])
     found = split(less, EVIDENCE, rng, TRACKER)
     assert [(len(c.indices), c.reason) for c in found.classes] == [(3, "")]
     gaps = np.linalg.norm(found.points.x[:, None] - whole.x[None], axis=2)
@@ -180,7 +180,7 @@ def test_a_point_that_is_missing_is_found_by_loops() -> None:
 
 def test_isolated_points_are_components_by_themselves() -> None:
     cut = fibre(CIRCLE, ROWS[0]).cut
-    points = Points.of([Fibre(cut, 0, np.eye(2))], np.zeros((0, 3), dtype=complex))
+    points = Points.of([Fibre(cut, np.zeros((0, 3), dtype=complex), np.eye(2))])
     found = split(points, EVIDENCE, np.random.default_rng(0), TRACKER)
     assert [c.indices.tolist() for c in found.classes] == [[0], [1]]
     assert found.counts.tracked == 0
@@ -188,7 +188,7 @@ def test_isolated_points_are_components_by_themselves() -> None:
 
 def checked(points: np.ndarray, reduction: Reduction, reason: str = "") -> WitnessSet:
     """What the final checks say of points of the cubic as a component."""
-    own = Points.of([Fibre(fibre(CUBIC, ROWS[0]).cut, 1, points)], ROWS)
+    own = Points.of([Fibre(fibre(CUBIC, ROWS[0]).cut, ROWS, points)])
     found = Class(np.arange(len(points)), reason)
     rng = np.random.default_rng(0)
     examined = Examined.of(own, [found], reduction, rng)

@@ -135,8 +135,8 @@ def test_an_end_that_is_no_known_zero_is_not_taken_for_a_point_of_a_set(
     monkeypatch.setattr(superset, "meant", lambda *_: Meant((), False, located))
     monkeypatch.setattr(superset, "admit", lambda *_, **__: False)
     member = (Membership.MEMBER, PathCounts())
-    monkeypatch.setattr(superset._Stage, "larger", lambda *_: member)
-    none = superset.Superset({}, np.eye(3, 4), PathCounts(), ())
+    monkeypatch.setattr(superset, "is_on_larger_set", lambda *_: member)
+    none = superset.Superset({}, PathCounts(), ())
     stage = superset._Stage((), (), none, (), np.random.default_rng(0), Run())
-    doubts, _ = stage.add([(np.zeros(3), 1e-15)], {0: []}, Equations((), 3), np.eye(3, 4), 0, True)
+    doubts, _ = stage.add([(np.zeros(3), 1e-15)], {0: []}, Equations((), 3), np.zeros((0, 4)), True)
     assert bool(doubts) is not located

@@ -81,7 +81,7 @@ def test_a_six_bar_takes_as_many_paths_as_its_degree(name: str, degree: int, see
     assert fibre.dimension == 1
     assert len(fibre) == degree
     assert Evaluator.of(reduced.polynomials, reduced.n).residuals(fibre.x).max() < 1e-14
-    on = found.flag[:1, 0] + fibre.x @ found.flag[0, 1:]
+    on = fibre.rows[:, 0] + fibre.x @ fibre.rows[0, 1:]
     assert np.abs(on).max() < 1e-13 * np.abs(fibre.x).max()
 
 

@@ -18,7 +18,7 @@ from nag.decomposition.trace import digits_of_evidence
 from nag.numerics.zero_values import LEAST
 from nag.tracking.run import Run
 from nag.witness.fibres import Fibre
-from nag.witness.membership import Membership, is_member
+from nag.witness.membership import Membership, is_on_larger_set
 from nag.witness.points import Points
 from nag.witness.witness import PathCounts, Status, WitnessSet
 
@@ -107,9 +107,11 @@ def assembled(
             own = orbit.representative
             fibres = [fibre for fibre, _ in found.points.fibres(own.indices)]
             if known.embedded:
-                inside, spent = _on_larger_set(fibres[0], pieces, points, rng, run)
+                answer, spent = _on_larger_set(fibres[0], pieces, rng, run)
                 counts += spent
-                if inside:
+                if answer is Membership.UNDECIDED:
+                    notes.append(f"whether a component of dimension {d} is one was not decided")
+                if answer is Membership.MEMBER:
                     continue
             component, spent = checked_witness_set(own, examined, rng, run, known.scheme)
             counts += spent
@@ -121,20 +123,12 @@ def assembled(
 
 
 def _on_larger_set(
-    fibre: Fibre,
-    pieces: Sequence[Piece],
-    points: Mapping[int, Points],
-    rng: np.random.Generator,
-    run: Run,
-) -> tuple[bool, PathCounts]:
+    fibre: Fibre, pieces: Sequence[Piece], rng: np.random.Generator, run: Run
+) -> tuple[Membership, PathCounts]:
     """Whether a set that deflation was needed for lies on one of higher dimension."""
-    counts = PathCounts()
     if not fibre.cut.deflated:
-        return False, counts
-    for d in sorted({piece.component.dimension for piece in pieces}):
-        higher = [f for piece in pieces for f in piece.fibres if f.dimension == d]
-        answer, spent = is_member(fibre.x[0], LEAST, higher, points[d].rows, rng, run)
-        counts += spent
-        if answer is Membership.MEMBER:
-            return True, counts
-    return False, counts
+        return Membership.FOREIGN, PathCounts()
+    larger: dict[int, list[Fibre]] = {}
+    for piece in pieces:
+        larger.setdefault(piece.component.dimension, []).extend(piece.fibres)
+    return is_on_larger_set(fibre.x[0], LEAST, larger, fibre.dimension, rng, run)

@@ -264,7 +264,7 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Par
             multidegree=np.array(1) if system.groups else None,
         )
         if square and zero.multiplicity == 1:
-            fibre = Fibre(Cut(n, 0, system.polynomials), 0, x[None])
+            fibre = Fibre(Cut(n, 0, system.polynomials), witness.slice.rows, x[None])
             witness = replace(witness, fibres=(fibre,))
         found.append(BranchComponent(witness, branch, zero))
     return _Part(system, tuple(found), None)
@@ -278,12 +278,13 @@ def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchCo
     d = elimination.system.n
     rows = random_rows(rng, d, d)
     point = np.linalg.solve(rows[:, 1:], -rows[:, 0])[None]
-    sharp = sharpened(Fibre(Cut(d, 0, ()), d, point), rows)
+    sharp = sharpened(Fibre(Cut(d, 0, ()), rows, point))
     x = frame.points(sharp.fibre.x)
     evaluator = Evaluator.of(system.polynomials, system.n)
     cut = Cut(system.n, 0, tuple(independent_polynomials(system.polynomials)))
+    own = frame.slice(rows)
     witness = WitnessSet(
-        slice=frame.slice(rows),
+        slice=own,
         points=x,
         multiplicity=1,
         status=Status.IRREDUCIBLE,
@@ -291,7 +292,7 @@ def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchCo
         radii=framed(frame, sharp.fibre.x, sharp.radii),
         digits=sharp.digits,
         corank=d,
-        fibres=(Fibre(cut, d, x),),
+        fibres=(Fibre(cut, own.rows, x),),
     )
     return BranchComponent(witness, branch)
 
@@ -331,8 +332,8 @@ class _Coverage:
             except ValueError:
                 result = None
                 continue
-            point, rows = witness.points[0], each.witness.slice.rows
-            answer, spent = is_member(point, witness.accuracy, fibres, rows, self.rng, self.run)
+            point = witness.points[0]
+            answer, spent = is_member(point, witness.accuracy, fibres, self.rng, self.run)
             self.counts += spent
             if answer is Membership.MEMBER:
                 return True

@@ -43,14 +43,20 @@ class Sheets:
     """The points of a curve over the value ``base`` of a linear form.
 
     Attributes:
-        fibres: the points with their cuts.
-        normal: the form, complex, shape ``(n,)``.
-        base: its value.
+        fibres: the points with their cuts, on one slice.
     """
 
     fibres: tuple[Fibre, ...]
-    normal: np.ndarray
-    base: complex
+
+    @property
+    def normal(self) -> np.ndarray:
+        """The form, complex, shape ``(n,)``."""
+        return self.fibres[0].rows[0, 1:]
+
+    @property
+    def base(self) -> complex:
+        """The value of the form."""
+        return complex(-self.fibres[0].rows[0, 0])
 
     def rows(self, t: complex) -> np.ndarray:
         """The slice on which the form has the value ``t``."""
@@ -93,7 +99,7 @@ def _sum_of_squares(
     squares = []
     for fibre in sheets.fibres:
         gamma = complex(unit_complex(rng))
-        (ends,) = move([fibre], sheets.rows(sheets.base), sheets.rows(t), gamma, run)
+        (ends,) = move([fibre], sheets.rows(t), gamma, run)
         if not ends.regular.all():
             raise BranchPointError("paths to another slice failed")
         form = np.concatenate([weights, np.zeros(fibre.cut.aux)])

@@ -145,12 +145,10 @@ def _sheets(
     """The curve's points over a random value of a random form."""
     row = random_rows(rng, 1, system.n)
     gamma = complex(unit_complex(rng))
-    fibres, _ = move_regular(
-        component_fibres(system, component), component.slice.rows, row, gamma, run
-    )
+    fibres, _ = move_regular(component_fibres(system, component), row, gamma, run)
     if fibres is None:
         raise GenusError("paths to the first slice failed")
-    return Sheets(tuple(with_fine(fibres, row)), row[0, 1:], complex(-row[0, 0]))
+    return Sheets(tuple(with_fine(fibres)))
 
 
 def _riemann_hurwitz(permutations: list[np.ndarray], all_: np.ndarray, sheets: int) -> Genus:
@@ -201,22 +199,21 @@ class _Cover:
         inwards = self.centre - base
         # Seen from outside, one after the other from the right to the left.
         self.values = sorted(values, key=lambda v: np.angle((v - base) / inwards))
-        gamma, rows = complex(unit_complex(rng)), sheets.rows
-        fibres, _ = move_regular(sheets.fibres, rows(sheets.base), rows(base), gamma, run)
+        gamma = complex(unit_complex(rng))
+        fibres, _ = move_regular(sheets.fibres, sheets.rows(base), gamma, run)
         if fibres is None:
             raise GenusError("paths to the base point failed")
-        self.sheets = Sheets(tuple(with_fine(fibres, rows(base))), sheets.normal, base)
+        self.sheets = Sheets(tuple(with_fine(fibres)))
 
     def _carried(self, corners: Sequence[complex]) -> np.ndarray:
         """Where each sheet over the base point is carried along a closed polygon from there."""
-        rows, last = self.sheets.rows, self.sheets.base
         fibres = list(self.sheets.fibres)
         for t in [*corners, self.sheets.base]:
-            there, _ = move_regular(fibres, rows(last), rows(t), 1.0, self.run)
+            there, _ = move_regular(fibres, self.sheets.rows(t), 1.0, self.run)
             if there is None:
                 raise GenusError("paths round a branch point failed")
             # Near a cusp sheets are closer to each other than to the value.
-            fibres, last = with_fine(there, rows(t)), t
+            fibres = with_fine(there)
         start = np.vstack([fibre.x for fibre in self.sheets.fibres])
         images = places_among(np.vstack([fibre.x for fibre in fibres]), start)
         if images is None or sorted(images.tolist()) != list(range(len(start))):

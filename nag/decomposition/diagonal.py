@@ -32,8 +32,8 @@ from nag.witness.close_to_sets import among, meant
 from nag.witness.confirm import vanishing, zero_in_digits
 from nag.witness.cutting import Cut, is_end, regular_on, sharpen
 from nag.witness.cutting_in_digits import admit_zero
-from nag.witness.fibres import STEEPER, Fibre, Moved, admit
-from nag.witness.membership import Membership, is_member
+from nag.witness.fibres import STEEPER, Fibre, PathEnds, admit
+from nag.witness.membership import Membership, is_on_larger_set
 from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.points import with_fine
 from nag.witness.slices import padded, random_rows, unit_complex
@@ -46,12 +46,10 @@ class Intersected:
 
     Attributes:
         fibres: points with cuts.
-        rows: the slices on which they lie.
         bare: isolated points that no deflation made regular, with their errors.
     """
 
     fibres: dict[int, list[Fibre]] = field(default_factory=dict)
-    rows: dict[int, np.ndarray] = field(default_factory=dict)
     bare: list[tuple[np.ndarray, float]] = field(default_factory=list)
     counts: PathCounts = field(default=PathCounts())
     notes: list[str] = field(default_factory=list)
@@ -85,16 +83,10 @@ class _Product:
             result.append(f)
         return result
 
-    def fibres(self, rng: np.random.Generator) -> tuple[list[Fibre], np.ndarray]:
-        """The pairs of witness points, and their slice."""
-        left, right = self.first.rows, self.second.rows
-        rows = np.zeros((len(left) + len(right), 1 + self.n), dtype=complex)
-        rows[: len(left), : 1 + self.first.n] = left
-        rows[len(left) :, 0] = right[:, 0]
-        rows[len(left) :, 1 + self.first.n :] = right[:, 1:]
+    def fibres(self, rng: np.random.Generator) -> list[Fibre]:
+        """The pairs of witness points."""
         others = self.second.fibres(rng)
-        pairs = [(a, b) for a in self.first.fibres(rng) for b in others]
-        return [_pairs(a, b) for a, b in pairs], rows
+        return [_pairs(a, b) for a in self.first.fibres(rng) for b in others]
 
     def gaps(self, z: np.ndarray) -> np.ndarray:
         """Distances of points from the diagonal, relative to their size."""
@@ -129,8 +121,12 @@ def _pairs(first: Fibre, second: Fibre) -> Fibre:
         for j in range(len(second))
         if i in first.fine or j in second.fine
     }
-    cut = Cut(n, aux, tuple(polynomials))
-    return Fibre(cut, first.dimension + second.dimension, points, fine)
+    d = first.dimension
+    rows = np.zeros((d + second.dimension, 1 + n), dtype=complex)
+    rows[:d, : 1 + a.n] = first.rows
+    rows[d:, 0] = second.rows[:, 0]
+    rows[d:, 1 + a.n :] = second.rows[:, 1:]
+    return Fibre(Cut(n, aux, tuple(polynomials)), rows, points, fine)
 
 
 def _pair(
@@ -163,18 +159,17 @@ def intersected(
     flag = random_rows(rng, product.n, product.n)
     equations = product.differences(rng)
     try:
-        fibres, rows = product.fibres(rng)
+        fibres = product.fibres(rng)
     except SliceError:
         # Drawn in the units of one component, it may hardly depend on some coordinates in others.
         result.notes.append("a component's slice is too far from generic beside the other one")
         return result
-    moved, result.counts = on_flag(fibres, rows, flag, rng, run)
-    if moved is None:
+    fibres, result.counts = on_flag(fibres, flag, rng, run)
+    if fibres is None:
         result.notes.append(NOT_MOVED)
         return result
-    fibres = moved
     diagonal = _Diagonal(product, common, flag, result, rng, run)
-    d = len(rows)
+    d = fibres[0].dimension
     # What vanishes on the diagonal, and nowhere else but by chance.
     probes = [*equations[1:], None]
     if d == 0:
@@ -192,19 +187,14 @@ def intersected(
 
 
 def _regular(
-    cut: Cut,
-    rows: np.ndarray,
-    ends: Moved,
-    away: np.ndarray,
-    gaps: np.ndarray,
-    probe: Polynomial | None,
+    ends: PathEnds, away: np.ndarray, gaps: np.ndarray, probe: Polynomial | None
 ) -> tuple[Fibre, int]:
     """The ends off the diagonal as regular zeros of a cut, and how many of them are none.
 
     Off the diagonal all are; an end that seems singular is a badly conditioned one. What is still
     to vanish is known beside its size only where its distance from the diagonal is.
     """
-    places = np.flatnonzero(away & ends.regular)
+    cut, rows, places = ends.cut, ends.rows, np.flatnonzero(away & ends.regular)
     points, lost, fine = [ends.points[places]], 0, {}
     for k, i in enumerate(places.tolist()):
         if i in ends.fine or gaps[i] < CLOSE:
@@ -222,8 +212,7 @@ def _regular(
             points.append(sharpened.z[None])
         else:
             lost += 1
-    fibre = Fibre(cut, len(rows), np.vstack(points), fine)
-    return with_fine([fibre], rows)[0], lost
+    return with_fine([Fibre(cut, rows, np.vstack(points), fine)])[0], lost
 
 
 def _in_words(
@@ -266,21 +255,21 @@ class _Diagonal:
         Args:
             probe: a polynomial that vanishes on the diagonal alone; None if all points are on it.
         """
-        product, flag, result = self.product, self.flag, self.result
+        product, result = self.product, self.result
         gamma = complex(unit_complex(self.rng))
         off, on, errors = [], [np.zeros((0, product.n), dtype=complex)], [np.zeros(0)]
         for fibre in fibres:
-            ends = intersect(fibre, f, flag, gamma, self.run)
+            ends = intersect(fibre, f, gamma, self.run)
             result.counts += ends.counts
-            cut, gaps = fibre.cut.extended(f), np.full(len(ends.points), np.inf)
+            gaps = np.full(len(ends), np.inf)
             gaps[ends.finite] = product.gaps(ends.points[ends.finite])
-            on_it, doubtful = self.compared(gaps, cut, ends, probe, bool(fibre.fine))
+            on_it, doubtful = self.compared(gaps, ends, probe, bool(fibre.fine))
             here, away = ends.finite & on_it, ends.finite & ~on_it
             unclear = int(np.sum(away & doubtful))
             on.append(ends.points[here, : product.n])
             errors.append(ends.accuracy[here])
             if d > 0 and away.any():
-                rest, lost = _regular(cut, flag[:d], ends, away, gaps, probe)
+                rest, lost = _regular(ends, away, gaps, probe)
                 off.append(rest)
                 unclear += lost
             if unclear:
@@ -291,7 +280,7 @@ class _Diagonal:
         return off
 
     def compared(
-        self, gaps: np.ndarray, cut: Cut, ends: Moved, probe: Polynomial | None, close: bool
+        self, gaps: np.ndarray, ends: PathEnds, probe: Polynomial | None, close: bool
     ) -> tuple[np.ndarray, np.ndarray]:
         """Which ends of paths are on the diagonal, and of which that is not clear.
 
@@ -301,7 +290,7 @@ class _Diagonal:
         on_it, doubtful = compared(gaps, ends.accuracy)
         if probe is None:
             return on_it, doubtful
-        rows, near = self.flag[: cut.n - len(cut.polynomials) + cut.aux], gaps < CLOSE
+        cut, rows, near = ends.cut, ends.rows, gaps < CLOSE
         regular = np.flatnonzero(near & ends.regular)
         fine = chosen(ends.fine, regular)
         answers = dict(
@@ -365,7 +354,6 @@ class _Diagonal:
         x, accuracy = x[allowed], accuracy[allowed]
         if not len(x):
             return
-        result.rows[d] = rows
         fibres = result.fibres[d] = []
         place = common.equations, rows, self.rng
         lost = 0
@@ -382,14 +370,16 @@ class _Diagonal:
                 elif not self.admit_close_ones(ends, fibres, rows):
                     result.notes.append(f"points of dimension {d} are too close to each other")
                 continue
-            answer = self.on_larger_set(best, error, d)
+            sets, run = result.fibres, self.run
+            answer, spent = is_on_larger_set(best, error, sets, d, self.rng, run)
+            result.counts += spent
             if answer is Membership.UNDECIDED:
                 result.notes.append(f"a point of dimension {d} could not be told from a larger set")
             if answer is not Membership.FOREIGN:
                 continue
             deflated = list(fibres)
             admitted = admit(best, error, deflated, *place, deflate=True)
-            alone = admitted and are_new_alone(fibres, deflated, common.equations, rows)
+            alone = admitted and are_new_alone(fibres, deflated, common.equations)
             if not alone and self.admit_close_ones(ends, fibres, rows):
                 continue
             if admitted:
@@ -417,20 +407,8 @@ class _Diagonal:
         if not found.decided or (len(found.zeros) != 1 and total != len(ends)):
             return False
         for zero in found.zeros:
-            known = among(zero, own, rows)
+            known = among(zero, own)
             if known is None or not (known or admit_zero(zero, own, equations, rows, self.rng)):
                 return False
         fibres[:] = own
         return bool(found.zeros)
-
-    def on_larger_set(self, x: np.ndarray, accuracy: float, d: int) -> Membership:
-        """Whether a point lies on a set of the intersection of dimension above ``d``."""
-        result = self.result
-        for higher in sorted((e for e in result.fibres if e > d), reverse=True):
-            answer, spent = is_member(
-                x, accuracy, result.fibres[higher], result.rows[higher], self.rng, self.run
-            )
-            result.counts += spent
-            if answer is not Membership.FOREIGN:
-                return answer
-        return Membership.FOREIGN

@@ -10,8 +10,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.excluded import excluded
 from nag.numerics.coincidence import clusters, coincident
-from nag.witness.cutting import Cut
-from nag.witness.fibres import Fibre, Moved
+from nag.witness.fibres import Fibre, PathEnds
 
 # Failed paths that are known to lead next to a point are known to so much of it, no better: what
 # they were seen to go to is the limit of several branches that are one to the digits they had.
@@ -34,25 +33,21 @@ class Candidates:
     lost: list[tuple[Cluster, int]]
 
 
-def collect(
-    pieces: Sequence[tuple[Cut, Moved]],
-    rows: np.ndarray,
-    nonzero: Sequence[Polynomial],
-) -> Candidates:
-    """The ends of paths to points on the slice ``rows``, with the systems that cut them.
+def collect(pieces: Sequence[PathEnds], nonzero: Sequence[Polynomial]) -> Candidates:
+    """The ends of paths to points on a slice, with the systems that cut them.
 
     Args:
         nonzero: polynomials that must not vanish; ends where one does are left out.
     """
-    d, n = len(rows), rows.shape[1] - 1
+    n = pieces[0].cut.n
     fibres: list[Fibre] = []
     unclear = 0
     seen = np.zeros((0, n), dtype=complex)
     singular, errors = [np.zeros((0, n), dtype=complex)], [np.zeros(0)]
     failed, every = [np.zeros((0, n), dtype=complex)], []
-    for cut, ends in pieces:
-        x = ends.points[:, :n]
-        left_out, doubtful = excluded(nonzero, cut, rows, ends)
+    for ends in pieces:
+        x = ends.x
+        left_out, doubtful = excluded(nonzero, ends)
         allowed, unclear = ends.finite & ~left_out, unclear + doubtful
         # The tracker has seen that ends of one piece are distinct.
         chosen = [
@@ -62,7 +57,7 @@ def collect(
         ]
         if chosen:
             seen = np.vstack([seen, x[chosen]])
-            fibres.append(ends.fibre(cut, d, chosen))
+            fibres.append(ends.fibre(chosen))
         rest = allowed & ~ends.regular
         singular.append(x[rest])
         errors.append(ends.accuracy[rest])

@@ -12,7 +12,7 @@ from nag.numerics.coincidence import SAFETY
 from nag.numerics.zero_values import ON, possible_zeros, vanishes_at
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Moved
+from nag.witness.fibres import PathEnds
 from nag.witness.slices import padded
 
 # Values of polynomials that must not vanish, at points where they seem to.
@@ -28,20 +28,18 @@ def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.nda
     return (residuals < limit[:, None]).any(axis=1)
 
 
-def excluded(
-    nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, ends: Moved
-) -> tuple[np.ndarray, int]:
+def excluded(nonzero: Sequence[Polynomial], ends: PathEnds) -> tuple[np.ndarray, int]:
     """Which ends lie where a polynomial that must not vanish does, decided in digits.
 
     Also of how many of these that is not known; they are left out.
     """
-    result, unclear = ends.finite.copy(), 0
+    cut, rows, result, unclear = ends.cut, ends.rows, ends.finite.copy(), 0
     if not nonzero or not result.any():
         return np.zeros(len(result), dtype=bool), unclear
     evaluator = Evaluator.of(nonzero, cut.n)
-    result[result] = forbidden(evaluator, ends.points[result, : cut.n], ends.accuracy[result])
+    result[result] = forbidden(evaluator, ends.x[result], ends.accuracy[result])
     regular = np.flatnonzero(result & ends.regular)
-    small = (evaluator.residuals(ends.points[regular, : cut.n]) < ON).any(axis=0)
+    small = (evaluator.residuals(ends.x[regular]) < ON).any(axis=0)
     each = [
         vanishing(cut, g, rows, ends.points[regular])
         for g, may in zip(nonzero, small, strict=True)
@@ -63,7 +61,7 @@ def excluded(
     return result, unclear + sum(doubtful.values())
 
 
-def _twin(ends: Moved, i: int, others: Iterable[int], real: bool) -> int | None:
+def _twin(ends: PathEnds, i: int, others: Iterable[int], real: bool) -> int | None:
     """The end among ``others`` that an end is as well, or whose conjugate, as far as is known.
 
     Several paths end at a singular zero. Equations are real, and what is true of a zero of theirs

@@ -79,13 +79,14 @@ class Factor:
         Raises:
             IntersectionError: if no cut is found for a point.
         """
-        kept = [self._reduced(fibre) for fibre in self.component.fibres]
+        rows = self.rows
+        kept = [self._reduced(fibre, rows) for fibre in self.component.fibres]
         if kept and all(len(f.cut.polynomials) == self.n + f.cut.aux - f.dimension for f in kept):
             return [self._with_fine(fibre, fibre.fine) for fibre in kept]
         deflate = self.component.multiplicity != 1
         points = self.component.points[:, self.reduction.kept]
         equations = self.reduction.equations
-        fibres = cut_fibres(points, self.component.accuracy, equations, self.rows, rng, deflate)
+        fibres = cut_fibres(points, self.component.accuracy, equations, rows, rng, deflate)
         if fibres is None:
             raise IntersectionError("the witness points are no regular zeros of the system")
         return [
@@ -101,37 +102,30 @@ class Factor:
         """
         if not known:
             return fibre
-        polynomials, rows = fibre.cut.polynomials, self.rows
+        polynomials, rows = fibre.cut.polynomials, fibre.rows
         there = {i: follow_slice(polynomials, rows, each) for i, each in known.items()}
         found = {i: rated(polynomials, rows, each) for i, each in there.items()}
         steep = {i: each for i, each in found.items() if each.curvature * CLOSE > 1}
         return replace(fibre, fine=steep)
 
-    def _reduced(self, fibre: Fibre) -> Fibre:
+    def _reduced(self, fibre: Fibre, rows: np.ndarray) -> Fibre:
         """A fibre in the coordinates that are left, its linear equations solved."""
         aux = fibre.cut.aux
         unknowns = range(self.n, self.n + aux)
         images = [f.with_variables(self.n + aux, range(self.n)) for f in self.reduction.images]
         images += [Polynomial.variable(self.n + aux, i) for i in unknowns]
-        rows = [f.compose(images) for f in fibre.cut.polynomials]
+        left = [f.compose(images) for f in fibre.cut.polynomials]
         points = np.hstack([fibre.x[:, self.reduction.kept], fibre.points[:, fibre.cut.n :]])
         kept = [*self.reduction.kept, *range(fibre.cut.n, fibre.cut.n + aux)]
         fine = {i: replace(each, words=each.words[kept]) for i, each in fibre.fine.items()}
-        return Fibre(Cut(self.n, aux, tuple(f for f in rows if f)), fibre.dimension, points, fine)
+        return Fibre(Cut(self.n, aux, tuple(f for f in left if f)), rows, points, fine)
 
 
 def on_flag(
-    fibres: list[Fibre],
-    rows: np.ndarray,
-    flag: np.ndarray,
-    rng: np.random.Generator,
-    run: Run,
+    fibres: list[Fibre], flag: np.ndarray, rng: np.random.Generator, run: Run
 ) -> tuple[list[Fibre] | None, PathCounts]:
-    """Fibres on the slice ``rows`` carried to the leading rows of a generic flag.
-
-    None if a path fails.
-    """
-    if len(rows) == 0:
+    """Fibres carried to the leading rows of a generic flag; None if a path fails."""
+    d = fibres[0].dimension
+    if d == 0:
         return fibres, PathCounts()
-    gamma = complex(unit_complex(rng))
-    return move_regular(fibres, rows, flag[: len(rows)], gamma, run)
+    return move_regular(fibres, flag[:d], complex(unit_complex(rng)), run)

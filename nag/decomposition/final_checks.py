@@ -53,14 +53,13 @@ def judged(
 
 def _multidegree(
     fibres: Sequence[Fibre],
-    rows: np.ndarray,
     groups: Sequence[Sequence[int]],
     frame: Frame,
     rng: np.random.Generator,
     run: Run,
 ) -> tuple[np.ndarray | None, PathCounts]:
     """Numbers of points with groups fixed at random values, by moving the slice there."""
-    d, counts = len(rows), PathCounts()
+    d, counts = fibres[0].dimension, PathCounts()
     choices = list(combinations_with_replacement(range(len(groups)), d))
     sizes = [len(g) for g in groups]
     choices = [c for c in choices if all(c.count(g) <= sizes[g] for g in c)]
@@ -75,7 +74,7 @@ def _multidegree(
         finite = 0
         if d == 0 or np.linalg.matrix_rank(target[:, 1:]) == d:
             gamma = complex(unit_complex(rng))
-            for ends in move(fibres, rows, target, gamma, run, endgame=True):
+            for ends in move(fibres, target, gamma, run, endgame=True):
                 counts += ends.counts
                 if ends.failed.any():
                     return None, counts
@@ -85,16 +84,14 @@ def _multidegree(
     return degrees, counts
 
 
-def _coranks(
-    equations: Equations, rows: np.ndarray, fibre: Fibre, rng: np.random.Generator
-) -> list[int]:
-    """Coranks of the Jacobian at the points of a fibre on the slice ``rows``.
+def _coranks(equations: Equations, fibre: Fibre, rng: np.random.Generator) -> list[int]:
+    """Coranks of the Jacobian at the points of a fibre.
 
     Where the equations cut the component in regular points, and doubles say otherwise, as they do
     where coordinates differ much in size, digits decide; of points that are close to others, they
     have.
     """
-    d, result, regular = len(rows), [], not fibre.cut.deflated
+    d, rows, result, regular = fibre.dimension, fibre.rows, [], not fibre.cut.deflated
     matrices = equations.evaluator.balanced_jacobians(fibre.x)
     singular = np.linalg.svd(matrices, compute_uv=False)
     for i, (point, s) in enumerate(zip(fibre.x, singular, strict=True)):
@@ -174,43 +171,43 @@ class Examined:
             near = reduction.natural.without_scales.points(far)
             points = points.with_digits([*close_pairs(near), *close_pairs(far, close)])
         by_cuts = points.fibres(np.concatenate([each.indices for each in classes]))
-        inner = [sharpened(fibre, points.rows, points.exact.only(own)) for fibre, own in by_cuts]
-        lifted = [_lifted(sharp.fibre, reduction) for sharp in inner]
+        inner = [sharpened(fibre, points.exact.only(own)) for fibre, own in by_cuts]
+        lifted = [_lifted(sharp.fibre, cut.rows, reduction) for sharp in inner]
         if not frame.is_plain:
-            lifted = with_fine(lifted, cut.rows, close)
+            lifted = with_fine(lifted, close)
         for (_, own), sharp, fibre in zip(by_cuts, inner, lifted, strict=True):
             if not frame.exact:
-                fibre = _on_slice(fibre, cut.rows)
+                fibre = _on_slice(fibre)
             if not frame.is_plain:
-                there = sharpened(fibre, cut.rows)
+                there = sharpened(fibre)
             else:
                 there = Sharp(fibre, framed(frame, sharp.fibre.x, sharp.radii), sharp.digits)
-            coranks = np.array(_coranks(reduction.equations, points.rows, sharp.fibre, rng))
+            coranks = np.array(_coranks(reduction.equations, sharp.fibre, rng))
             residuals = reduction.original.residuals(there.fibre.x).max(axis=1, initial=0.0)
             parts.append(_Part(own, sharp, there, coranks, residuals))
         return cls(reduction, points.rows, cut, tuple(parts))
 
 
-def _on_slice(fibre: Fibre, rows: np.ndarray) -> Fibre:
-    """A fibre whose close points are on a slice beside ``rows``, these on ``rows``."""
+def _on_slice(fibre: Fibre) -> Fibre:
+    """A fibre whose close points are beside its slice, these on it."""
     polynomials = fibre.cut.polynomials
-    fine = {i: follow_slice(polynomials, rows, point) for i, point in fibre.fine.items()}
+    fine = {i: follow_slice(polynomials, fibre.rows, point) for i, point in fibre.fine.items()}
     return replace(fibre, fine=fine)
 
 
-def _lifted(fibre: Fibre, reduction: Reduction) -> Fibre:
-    """A fibre in the original coordinates."""
+def _lifted(fibre: Fibre, rows: np.ndarray, reduction: Reduction) -> Fibre:
+    """A fibre in the original coordinates, where its slice is ``rows``."""
     points = np.hstack([reduction.frame.points(fibre.x), fibre.points[:, fibre.cut.n :]])
     fine = {i: reduction.lifted_fine(each) for i, each in fibre.fine.items()}
-    return Fibre(reduction.lifted(fibre.cut), fibre.dimension, points, fine)
+    return Fibre(reduction.lifted(fibre.cut), rows, points, fine)
 
 
-def _smallest(fibres: Sequence[Fibre], rows: np.ndarray) -> np.ndarray | Sequence[flint.acb]:
-    """The smallest point of fibres on a slice, in digits where it is close to others."""
+def _smallest(fibres: Sequence[Fibre]) -> np.ndarray | Sequence[flint.acb]:
+    """The smallest point of fibres, in digits where it is close to others."""
     sizes = [np.linalg.norm(fibre.x, axis=1) for fibre in fibres]
     k = int(np.argmin([own.min() for own in sizes]))
     fibre, i = fibres[k], int(sizes[k].argmin())
-    fine = fibre.fine.get(i)
+    fine, rows = fibre.fine.get(i), fibre.rows
     digits = zero_in_digits(fibre.cut, rows, fibre.points[i], fine) if fine is not None else None
     return fibre.x[i] if digits is None else digits.first(fibre.cut.n).centre
 
@@ -245,7 +242,7 @@ def checked_witness_set(
         reasons.append("the corank of the Jacobian differs between its points")
     multiple = int(coranks[0] == d)
     if scheme and not multiple:
-        multiple = multiplicity(reduced.polynomials, rows, _smallest(chosen, rows), rng)
+        multiple = multiplicity(reduced.polynomials, rows, _smallest(chosen), rng)
     if scheme and coranks[0] != d and not chosen[0].cut.deflated:
         reasons.append("its points are regular and singular at once: zeros too close")
     if scheme and coranks[0] != d and multiple == 1:
@@ -254,7 +251,7 @@ def checked_witness_set(
         reasons.append("its multiplicity was not found")
     multidegree = None
     if groups:
-        multidegree, counts = _multidegree(chosen, rows, groups, reduction.frame, rng, run)
+        multidegree, counts = _multidegree(chosen, groups, reduction.frame, rng, run)
     return (
         WitnessSet(
             slice=examined.cut,

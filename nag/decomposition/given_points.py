@@ -86,33 +86,32 @@ class CommonSlices:
         local = self._local(start, rng)
         if local is None:
             return self, None, PathCounts()
-        fibre, rows = local
-        d = fibre.dimension
-        z, error, counts = fibre.points[0], start.accuracy, PathCounts()
+        d = local.dimension
+        z, error, counts = local.points[0], start.accuracy, PathCounts()
         if d:
             gamma = complex(unit_complex(rng))
-            (ends,) = move([fibre], rows, self.flag[:d], gamma, run)
+            (ends,) = move([local], self.flag[:d], gamma, run)
             z, error, counts = ends.points[0], float(ends.accuracy[0]), ends.counts.judged_elsewhere
             if not ends.regular.all():
                 return self, None, counts
         # A cut that leaves out an equation which only seems to hold gives itself away elsewhere.
-        if self._residual(z[: fibre.cut.n]) > ON:
+        if self._residual(z[: local.cut.n]) > ON:
             return self, None, counts
-        slices, place = self.with_point(fibre.cut, z, d, error)
+        slices, place = self.with_point(local.cut, z, d, error)
         return slices, (d, place), counts
 
     def _residual(self, x: np.ndarray) -> float:
         return float(self.equations.evaluator.residuals(x[None]).max(initial=0.0))
 
-    def _local(self, start: Start, rng: np.random.Generator) -> tuple[Fibre, np.ndarray] | None:
-        """A slice through a point, and the fibre that has it as a regular point there."""
+    def _local(self, start: Start, rng: np.random.Generator) -> Fibre | None:
+        """A fibre on a slice through a point that has it as a regular point there."""
         for d in start.dimensions:
             rows = rows_through(rng, d, start.x)
             cuts = self.points[d].cuts if d in self.points else ()
-            fibres = [Fibre(c, d, np.zeros((0, c.n + c.aux), dtype=complex)) for c in cuts]
+            fibres = [Fibre(c, rows, np.zeros((0, c.n + c.aux), dtype=complex)) for c in cuts]
             if admit(start.x, start.accuracy, fibres, self.equations, rows, rng, start.deflate):
                 (fibre,) = (f for f in fibres if len(f))
-                return fibre, rows
+                return fibre
         return None
 
 
@@ -167,9 +166,7 @@ def components_through_points(
     for piece in found.pieces:
         component, d = piece.component, piece.component.dimension
         if component.status is Status.IRREDUCIBLE and symmetries:
-            whole, spent = _with_orbit(
-                component, piece.fibres, slices.flag[:d], reduction, symmetries, rng, run
-            )
+            whole, spent = _with_orbit(component, piece.fibres, reduction, symmetries, rng, run)
             counts += spent
             if whole is None:
                 notes.append(f"the orbit of a component of dimension {d} is not known")
@@ -202,7 +199,6 @@ def _on_common_slices(
 def _with_orbit(
     component: WitnessSet,
     fibres: Sequence[Fibre],
-    rows: np.ndarray,
     reduction: Reduction,
     symmetries: Sequence[SignedPermutation],
     rng: np.random.Generator,
@@ -214,7 +210,7 @@ def _with_orbit(
     kept = reduction.kept
     generators = [tuple(g.signs[i] for i in kept) for g in symmetries]
     if plain and len(fibres) == 1 and all(keeps(fibres[0].cut, g) for g in generators):
-        carriers, counts = sign_orbit(fibres[0], rows, generators, rng, run)
+        carriers, counts = sign_orbit(fibres[0], generators, rng, run)
         if carriers is None:
             return None, counts
         images = []

@@ -21,7 +21,14 @@ from nag.tracking.track import track
 from nag.witness.close_points import with_roots
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, leading_power
-from nag.witness.fibres import Fibre, Moved, ends_of_paths, homogeneous, joined, track_close_points
+from nag.witness.fibres import (
+    Fibre,
+    PathEnds,
+    ends_of_paths,
+    homogeneous,
+    join_ends,
+    track_close_points,
+)
 from nag.witness.points import with_fine
 from nag.witness.slices import padded, unit_complex
 from nag.witness.witness import PathCounts
@@ -36,58 +43,47 @@ MOST_ROOTS = 64
 
 
 @dataclass(frozen=True, eq=False)
-class Sections:
-    """Sets of all dimensions by their points, those of dimension d on the first d rows of a flag.
-
-    Attributes:
-        flag: slices, shape ``(n, 1 + n)``.
-    """
-
-    fibres: Mapping[int, Sequence[Fibre]]
-    flag: np.ndarray
-
-
-@dataclass(frozen=True, eq=False)
 class HypersurfaceSection:
     """What became of sets that met a hypersurface.
 
     Attributes:
-        before: the sets.
         kept: points on the hypersurface, by dimension.
-        ends: ends of the paths of the others, by dimension, with the systems that cut them.
+        ends: ends of the paths of the others, by dimension.
         counts: of these paths.
     """
 
-    before: Sections
     kept: Mapping[int, Sequence[Fibre]]
-    ends: Mapping[int, Sequence[tuple[Cut, Moved]]]
+    ends: Mapping[int, Sequence[PathEnds]]
     counts: PathCounts
 
     @property
     def singular(self) -> int:
         """Number of finite ends that are not regular."""
-        pieces = [ends for own in self.ends.values() for _, ends in own]
+        pieces = [ends for own in self.ends.values() for ends in own]
         return sum(int(np.sum(ends.finite & ~ends.regular)) for ends in pieces)
 
     def failed_to(self, d: int) -> int:
         """Number of paths to points of dimension ``d`` that failed."""
-        return sum(int(ends.failed.sum()) for _, ends in self.ends.get(d, ()))
+        return sum(int(ends.failed.sum()) for ends in self.ends.get(d, ()))
 
 
-def intersect(fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, run: Run) -> Moved:
-    """The ends of the paths from a fibre's points, none of them on f, to the hypersurface f = 0."""
+def intersect(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> PathEnds:
+    """The ends of the paths from a fibre's points, none of them on f, to the hypersurface f = 0.
+
+    They are on all rows of the fibre's slice but the last one.
+    """
     if fibre.fine:
-        return _intersect_close(fibre, f, flag, gamma, run)
+        return _intersect_close(fibre, f, gamma, run)
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
-    total = cut.n + cut.aux
+    total, after = cut.n + cut.aux, cut.extended(f)
     if not cut.polynomials and len(fibre) == 1 and f.exact and degree <= MOST_ROOTS:
-        found = _on_line(f, flag[: d - 1])
+        found = _on_line(after, fibre.rows[:-1])
         if found is not None:
             return found
     f = f * (1 / leading_power(f))
     compiled = _with_power(cut, f)
     columns = total + 2
-    slices = padded(flag[:d], columns)
+    slices = padded(fibre.rows, columns)
     a0, a1 = slices.copy(), np.zeros_like(slices)
     a0[d - 1] = 0
     a0[d - 1, -1] = 1
@@ -100,21 +96,21 @@ def intersect(fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, run
     )
     homotopy, points = Homotopy(compiled, a0, a1), homogeneous(starts)
     paths = track(homotopy, points, settings=run.settings, threads=run.threads)
-    return ends_of_paths(paths, keep=total)
+    return ends_of_paths(paths, after, fibre.rows[:-1])
 
 
-def _on_line(f: Polynomial, rows: np.ndarray) -> Moved | None:
-    """The zeros of f on the line of the slices ``rows``, without paths.
+def _on_line(cut: Cut, rows: np.ndarray) -> PathEnds | None:
+    """The zeros of one polynomial on the line of the slices ``rows``, without paths.
 
-    None where they cannot be told apart, or are not as many as the degree of f.
+    None where they cannot be told apart, or are not as many as its degree.
     """
-    balls = zeros_on(f, line(rows))
+    balls = zeros_on(cut.polynomials[0], line(rows))
     if balls is None:
         return None
-    points = points_in_balls(Cut(f.n, 0, (f,)), rows, balls)
+    points = points_in_balls(cut, rows, balls)
     found = np.ones(len(points), dtype=bool)
     accuracy = np.full(len(points), ROUNDED)
-    return Moved(points.x, found, found, ~found, accuracy, fine=points.fine)
+    return PathEnds(cut, rows, points.x, found, found, ~found, accuracy, fine=points.fine)
 
 
 def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:
@@ -126,9 +122,7 @@ def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:
     return compile_rows(rows, n=total + 1)
 
 
-def _intersect_close(
-    fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, run: Run
-) -> Moved:
+def _intersect_close(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> PathEnds:
     """`intersect` where some points are close to others: their paths are tracked in more digits.
 
     The slices that stay turn with ``gamma`` as well, which leaves them as they are.
@@ -136,42 +130,42 @@ def _intersect_close(
     from nag.tracking.close_paths import moving_rows
 
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
-    total = cut.n + cut.aux
+    total, after = cut.n + cut.aux, cut.extended(f)
     indices = np.array(sorted(fibre.fine))
     plain = np.setdiff1d(np.arange(len(fibre)), indices)
     rest = replace(fibre, points=fibre.points[plain], fine={})
     f = f * (1 / leading_power(f))
-    source = padded(flag[:d], total + 2)
+    source = padded(fibre.rows, total + 2)
     target = source.copy()
     target[d - 1] = 0
     target[d - 1, -1] = 1
     starts = [start for i in indices for start in with_roots(fibre.fine[i], f)]
     homotopy = moving_rows(_with_power(cut, f), source, target, gamma)
-    close = track_close_points(homotopy, starts, cut.extended(f), flag[: d - 1], run, endgame=True)
+    close = track_close_points(homotopy, starts, after, fibre.rows[:-1], run, endgame=True)
     places = {
         k: (own[:, None] * degree + np.arange(degree)).ravel()
         for k, own in enumerate((plain, indices))
     }
-    return joined(places, (intersect(rest, f, flag, gamma, run), close))
+    return join_ends(places, (intersect(rest, f, gamma, run), close))
 
 
 def hypersurface_section(
-    sections: Sections, f: Polynomial, rng: np.random.Generator, run: Run
+    sets: Mapping[int, Sequence[Fibre]], f: Polynomial, rng: np.random.Generator, run: Run
 ) -> HypersurfaceSection:
-    """All points of the sets where ``f`` vanishes, and how many paths led there."""
+    """All points of sets, by dimension, where ``f`` vanishes, and how many paths led there."""
     gamma, counts = complex(unit_complex(rng)), PathCounts()
     kept: dict[int, list[Fibre]] = {}
-    ends: dict[int, list[tuple[Cut, Moved]]] = {}
-    for d in sorted(sections.fibres, reverse=True):
-        own = [fibre for fibre in sections.fibres[d] if len(fibre)]
-        for fibre in with_fine(own, sections.flag[:d]) if own else ():
-            found = vanishing(fibre.cut, f, sections.flag[:d], fibre.points, fibre.fine)
+    ends: dict[int, list[PathEnds]] = {}
+    for d in sorted(sets, reverse=True):
+        own = [fibre for fibre in sets[d] if len(fibre)]
+        for fibre in with_fine(own) if own else ():
+            found = vanishing(fibre.cut, f, fibre.rows, fibre.points, fibre.fine)
             # A point where that is left open is found out by the final checks.
             on = np.array([there is not False for there in found], dtype=bool)
             if on.any():
                 kept.setdefault(d, []).append(fibre.only(on))
             if d > 0 and f.degree > 0 and not on.all():
-                new = intersect(fibre.only(~on), f, sections.flag, gamma, run)
+                new = intersect(fibre.only(~on), f, gamma, run)
                 counts += new.counts
-                ends.setdefault(d - 1, []).append((fibre.cut.extended(f), new))
-    return HypersurfaceSection(sections, kept, ends, counts)
+                ends.setdefault(d - 1, []).append(new)
+    return HypersurfaceSection(kept, ends, counts)

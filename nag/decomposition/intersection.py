@@ -16,7 +16,6 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.diagonal import intersected
 from nag.decomposition.factor import NOT_MOVED, Factor, IntersectionError, on_flag
-from nag.decomposition.hypersurface import Sections
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import (
     Ambient,
@@ -109,7 +108,7 @@ def intersect_factors(first: Factor, second: Factor, *, run: Run) -> Decompositi
         return _carry_back(nothing, (), whole, natural, run)
     first, second = first.carry(natural), second.carry(natural)
     found = intersected(first, second, common, rng, run)
-    points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
+    points = {d: Points.of(fibres) for d, fibres in found.fibres.items() if fibres}
     result = _intersection(common, points, found.counts, found.notes, rng, run)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
     return _carry_back(result, (*result.components, *bare), whole, natural, run)
@@ -184,7 +183,7 @@ def intersect_equations(
     for d, found in superset.fibres.items():
         if not found:
             continue
-        points[d], lost = _in_common(found, superset.flag[:d], factor, common, rng)
+        points[d], lost = _in_common(found, factor, common, rng)
         if lost:
             notes.append(f"{lost} singular points of dimension {d} could not be made regular")
         if len(points[d]) + lost < sum(map(len, found)):
@@ -201,19 +200,17 @@ def _met(
     further = [f for f in dict.fromkeys(further) if f]
     further = [further[i] for i in intersection_order(further)]
     flag = random_rows(rng, factor.n, factor.n)
-    start, spent = on_flag(factor.fibres(rng), factor.rows, flag, rng, run)
+    start, spent = on_flag(factor.fibres(rng), flag, rng, run)
     if start is None:
-        return Superset({}, flag, spent, (NOT_MOVED,))
-    reduced = factor.reduction.reduced
-    sections = Sections({factor.component.dimension: start}, flag)
-    ambient = Ambient(sections, reduced.polynomials, reduced.nonzero)
+        return Superset({}, spent, (NOT_MOVED,))
+    reduced, d = factor.reduction.reduced, factor.component.dimension
+    ambient = Ambient({d: start}, reduced.polynomials, reduced.nonzero)
     found = witness_superset(further, ambient, rng, run)
     return replace(found, counts=spent + found.counts)
 
 
 def _in_common(
     found: Sequence[Fibre],
-    rows: np.ndarray,
     factor: Factor,
     common: Reduction,
     rng: np.random.Generator,
@@ -222,11 +219,11 @@ def _in_common(
 
     Also the number of points for which none was found.
     """
-    cut = factor.reduction.frame.slice(rows)
+    cut = factor.reduction.frame.slice(found[0].rows)
     rows = orthonormal_rows(common.frame.pulled_back(cut.A, cut.b))
     x = factor.reduction.frame.points(np.vstack([fibre.x for fibre in found]))
     fibres, lost = _with_cuts(x[:, common.kept], common.equations, rows, rng)
-    return Points.of(fibres, rows), lost
+    return Points.of(fibres) if fibres else Points(rows), lost
 
 
 def _check_variables(first: PolynomialSystem, second: PolynomialSystem) -> None:

@@ -88,4 +88,4 @@ def points_in_balls(cut: Cut, rows: np.ndarray, balls: Sequence[Sequence[Any]]) 
     points = np.array([[complex(c) for c in point] for point in balls])
     fine = {i: in_words(balls[i], 1.0) for pair in close_pairs(points) for i in pair}
     known = of_balls(balls)
-    return replace(Points.of([Fibre(cut, len(rows), points, fine)], rows), known=known)
+    return replace(Points.of([Fibre(cut, rows, points, fine)]), known=known)

@@ -76,7 +76,7 @@ def _settle(
     notes = list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-    points = {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()}
+    points = {d: Points.of(fibres) for d, fibres in superset.fibres.items() if fibres}
     moving = [g for g in task.symmetries if not g.is_identity]
     known = Known(actions=[Action.of(g, task.reduction.frame) for g in moving], scheme=task.scheme)
     found = assembled(points, task.reduction, rng, task.run, known)

@@ -432,4 +432,4 @@ def _multiplicity(
         fibres = component_fibres(system, component)
     except ValueError:
         return None
-    return multiplicity_at(x, error, fibres, component.slice.rows, rng, run)
+    return multiplicity_at(x, error, fibres, rng, run)

@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.ends import Cluster, collect
-from nag.decomposition.hypersurface import HypersurfaceSection, Sections, hypersurface_section
+from nag.decomposition.hypersurface import HypersurfaceSection, hypersurface_section
 from nag.numerics.coincidence import SAFETY, coincident
 from nag.numerics.zero_values import ON, vanishes_at
 from nag.tracking.run import Run
@@ -22,7 +22,7 @@ from nag.witness.close_to_sets import Meant, among, meant
 from nag.witness.cutting import Cut, Equations, dyadic, leading_power
 from nag.witness.cutting_in_digits import admit_zero, is_alone
 from nag.witness.fibres import Fibre, admit
-from nag.witness.membership import Membership, is_member
+from nag.witness.membership import Membership, is_on_larger_set
 from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
@@ -33,7 +33,7 @@ IN_PASSING = 0.02
 
 @dataclass(frozen=True, eq=False)
 class Superset:
-    """Witness points of every dimension, on the leading rows of a flag of slices.
+    """Witness points of every dimension.
 
     ``notes`` tell of singular ends that no cut was found for. ``about_points``: how many of these,
     and of the failed paths, are about points of dimension 0. ``recovered``: how many failed paths
@@ -41,7 +41,6 @@ class Superset:
     """
 
     fibres: dict[int, list[Fibre]]
-    flag: np.ndarray
     counts: PathCounts
     notes: tuple[str, ...]
     about_points: int = 0
@@ -101,10 +100,6 @@ class _Stage:
     rng: np.random.Generator
     run: Run
 
-    @property
-    def n(self) -> int:
-        return len(self.found.flag)
-
     def best(self, f: Polynomial, mixing: bool) -> tuple[_Outcome, bool, PathCounts]:
         """What becomes of the sets with ``f``, or with a combination of it with later ones.
 
@@ -130,8 +125,7 @@ class _Stage:
         return best, mixing, counts
 
     def outcome(self, f: Polynomial, deflate: bool) -> tuple[_Outcome, PathCounts]:
-        sections = Sections(self.found.fibres, self.found.flag)
-        crossed = hypersurface_section(sections, f, self.rng, self.run)
+        crossed = hypersurface_section(self.found.fibres, f, self.rng, self.run)
         found, spent = self.superset(f, crossed, deflate)
         return _Outcome(f, crossed, found), PathCounts(crossed.counts.tracked) + spent
 
@@ -141,12 +135,12 @@ class _Stage:
         A component that is multiple for the first equations may be a simple one for all.
         """
         limit = max(ON, SAFETY * accuracy)
-        later = Equations(self.after, self.n).evaluator.residuals(x[None])[0] < limit
+        later = Equations(self.after, so_far.n).evaluator.residuals(x[None])[0] < limit
         more = [g for g, vanishes in zip(self.after, later, strict=True) if vanishes]
-        return Equations((*so_far.polynomials, *more), self.n) if more else so_far
+        return Equations((*so_far.polynomials, *more), so_far.n) if more else so_far
 
     def own(
-        self, fibre: Fibre, kept: Mapping[int, Sequence[Fibre]], flag: np.ndarray
+        self, fibre: Fibre, kept: Mapping[int, Sequence[Fibre]]
     ) -> tuple[Fibre, list[str], PathCounts]:
         """The points of a deflated fibre that lie on no other set.
 
@@ -157,35 +151,15 @@ class _Stage:
         same = np.vstack([other.x for other in kept.get(d, ())] or [fibre.x[:0]])
         mask = np.ones(len(fibre), dtype=bool)
         for i, x in enumerate(fibre.x):
-            answer = Membership.FOREIGN
             if coincident(same, x, REGULAR).any():
-                answer = Membership.MEMBER
-            for higher in sorted((e for e in kept if e > d), reverse=True):
-                if answer is not Membership.FOREIGN:
-                    break
-                answer, used = is_member(x, REGULAR, kept[higher], flag, self.rng, self.run)
-                counts += used
+                mask[i] = False
+                continue
+            answer, used = is_on_larger_set(x, REGULAR, kept, d, self.rng, self.run)
+            counts += used
             if answer is Membership.UNDECIDED:
                 notes.append(f"a point of dimension {d} could not be told from a larger set")
             mask[i] = answer is Membership.FOREIGN
         return fibre.only(mask), notes, counts
-
-    def larger(
-        self,
-        x: np.ndarray,
-        accuracy: float,
-        d: int,
-        kept: Mapping[int, Sequence[Fibre]],
-        flag: np.ndarray,
-    ) -> tuple[Membership, PathCounts]:
-        """Whether a point lies on a set of dimension above ``d``, as far as doubles can tell."""
-        answer, counts = Membership.FOREIGN, PathCounts()
-        for higher in sorted((e for e in kept if e > d), reverse=True):
-            answer, used = is_member(x, accuracy, kept[higher], flag, self.rng, self.run)
-            counts += used
-            if answer is not Membership.FOREIGN:
-                break
-        return answer, counts
 
     def beside(
         self,
@@ -199,7 +173,7 @@ class _Stage:
         """Add the isolated zeros that ends in doubles may stand for; doubts, and what was found."""
         notes, found = [], meant(cluster, so_far, rows, self.rng, patience, whole)
         for zero in found.zeros:
-            known = among(zero, own, rows)
+            known = among(zero, own)
             if known or any(vanishes_at(zero, g) for g in self.avoid):
                 continue
             if known is None or not admit_zero(zero, own, so_far, rows, self.rng):
@@ -211,24 +185,23 @@ class _Stage:
         cluster: Cluster,
         kept: dict[int, list[Fibre]],
         so_far: Equations,
-        flag: np.ndarray,
-        d: int,
+        rows: np.ndarray,
         deflate: bool,
     ) -> tuple[list[str] | None, PathCounts]:
         """Add what singular ends stand for, unless larger sets hold them; what is in doubt."""
-        (x, accuracy), rows, rng = cluster[0], flag[:d], self.rng
+        (x, accuracy), d, rng = cluster[0], len(rows), self.rng
         simple = list(kept[d])
         if admit(x, accuracy, simple, so_far, rows, rng, deflate=False):
             # Ends that seemed to be one may be simple zeros close together.
             for other, error in cluster[1:]:
                 admit(other, error, simple, so_far, rows, rng, deflate=False)
-            if not are_new_alone(kept[d], simple, so_far, rows):
+            if not are_new_alone(kept[d], simple, so_far):
                 doubts, found = self.beside(cluster, so_far, kept[d], rows)
                 if found.decided and found.zeros and not doubts:
                     return _not_all_found(cluster, found, so_far, d), PathCounts()
             kept[d][:] = simple
             return [], PathCounts()
-        answer, counts = self.larger(x, accuracy, d, kept, flag)
+        answer, counts = is_on_larger_set(x, accuracy, kept, d, rng, self.run)
         if answer is not Membership.FOREIGN:
             # Singular ends mostly lie on the set that they seem to lie on, however hard to judge.
             patience = IN_PASSING if answer is Membership.MEMBER else 1.0
@@ -254,7 +227,7 @@ class _Stage:
             admit(x, accuracy, own, each, rows, rng, deflate=True)
             for each in dict.fromkeys((holding, so_far))
         )
-        if admitted and are_new_alone(kept[d], own, so_far, rows):
+        if admitted and are_new_alone(kept[d], own, so_far):
             kept[d][:] = own
             return [], counts
         # Zeros so close together that doubles can neither tell nor cut them.
@@ -292,43 +265,41 @@ class _Stage:
         None if ``deflate`` is False and a singular end may belong to a component that is not
         reduced.
         """
-        flag = crossed.before.flag
-        so_far = Equations((*self.before, f), self.n)
+        so_far = Equations((*self.before, f), f.n)
         kept = {d: list(fibres) for d, fibres in crossed.kept.items()}
         counts, notes, higher, recovered = PathCounts(), [], 0, {}
         for d in sorted(crossed.ends, reverse=True):
             higher = len(notes)
-            candidates = collect(crossed.ends[d], flag[:d], self.avoid)
+            candidates = collect(crossed.ends[d], self.avoid)
+            rows = crossed.ends[d][0].rows
             if candidates.unclear:
                 notes.append(f"{candidates.unclear} points may be such as are excluded")
             for fibre in candidates.fibres:
                 if fibre.cut.deflated:
-                    fibre, doubts, used = self.own(fibre, kept, flag)
+                    fibre, doubts, used = self.own(fibre, kept)
                     counts += used
                     notes += doubts
                 kept.setdefault(d, []).append(fibre)
             kept.setdefault(d, [])
             for cluster in candidates.singular:
-                doubts, used = self.add(cluster, kept, so_far, flag, d, deflate)
+                doubts, used = self.add(cluster, kept, so_far, rows, deflate)
                 counts += used
                 if doubts is None:
                     return None, counts
                 notes += doubts
-            found = self.recover(candidates.lost, kept[d], so_far, flag[:d])
+            found = self.recover(candidates.lost, kept[d], so_far, rows)
             recovered |= {d: found} if found else {}
         kept = {d: [fibre for fibre in fibres if len(fibre)] for d, fibres in kept.items()}
         points = len(notes) - higher if 0 in crossed.ends else 0
-        return Superset(kept, flag, PathCounts(), tuple(notes), points, recovered), counts
+        return Superset(kept, PathCounts(), tuple(notes), points, recovered), counts
 
 
-def are_new_alone(
-    before: Sequence[Fibre], after: Sequence[Fibre], so_far: Equations, rows: np.ndarray
-) -> bool:
+def are_new_alone(before: Sequence[Fibre], after: Sequence[Fibre], so_far: Equations) -> bool:
     """Whether points that doubles put last into fibres are zeros of all equations, and alone."""
     known = [len(fibre) for fibre in before]
     known += [0] * (len(after) - len(before))
     return all(
-        is_alone(fibre, i, so_far, rows)
+        is_alone(fibre, i, so_far)
         for fibre, first in zip(after, known, strict=True)
         for i in range(first, len(fibre))
     )
@@ -350,12 +321,12 @@ class Ambient:
     """What is intersected: sets of all dimensions, and the polynomials that vanish on them.
 
     Attributes:
-        sections: the sets, by their points.
+        fibres: the sets by their points, by dimension: on the first rows of one flag of slices.
         known: polynomials that vanish on them.
         nonzero: those that must not vanish.
     """
 
-    sections: Sections
+    fibres: Mapping[int, Sequence[Fibre]]
     known: tuple[Polynomial, ...] = ()
     nonzero: tuple[Polynomial, ...] = ()
 
@@ -364,8 +335,7 @@ class Ambient:
         """The whole space, by its point on a flag of as many slices as variables."""
         n = len(flag)
         point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
-        whole = Fibre(Cut(n, 0, ()), n, point[None])
-        return cls(Sections({n: [whole]}, flag), (), tuple(nonzero))
+        return cls({n: [Fibre(Cut(n, 0, ()), flag, point[None])]}, (), tuple(nonzero))
 
 
 def witness_superset(
@@ -373,14 +343,13 @@ def witness_superset(
 ) -> Superset:
     """Witness points of all dimensions where sets meet ``equations``, intersected in order.
 
-    A point of dimension d lies on the first d rows of the flag of the sets, or on those of the
-    flag of the superset if it had to be changed. No point of a component is missed unless a path
-    failed, and the points that lie on components of higher dimension are taken out again after
-    each equation.
+    A point of dimension d lies on the first d rows of the flag of the sets. No point of a component
+    is missed unless a path failed, and the points that lie on components of higher dimension are
+    taken out again after each equation.
     """
     equations = list(equations)
     counts, notes, points = PathCounts(), [], 0
-    found = Superset(dict(ambient.sections.fibres), ambient.sections.flag, counts, ())
+    found = Superset(dict(ambient.fibres), counts, ())
     mixing = False
     for k, f in enumerate(equations):
         run.tell("intersecting", k, len(equations))
@@ -394,4 +363,4 @@ def witness_superset(
         failed = best.crossed.counts.failed - sum(found.recovered.values())
         infinite = best.crossed.counts.at_infinity
         counts += PathCounts(spent.tracked, failed, infinite)
-    return Superset(found.fibres, found.flag, counts, tuple(notes), points)
+    return Superset(found.fibres, counts, tuple(notes), points)

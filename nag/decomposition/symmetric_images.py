@@ -102,7 +102,6 @@ def keeps(cut: Cut, signs: Sequence[int]) -> bool:
 
 def sign_orbit(
     fibre: Fibre,
-    rows: np.ndarray,
     generators: Sequence[Signs],
     rng: np.random.Generator,
     run: Run,
@@ -111,7 +110,6 @@ def sign_orbit(
 
     Args:
         fibre: all points of the component on a generic slice, with a cut that the generators keep.
-        rows: that slice.
         generators: signs of the variables.
 
     Returns:
@@ -122,7 +120,7 @@ def sign_orbit(
     points, counts = fibre.points, PathCounts()
     for k, signs in enumerate(generators):
         factor = np.array(signs, dtype=float)
-        images, error, spent = _moved(fibre, points * factor, rows, factor, rng, run)
+        images, error, spent = _moved(fibre, points * factor, factor, rng, run)
         counts += spent
         if images is None:
             return None, counts
@@ -136,7 +134,6 @@ def sign_orbit(
 def _moved(
     fibre: Fibre,
     images: np.ndarray,
-    rows: np.ndarray,
     factor: np.ndarray,
     rng: np.random.Generator,
     run: Run,
@@ -147,9 +144,8 @@ def _moved(
     """
     if fibre.dimension == 0:
         return images, 0.0, PathCounts()
-    moved = Fibre(fibre.cut, fibre.dimension, images)
-    there = rows * np.concatenate([[1.0], factor])
-    (ends,) = move([moved], there, rows, complex(unit_complex(rng)), run)
+    moved = Fibre(fibre.cut, fibre.rows * np.concatenate([[1.0], factor]), images)
+    (ends,) = move([moved], fibre.rows, complex(unit_complex(rng)), run)
     if not ends.regular.all():
         return None, 0.0, ends.counts.judged_elsewhere
     return ends.points, float(ends.accuracy.max(initial=0.0)), ends.counts.judged_elsewhere

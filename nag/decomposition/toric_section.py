@@ -47,10 +47,10 @@ def section_at_once(
         run.threads,
         endgame=False,
     )
-    ends = ends_of_paths(paths, keep=n)
+    ends = ends_of_paths(paths, own, flag[:d])
     if not ends.regular.all():
         return None, counts
-    return Superset({d: [ends.fibre(own, d, range(len(x)))]}, flag, PathCounts(), ()), counts
+    return Superset({d: [ends.fibre()]}, PathCounts(), ()), counts
 
 
 def paths_at_once(system: PolynomialSystem) -> int | None:

@@ -19,7 +19,6 @@ from nag.decomposition.zero_sums import smallest_zero_sums
 from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
-from nag.witness.cutting import Cut
 from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
 from nag.witness.fibres import Fibre, join_fibres, move
 from nag.witness.points import Points
@@ -109,23 +108,21 @@ class Trace:
         if not new:
             return self, counts
         for fibre, own in points.fibres(new):
-            starts = _numbered(fibre, (1.0, -1.0))
-            target = self._slices(points.rows, starts.cut)
-            source = padded(points.rows, target.shape[1])
-            sizes = points.sizes
-            (there,) = move([starts], source, target, self.gamma, run, sizes=sizes)
+            target = self._slices(fibre)
+            starts = _numbered(fibre, (1.0, -1.0), padded(points.rows, target.shape[1]))
+            (there,) = move([starts], target, self.gamma, run, sizes=points.sizes)
             counts += there.counts.judged_elsewhere
             if not there.regular.all():
                 return None, counts
-            middle = _numbered(fibre, (0.0,))
+            middle = _numbered(fibre, (0.0,), target)
             for k, i in enumerate(own.tolist()):
-                sides = there.fibre(starts.cut, fibre.dimension, [2 * k, 2 * k + 1])
+                sides = there.fibre([2 * k, 2 * k + 1])
                 ends[i] = join_fibres([middle.only(np.arange(len(own)) == k), sides])
         return replace(self, ends=ends)._found(points, new, DIGITS[0]), counts
 
-    def _slices(self, rows: np.ndarray, cut: Cut) -> np.ndarray:
-        """All slices as one, for a cut with the further unknown."""
-        target = padded(rows, 1 + cut.n + cut.aux)
+    def _slices(self, fibre: Fibre) -> np.ndarray:
+        """The slices of a fibre as one, with the further unknown."""
+        target = padded(fibre.rows, 2 + fibre.cut.n + fibre.cut.aux)
         target[-1, -1] = self.shift
         return target
 
@@ -134,7 +131,7 @@ class Trace:
         known, exact = dict(self.known), dict(self.exact)
         for _, own in points.fibres(indices):
             ends = join_fibres([self.ends[i] for i in own.tolist()])
-            found = exact_points(ends, self._slices(points.rows, ends.cut), digits)
+            found = exact_points(ends, digits)
             x, sides = found.values[::3], (found.values[1::3], found.values[2::3])
             total = sides[0] + sides[1] - 2 * x
             radii = 2 * found.radii[::3] + found.radii[1::3] + found.radii[2::3]
@@ -259,7 +256,7 @@ def has_linear_trace(
     there = carry_component(component, natural, natural.system(system))
     bare = replace(there, fibres=())
     fibres = component_fibres(bare.system, bare)
-    points = Points.of(fibres, bare.slice.rows)
+    points = Points.of(fibres)
     trace = Trace.of(points, digits_of_evidence(system.polynomials), rng)
     carried, _ = trace.carry(points, range(len(points)), run)
     return None if carried is None else carried.linear(points, range(len(points)))[0]
@@ -287,12 +284,12 @@ def linear_trace(
         return None
 
 
-def _numbered(fibre: Fibre, numbers: Sequence[float]) -> Fibre:
-    """Each point of a fibre once for each number, with that as a further unknown."""
+def _numbered(fibre: Fibre, numbers: Sequence[float], rows: np.ndarray) -> Fibre:
+    """Each point of a fibre once for each number, with that as a further unknown of ``rows``."""
     several, m = np.repeat(fibre.points, len(numbers), axis=0), len(numbers)
     points = np.column_stack([several, np.tile(numbers, len(fibre))])
     fine = {m * i + j: z.with_last(u) for i, z in fibre.fine.items() for j, u in enumerate(numbers)}
-    return Fibre(fibre.cut.numbered, fibre.dimension, points, fine)
+    return Fibre(fibre.cut.numbered, rows, points, fine)
 
 
 def _float(value: int, bits: int) -> float:

@@ -229,7 +229,7 @@ def _fibres(
     parts: Sequence[dict[str, Any]],
     cuts: Sequence[Cut],
     points: np.ndarray,
-    dimension: int,
+    rows: np.ndarray,
     place: str,
 ) -> tuple[Fibre, ...]:
     found, first = [], 0
@@ -242,11 +242,11 @@ def _fibres(
         unknowns = complex_matrix(table["unknowns"], cut.aux, f"{here}.unknowns")
         if last > len(points) or len(unknowns) != last - first:
             raise wrong(f"{here}.unknowns", "one row for each of the points")
-        if len(cut.polynomials) != cut.n + cut.aux - dimension:
+        if len(cut.polynomials) != cut.n + cut.aux - len(rows):
             raise wrong(f"{here}.equations", "that of as many equations as cut the component")
         own = np.hstack([points[first:last], unknowns])
         close = close_points(table.get("close", []), own, f"{here}.close")
-        found.append(Fibre(cut, dimension, own, close))
+        found.append(Fibre(cut, rows, own, close))
         first = last
     if found and first != len(points):
         raise wrong(place, "one cut for each of the points")
@@ -270,9 +270,9 @@ def _component(
         here = f"{place}.multidegree"
         multidegree = _multidegree(multidegree, len(system.groups), len(b), here)
     radii, digits = _errors(table, points, place)
-    orbit = table["orbit"]
+    orbit, cut = table["orbit"], Slice(a, b)
     return WitnessSet(
-        slice=Slice(a, b),
+        slice=cut,
         points=points,
         multiplicity=table["multiplicity"],
         status=Status(table["status"]),
@@ -284,7 +284,7 @@ def _component(
         orbit=orbit["size"],
         note=table["note"],
         images=_images(orbit.get("images", []), orbit["size"], system, f"{place}.orbit.images"),
-        fibres=_fibres(table.get("cut_by", []), cuts, points, len(b), f"{place}.cut_by"),
+        fibres=_fibres(table.get("cut_by", []), cuts, points, cut.rows, f"{place}.cut_by"),
     )
 
 

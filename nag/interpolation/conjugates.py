@@ -85,7 +85,7 @@ class RationalSlice:
         target[:r, [0, *(1 + i for i in self.coordinates)]] = self.rows
         sizes = source.fibres[0].sizes
         target[r:] = random_rows(rng, source.dimension - r, n) / sizes
-        there = arrival(source.fibres, source.rows, target, rng, run)
+        there = arrival(source.fibres, target, rng, run)
         if there.irregular or not there.accuracy < SHARP:
             raise SourceError("a path to a rational slice failed")
         found = []

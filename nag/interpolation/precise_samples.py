@@ -51,20 +51,18 @@ class Source:
     Attributes:
         system: the equations of the component and perhaps of others.
         natural: the coordinates in which the points are, in the units of the system's own.
-        rows: the slice that the points lie on, in these.
         fibres: the points.
         exact: the one point that was given exactly; None for witness points.
     """
 
     system: PolynomialSystem
     natural: NaturalCoordinates
-    rows: np.ndarray
     fibres: tuple[Fibre, ...]
     exact: tuple[Fraction, ...] | None = None
 
     @property
     def dimension(self) -> int:
-        return len(self.rows)
+        return self.fibres[0].dimension
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -83,7 +81,7 @@ def source_of_component(system: PolynomialSystem, component: WitnessSet) -> Sour
         fibres = component_fibres(own, component)
     except ValueError as error:
         raise SourceError(str(error)) from None
-    return Source(system, natural, component.slice.rows, tuple(fibres))
+    return Source(system, natural, tuple(fibres))
 
 
 def source_at(
@@ -111,8 +109,8 @@ def source_at(
     if found is None:
         raise SourceError("the point is too near to a singular one")
     cut, z = found
-    fibre = Fibre(cut, dimension, z[None])
-    return Source(system, natural, rows, (fibre,), tuple(Fraction(c) for c in point))
+    fibre = Fibre(cut, rows, z[None])
+    return Source(system, natural, (fibre,), tuple(Fraction(c) for c in point))
 
 
 def _check_rational(system: PolynomialSystem) -> None:
@@ -174,7 +172,7 @@ def samples(source: Source, count: int, rng: np.random.Generator, run: Run) -> l
     evaluator = Evaluator.of(source.natural.system(source.system).polynomials, n)
     found: list[Sample] = []
     while len(found) < count:
-        target, there = at_random(source.fibres, source.rows, rng, run)
+        there = at_random(source.fibres, rng, run)
         if not (len(there.x) and np.isfinite(there.accuracy)):
             raise SourceError("the path to a point failed")
         (fibre,) = there.fibres
@@ -183,5 +181,5 @@ def samples(source: Source, count: int, rng: np.random.Generator, run: Run) -> l
                 "some equations hold at the point alone and not on what moves through it: it is "
                 "singular; name a component"
             )
-        found.append(Sample(source.natural, fibre.cut, target, fibre.points[0]))
+        found.append(Sample(source.natural, fibre.cut, fibre.rows, fibre.points[0]))
     return found

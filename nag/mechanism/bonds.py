@@ -249,15 +249,14 @@ class _Ends:
         for fibre in self.fibres:
             gamma = complex(unit_complex(self.rng))
             start, goal = (self._rows(i, root + turn * size * r) for r in (NEAR, NEARER))
-            source = self.component.slice.rows
-            (first,) = move([fibre], source, start, gamma, self.run, endgame=True)
+            (first,) = move([fibre], start, gamma, self.run, endgame=True)
             regular = np.flatnonzero(first.regular)
             if first.failed.any():
                 raise BondError("paths to the ends of the curve failed")
             if not len(regular):
                 continue
-            (near,) = with_fine([first.fibre(fibre.cut, 1, regular)], start)
-            (second,) = move([near], start, goal, 1.0, self.run)
+            (near,) = with_fine([first.fibre(regular)])
+            (second,) = move([near], goal, 1.0, self.run)
             if not second.regular.all():
                 raise BondError("paths to the ends of the curve failed")
             for x, y in zip(near.points, second.points, strict=True):

@@ -108,6 +108,6 @@ def _lies_on(
     if component.dimension == 0:
         others = [c for c in found.components if c.dimension == 0]
         return min(others, key=lambda c: np.linalg.norm(c.points[0] - point)) is component
-    fibres, rows = component_fibres(found.system, component), component.slice.rows
-    answer, _ = is_member(point, ROUNDED, fibres, rows, rng, run)
+    fibres = component_fibres(found.system, component)
+    answer, _ = is_member(point, ROUNDED, fibres, rng, run)
     return answer is Membership.MEMBER

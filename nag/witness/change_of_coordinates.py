@@ -69,9 +69,9 @@ def carry_component(
         raise NagError("slice: its numbers leave the range of doubles in other units")
     points, radii = carry_points(component.points, component.radii, natural)
     digits = component.digits
-    fibres = carry_fibres(component.fibres, component.slice.rows, natural, rows, back)
+    fibres = carry_fibres(component.fibres, natural, rows, back)
     if not natural.is_exact_in_doubles and fibres:
-        sharp = [sharpened(fibre, rows) for fibre in fibres]
+        sharp = [sharpened(fibre) for fibre in fibres]
         known = np.vstack([each.radii for each in sharp])
         good = np.isfinite(known).all(axis=1)
         fibres = [each.fibre for each in sharp]
@@ -110,36 +110,33 @@ def carry_decomposition(whole: Decomposition, natural: NaturalCoordinates) -> De
 
 def carry_fibres(
     fibres: Sequence[Fibre],
-    rows: np.ndarray,
     natural: NaturalCoordinates,
     there: np.ndarray | None = None,
     back: bool = False,
 ) -> list[Fibre]:
-    """Fibres on the slice ``rows`` of ``x`` as ones of ``y``.
+    """Fibres on a slice of ``x`` as ones of ``y``.
 
     Unknowns that deflation added stay as they are. Where something is rounded, points are as near
     to the slice as doubles were, and those that are close to others on it.
 
     Args:
-        there: the slice in ``y``; the image of ``rows`` if none is given.
+        there: the slice in ``y``; the image of that in ``x`` if none is given.
         back: whether ``y`` are the coordinates that were given, where nothing is tracked.
     """
-    if natural.is_identity:
+    if natural.is_identity or not fibres:
         return list(fibres)
-    target = natural.rows(rows) if there is None else there
+    target = natural.rows(fibres[0].rows) if there is None else there
     if natural.is_exact_in_doubles:
         return [_carry_fibre(fibre, natural, target) for fibre in fibres]
     before, after = (CLOSE, CLOSE_AFAR) if back else (CLOSE_AFAR, CLOSE)
-    points = Points.of(fibres, rows, before)
-    if not len(points):
-        return []
+    points = Points.of(fibres, before)
     moved = natural.points(points.x)
     if back:
         # Where points are asked about: in the units that are given.
         points = points.with_digits(close_pairs(natural.inverse.without_scales.points(moved)))
     points = points.with_digits(close_pairs(moved, after))
     own = [fibre for fibre, _ in points.fibres(range(len(points)))]
-    return with_fine([_carry_fibre(fibre, natural, target) for fibre in own], target, after)
+    return with_fine([_carry_fibre(fibre, natural, target) for fibre in own], after)
 
 
 def _carry_fibre(fibre: Fibre, natural: NaturalCoordinates, rows: np.ndarray) -> Fibre:
@@ -151,7 +148,7 @@ def _carry_fibre(fibre: Fibre, natural: NaturalCoordinates, rows: np.ndarray) ->
         for i, each in fine.items():
             points[i] = each.rounded
         fine = {i: each for i, each in fine.items() if each.curvature * CLOSE > 1}
-    return Fibre(cut, fibre.dimension, points, fine)
+    return Fibre(cut, rows, points, fine)
 
 
 @lru_cache(maxsize=KEPT)

@@ -81,14 +81,14 @@ def meant(
     return Meant(tuple(zeros), decided, located)
 
 
-def among(zero: SingularEnd, fibres: Sequence[Fibre], rows: np.ndarray) -> bool | None:
-    """Whether a zero is one of the points of fibres on ``rows``, in digits; None if left open."""
+def among(zero: SingularEnd, fibres: Sequence[Fibre]) -> bool | None:
+    """Whether a zero is one of the points of fibres, in digits; None if left open."""
     unknown, here = False, zero.precise
     if here is None:
         return None
     for fibre in fibres:
         for i in np.flatnonzero(coincident(fibre.x, zero.point, CLOSE)).tolist():
-            there = zero_in_digits(fibre.cut, rows, fibre.points[i], fibre.fine.get(i))
+            there = zero_in_digits(fibre.cut, fibre.rows, fibre.points[i], fibre.fine.get(i))
             if there is not None and are_same(here, there.first(len(here))):
                 return True
             unknown |= there is None

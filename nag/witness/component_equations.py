@@ -32,7 +32,7 @@ def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fi
         ComponentError: if the points are not regular zeros of the system or of a deflation of it.
     """
     if component.fibres:
-        return with_fine(component.fibres, component.slice.rows)
+        return with_fine(component.fibres)
     _, fibres = _cut(system, component, branches(system) or ())
     if fibres is None:
         raise ComponentError("the witness points are no regular zeros of the system")
@@ -87,8 +87,7 @@ def precise_point(component: WitnessSet) -> PrecisePoint:
     """A witness point in balls, from the equations that cut it where the component holds them."""
     if component.fibres:
         fibre, n = component.fibres[0], component.points.shape[1]
-        rows, fine = component.slice.rows, fibre.fine.get(0)
-        zero = zero_in_digits(fibre.cut, rows, fibre.points[0], fine)
+        zero = zero_in_digits(fibre.cut, fibre.rows, fibre.points[0], fibre.fine.get(0))
         if zero is not None:
             return zero.first(n)
     return PrecisePoint.of_doubles(component.points[0], component.radii[0])
@@ -113,4 +112,4 @@ def find_fibres(
     )
     if fibres is None:
         return None
-    return carry_fibres(fibres, here.slice.rows, natural.inverse, component.slice.rows, back=True)
+    return carry_fibres(fibres, natural.inverse, component.slice.rows, back=True)

@@ -95,6 +95,11 @@ class Cut:
         powers = variable_scales(self.polynomials, self.n + self.aux)
         return powers if np.ptp([*powers, 0]) > UNEQUAL else np.zeros_like(powers)
 
+    @property
+    def sizes(self) -> np.ndarray:
+        """Sizes of the homogeneous coordinates ``(1, x)`` of the sets, shape ``(1 + n,)``."""
+        return np.ldexp(1.0, np.concatenate([[0], self.powers[: self.n]]))
+
     @cached_property
     def scaled(self) -> Cut:
         """The cut where coordinates are divided by two to the `powers`."""

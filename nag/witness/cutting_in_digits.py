@@ -88,20 +88,20 @@ def admit_zero(
                 fine = rated(fibre.cut.polynomials, rows, in_words(z, 1.0))
                 points = np.vstack([fibre.points, fine.rounded])
                 known = {**fibre.fine, len(fibre): fine}
-                fibres[i] = Fibre(fibre.cut, fibre.dimension, points, known)
+                fibres[i] = Fibre(fibre.cut, rows, points, known)
                 return True
         found = _find_cut(equations, rows, x, rng)
         if found is None:
             return False
         cut, z = found
         fine = rated(cut.polynomials, rows, in_words(z, 1.0))
-    fibres.append(Fibre(cut, len(rows), fine.rounded[None], {0: fine}))
+    fibres.append(Fibre(cut, rows, fine.rounded[None], {0: fine}))
     return True
 
 
-def is_alone(fibre: Fibre, i: int, equations: Equations, rows: np.ndarray) -> bool:
+def is_alone(fibre: Fibre, i: int, equations: Equations) -> bool:
     """Whether a point that doubles found is the zero of all equations, and no other is close."""
-    cut, z = fibre.cut, fibre.points[i]
+    cut, rows, z = fibre.cut, fibre.rows, fibre.points[i]
     if cut.deflated and max(f.digits for f in equations.polynomials) > LONG:
         return False
     # Rounding errors make Newton's constant seem larger, and take a part of the time of digits.

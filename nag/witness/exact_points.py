@@ -97,18 +97,18 @@ def unit_of(digits: int) -> int:
     return int(np.ceil(digits * BITS_PER_DIGIT)) + GUARD
 
 
-def exact_points(fibre: Fibre, rows: np.ndarray, digits: int) -> ExactPoints:
-    """The coordinates, without added unknowns, of the regular points of a fibre on ``rows``.
+def exact_points(fibre: Fibre, digits: int) -> ExactPoints:
+    """The coordinates, without added unknowns, of the regular points of a fibre.
 
     Args:
         digits: behind the decimal point of coordinates of size one. Those of double-double are as
             many as the condition of the point leaves; ``radii`` tells.
     """
-    n, bits = fibre.cut.n, unit_of(digits)
+    n, rows, bits = fibre.cut.n, fibre.rows, unit_of(digits)
     values = np.zeros((len(fibre), 2 * n), dtype=object)
     radii = np.full(len(fibre), np.inf)
     if digits <= DOUBLE_DOUBLE:
-        values, radii = _twice(fibre, rows, bits)
+        values, radii = _twice(fibre, bits)
     radii[list(fibre.fine)] = np.inf
     balls = ~np.isfinite(radii)
     for i in np.flatnonzero(balls).tolist():
@@ -120,11 +120,11 @@ def exact_points(fibre: Fibre, rows: np.ndarray, digits: int) -> ExactPoints:
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def _twice(fibre: Fibre, rows: np.ndarray, bits: int) -> tuple[np.ndarray, np.ndarray]:
+def _twice(fibre: Fibre, bits: int) -> tuple[np.ndarray, np.ndarray]:
     """By one step more than the points in doubles show."""
     n = fibre.cut.n
     start = homogeneous(fibre.points)
-    a = padded(rows, start.shape[1])
+    a = padded(fibre.rows, start.shape[1])
     found = refine(fibre.cut.rows, a, start, iterations=1, twice=True)
     v, step = found.points, found.further
     quotient = v[:, 1 : n + 1] / v[:, :1]
@@ -233,17 +233,17 @@ class Sharp:
         """Some of the points."""
         fine = chosen(self.fibre.fine, places)
         points = self.fibre.points[places]
-        fibre = Fibre(self.fibre.cut, self.fibre.dimension, points, fine)
+        fibre = replace(self.fibre, points=points, fine=fine)
         return Sharp(fibre, self.radii[places], self.digits[places])
 
 
-def sharpened(fibre: Fibre, rows: np.ndarray, known: ExactPoints | None = None) -> Sharp:
-    """The regular points of a fibre on the slice ``rows``, to rounding.
+def sharpened(fibre: Fibre, known: ExactPoints | None = None) -> Sharp:
+    """The regular points of a fibre, to rounding.
 
     Args:
         known: the points in as many digits as `nag.witness.points.Points.exact` has.
     """
-    exact = _exact(fibre, rows, known)
+    exact = _exact(fibre, known)
     good = np.isfinite(exact.radii)
     points = np.array(fibre.points)
     steps = np.full(len(points), np.inf)
@@ -254,7 +254,7 @@ def sharpened(fibre: Fibre, rows: np.ndarray, known: ExactPoints | None = None) 
         elif good[i] and not fibre.cut.aux:
             points[i] = _rounded(exact, i)
         else:
-            ends = sharpen(fibre.cut.evaluator, rows, z)
+            ends = sharpen(fibre.cut.evaluator, fibre.rows, z)
             points[i], steps[i] = ends.z, ends.step if ends.converged else np.inf
             if good[i]:
                 points[i, : fibre.cut.n] = _rounded(exact, i)
@@ -312,14 +312,14 @@ def in_order(points: np.ndarray) -> np.ndarray:
     return np.lexsort((points.imag[:, 0], points.real[:, 0]))
 
 
-def _exact(fibre: Fibre, rows: np.ndarray, known: ExactPoints | None = None) -> ExactPoints:
+def _exact(fibre: Fibre, known: ExactPoints | None = None) -> ExactPoints:
     """The points in digits that leave hardly an error beside rounding, where that is to be had."""
-    found = exact_points(fibre, rows, FEWEST) if known is None else known
+    found = exact_points(fibre, FEWEST) if known is None else known
     poor = found.radii > ENOUGH * (1 + np.abs(fibre.x).max(axis=1, initial=0.0))
     poor &= ~found.balls
     if not poor.any():
         return found
-    better = exact_points(fibre.only(poor), rows, IN_BALLS)
+    better = exact_points(fibre.only(poor), IN_BALLS)
     use = np.isfinite(better.radii)
     values, radii, balls = found.values.copy(), found.radii.copy(), found.balls.copy()
     places = np.flatnonzero(poor)[use]

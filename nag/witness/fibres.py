@@ -43,15 +43,16 @@ STEEPER = 2.0
 
 @dataclass(frozen=True, eq=False)
 class Fibre:
-    """Points of dimension ``dimension`` sets that ``cut`` cuts regularly on a common slice.
+    """Points of pure-dimensional sets on a slice, which ``cut`` cuts regularly there.
 
     Attributes:
+        rows: the slice, as rows on ``(1, x)``, perhaps with unknowns, shape ``(d, 1 + n)``.
         points: complex, shape ``(P, n + aux)``, affine.
         fine: more digits of points that are close to others, by their indices.
     """
 
     cut: Cut
-    dimension: int
+    rows: np.ndarray
     points: np.ndarray
     fine: Mapping[int, Fine] = field(default_factory=dict)
 
@@ -61,10 +62,15 @@ class Fibre:
         return (
             self.cut.polynomials == other.cut.polynomials
             and self.cut.n == other.cut.n
-            and self.dimension == other.dimension
+            and np.array_equal(self.rows, other.rows)
             and np.array_equal(self.points, other.points)
             and self.fine == other.fine
         )
+
+    @property
+    def dimension(self) -> int:
+        """Dimension of the sets."""
+        return len(self.rows)
 
     @property
     def x(self) -> np.ndarray:
@@ -74,18 +80,17 @@ class Fibre:
     @property
     def sizes(self) -> np.ndarray:
         """Sizes of the homogeneous coordinates ``(1, x)`` of the set, shape ``(1 + n,)``."""
-        return np.ldexp(1.0, np.concatenate([[0], self.cut.powers[: self.cut.n]]))
+        return self.cut.sizes
 
     def __len__(self) -> int:
         return len(self.points)
 
-    @property
-    def fixed(self) -> Fibre:
-        """The same, read-only, as it stands in a result."""
+    def fixed_on(self, rows: np.ndarray) -> Fibre:
+        """The same, read-only, on a slice as it stands in a result."""
         points, fine = fixed_array(self.points), fixed_mapping(self.fine)
-        if points is self.points and fine is self.fine:
+        if points is self.points and fine is self.fine and rows is self.rows:
             return self
-        return Fibre(self.cut, self.dimension, points, fine)
+        return Fibre(self.cut, rows, points, fine)
 
     def lifted(self, x: np.ndarray) -> np.ndarray:
         """A point with values of the added unknowns, to start Newton's method from.
@@ -108,14 +113,15 @@ class Fibre:
     def only(self, mask: np.ndarray) -> Fibre:
         """The fibre's points where ``mask`` holds."""
         fine = chosen(self.fine, np.flatnonzero(mask)) if self.fine else self.fine
-        return Fibre(self.cut, self.dimension, self.points[mask], fine)
+        return replace(self, points=self.points[mask], fine=fine)
 
 
 @dataclass(frozen=True, eq=False)
-class Moved:
-    """The ends of a fibre's points after its slice moved.
+class PathEnds:
+    """Ends of paths to a slice, which ``cut`` cuts regularly there where they are regular.
 
     Attributes:
+        rows: the slice, as of a fibre.
         points: affine ends, shape ``(P, n + aux)``; not meaningful where ``finite`` is False.
         finite: whether the path ended at a finite point.
         regular: whether it ended at a regular one.
@@ -123,6 +129,8 @@ class Moved:
         fine: more digits of regular ends that are close to others, by their indices.
     """
 
+    cut: Cut
+    rows: np.ndarray
     points: np.ndarray
     finite: np.ndarray
     regular: np.ndarray
@@ -131,16 +139,26 @@ class Moved:
     counts: PathCounts = field(default=PathCounts())
     fine: Mapping[int, Fine] = field(default_factory=dict)
 
-    def without(self, indices: Iterable[int]) -> Moved:
+    def __len__(self) -> int:
+        return len(self.points)
+
+    @property
+    def x(self) -> np.ndarray:
+        """The ends without the unknowns that deflation added, shape ``(P, n)``."""
+        return self.points[:, : self.cut.n]
+
+    def without(self, indices: Iterable[int]) -> PathEnds:
         """The ends but for some."""
-        kept = np.setdiff1d(np.arange(len(self.points)), list(indices))
+        kept = np.setdiff1d(np.arange(len(self)), list(indices))
         names = ("points", "finite", "regular", "failed", "accuracy")
         arrays = {name: getattr(self, name)[kept] for name in names}
         return replace(self, **arrays, fine=chosen(self.fine, kept))
 
-    def fibre(self, cut: Cut, dimension: int, indices: Sequence[int]) -> Fibre:
-        """Some of the ends."""
-        return Fibre(cut, dimension, self.points[indices], chosen(self.fine, indices))
+    def fibre(self, indices: Sequence[int] | None = None) -> Fibre:
+        """Some of the ends, or all."""
+        if indices is None:
+            indices = range(len(self))
+        return Fibre(self.cut, self.rows, self.points[indices], chosen(self.fine, indices))
 
 
 def homogeneous(points: np.ndarray) -> np.ndarray:
@@ -156,19 +174,18 @@ def affine(points: np.ndarray) -> np.ndarray:
     return points[:, 1:] / np.where(first == 0, 1e-300, first)
 
 
-def ends_of_paths(paths: Paths, keep: int | None = None) -> Moved:
-    """The ends of ``paths`` as affine points, the first ``keep`` coordinates of them."""
+def ends_of_paths(paths: Paths, cut: Cut, rows: np.ndarray) -> PathEnds:
+    """The ends of ``paths`` as affine points, without unknowns that ``cut`` does not know."""
     # NumPy takes long to compare with members of an enumeration.
     regular = paths.status == int(PathStatus.REGULAR)
     finite = regular | (paths.status == int(PathStatus.SINGULAR))
     accuracy = np.asarray(paths.accuracy)
     infinite = paths.status == int(PathStatus.AT_INFINITY)
     failed = ~finite & ~infinite
-    points = affine(paths.points)
-    points = points if keep is None else points[:, :keep]
+    points = affine(paths.points)[:, : cut.n + cut.aux]
     counts = PathCounts(len(finite), int(failed.sum()), int(infinite.sum()))
     fine = _fine(paths, points, regular, finite & ~regular) if paths.balls else {}
-    return Moved(points, finite, regular, failed, accuracy, counts, fine)
+    return PathEnds(cut, rows, points, finite, regular, failed, accuracy, counts, fine)
 
 
 def _fine(
@@ -206,7 +223,6 @@ def _words(ball: Ball) -> np.ndarray:
 
 def move(
     fibres: Sequence[Fibre],
-    source: np.ndarray,
     target: np.ndarray,
     gamma: complex,
     run: Run,
@@ -214,8 +230,8 @@ def move(
     endgame: bool = False,
     through: Sequence[Number] = (),
     sizes: np.ndarray | None = None,
-) -> list[Moved]:
-    """Move the slice of a set from the rows ``source`` to ``target``: the ends of each fibre.
+) -> list[PathEnds]:
+    """Move the slice of a set to the rows ``target``: the ends of each fibre.
 
     All rows turn with the same ``gamma``: only then do all points of a fibre, and all fibres of a
     set, move as one. Paths are tracked in coordinates in which those of the set are comparable: a
@@ -224,6 +240,7 @@ def move(
     powers of two, so that nothing is rounded.
 
     Args:
+        fibres: on one slice.
         through: an exact point that the target passes through. Where sheets cross, a slice that is
             rounded beside the crossing meets them in as many points as near to each other.
         sizes: those of a fibre of the set that rows are to be of comparable norms in, where not all
@@ -233,35 +250,72 @@ def move(
         return []
     alone = sizes is None
     sizes = fibres[0].sizes if sizes is None else sizes
-    first, last = even_rows(source, sizes), even_rows(target, sizes)
+    first, last = even_rows(fibres[0].rows, sizes), even_rows(target, sizes)
     if alone:
         n = first.shape[1] - 1
         last = balance_rows(first, last, np.vstack([fibre.points[:, :n] for fibre in fibres]))
-    return [_move_scaled(fibre, first, last, gamma, run, endgame, through) for fibre in fibres]
+    motion = _Motion(last, gamma, run, endgame, through)
+    ends = [motion.carry(replace(fibre, rows=first)) for fibre in fibres]
+    return [replace(each, rows=target) for each in ends]
 
 
-def _move_scaled(
-    fibre: Fibre,
-    source: np.ndarray,
-    target: np.ndarray,
-    gamma: complex,
-    run: Run,
-    endgame: bool,
-    through: Sequence[Number],
-) -> Moved:
-    """The ends of a fibre, tracked in coordinates of comparable sizes."""
-    powers = fibre.cut.powers
-    if not powers.any():
-        return _track(fibre, source, target, gamma, run, endgame, through)
-    units = np.ldexp(1.0, np.concatenate([[0], powers]))[: target.shape[1]]
-    scaled = source * units, target * units
-    own = Fibre(fibre.cut.scaled, fibre.dimension, fibre.points * np.ldexp(1.0, -powers))
-    own = replace(own, fine=_scale_points(fibre.fine, -powers, own.cut, scaled[0]))
-    there = [x * Fraction(2) ** -int(k) for x, k in zip(through, powers, strict=False)]
-    ends = _track(own, *scaled, gamma, run, endgame, there)
-    finite = np.where(ends.finite[:, None], ends.points, 0.0)
-    fine = _scale_points(ends.fine, powers, fibre.cut, target)
-    return replace(ends, points=finite * np.ldexp(1.0, powers), fine=fine)
+@dataclass(frozen=True, eq=False)
+class _Motion:
+    """Where a slice moves to, and how, see `move`."""
+
+    target: np.ndarray
+    gamma: complex
+    run: Run
+    endgame: bool
+    through: Sequence[Number]
+
+    def carry(self, fibre: Fibre) -> PathEnds:
+        """The ends of a fibre, tracked in coordinates of comparable sizes."""
+        powers = fibre.cut.powers
+        if not powers.any():
+            return self.track(fibre)
+        units = np.ldexp(1.0, np.concatenate([[0], powers]))[: self.target.shape[1]]
+        cut, rows = fibre.cut.scaled, fibre.rows * units
+        fine = _scale_points(fibre.fine, -powers, cut, rows)
+        own = Fibre(cut, rows, fibre.points * np.ldexp(1.0, -powers), fine)
+        through = [x * Fraction(2) ** -int(k) for x, k in zip(self.through, powers, strict=False)]
+        ends = replace(self, target=self.target * units, through=through).track(own)
+        finite = np.where(ends.finite[:, None], ends.points, 0.0)
+        fine = _scale_points(ends.fine, powers, fibre.cut, self.target)
+        return replace(ends, cut=fibre.cut, points=finite * np.ldexp(1.0, powers), fine=fine)
+
+    def track(self, fibre: Fibre) -> PathEnds:
+        """The ends of a fibre, tracked in its own coordinates.
+
+        Paths of points that are close to others are tracked in more digits.
+        """
+        if not fibre.fine:
+            paths = track(
+                self._homotopy(fibre),
+                homogeneous(fibre.points),
+                settings=self.run.settings,
+                threads=self.run.threads,
+                endgame=self.endgame,
+            )
+            return ends_of_paths(paths, fibre.cut, self.target)
+        indices = np.array(sorted(fibre.fine))
+        plain = np.setdiff1d(np.arange(len(fibre)), indices)
+        rest = replace(fibre, points=fibre.points[plain], fine={})
+        starts = [fibre.fine[i] for i in indices]
+        homotopy = self._homotopy(fibre)
+        close = track_close_points(homotopy, starts, fibre.cut, self.target, self.run, self.endgame)
+        return join_ends({0: plain, 1: indices}, (self.track(rest), close))
+
+    def _homotopy(self, fibre: Fibre) -> Homotopy:
+        columns = 1 + fibre.cut.n + fibre.cut.aux
+        target = padded(self.target, columns)
+        if fibre.fine or len(self.through):
+            from nag.tracking.close_paths import moving_rows
+
+            source = padded(fibre.rows, columns)
+            return moving_rows(fibre.cut.rows, source, target, self.gamma, self.through)
+        step = padded(self.gamma * fibre.rows - self.target, columns)
+        return Homotopy(fibre.cut.rows, target, step)
 
 
 def _scale_points(
@@ -275,61 +329,6 @@ def _scale_points(
     return {i: rated(cut.polynomials, rows, replace(fine[i], words=w)) for i, w in words.items()}
 
 
-def _track(
-    fibre: Fibre,
-    source: np.ndarray,
-    target: np.ndarray,
-    gamma: complex,
-    run: Run,
-    endgame: bool,
-    through: Sequence[Number],
-) -> Moved:
-    """The ends of a fibre, tracked in its own coordinates."""
-    if fibre.fine:
-        return _track_apart(fibre, source, target, gamma, run, endgame, through)
-    columns = 1 + fibre.cut.n + fibre.cut.aux
-    if len(through):
-        from nag.tracking.close_paths import moving_rows
-
-        ends = padded(source, columns), padded(target, columns)
-        homotopy = moving_rows(fibre.cut.rows, *ends, gamma, through)
-    else:
-        a0, a1 = padded(target, columns), padded(gamma * source - target, columns)
-        homotopy = Homotopy(fibre.cut.rows, a0, a1)
-    paths = track(
-        homotopy,
-        homogeneous(fibre.points),
-        settings=run.settings,
-        threads=run.threads,
-        endgame=endgame,
-    )
-    return ends_of_paths(paths)
-
-
-def _track_apart(
-    fibre: Fibre,
-    source: np.ndarray,
-    target: np.ndarray,
-    gamma: complex,
-    run: Run,
-    endgame: bool,
-    through: Sequence[Number],
-) -> Moved:
-    """`_track` where some points are close to others: their paths are tracked in more digits."""
-    from nag.tracking.close_paths import moving_rows
-
-    indices = np.array(sorted(fibre.fine))
-    plain = np.setdiff1d(np.arange(len(fibre)), indices)
-    rest = replace(fibre, points=fibre.points[plain], fine={})
-    columns = 1 + fibre.cut.n + fibre.cut.aux
-    rows = padded(source, columns), padded(target, columns)
-    starts = [fibre.fine[i] for i in indices]
-    homotopy = moving_rows(fibre.cut.rows, *rows, gamma, through)
-    close = track_close_points(homotopy, starts, fibre.cut, target, run, endgame)
-    others = _track(rest, source, target, gamma, run, endgame, through)
-    return joined({0: plain, 1: indices}, (others, close))
-
-
 def track_close_points(
     homotopy: Homotopy,
     starts: Sequence[Fine],
@@ -337,7 +336,7 @@ def track_close_points(
     rows: np.ndarray,
     run: Run,
     endgame: bool,
-) -> Moved:
+) -> PathEnds:
     """Where paths end that start at points that are close to others.
 
     Their ends are zeros of ``cut`` on the slice ``rows``; further coordinates are left out.
@@ -352,7 +351,7 @@ def track_close_points(
         run.threads,
         endgame=endgame,
     )
-    close, total = ends_of_paths(replace(paths, balls={}), keep=cut.n + cut.aux), cut.n + cut.aux
+    close, total = ends_of_paths(replace(paths, balls={}), cut, rows), cut.n + cut.aux
     fine = {
         i: rated(cut.polynomials, rows, affine_fine(_words(paths.balls[i]), 1.0).first(total))
         for i in np.flatnonzero(close.regular).tolist()
@@ -360,8 +359,8 @@ def track_close_points(
     return replace(close, fine=fine)
 
 
-def joined(places: Mapping[int, np.ndarray], parts: Sequence[Moved]) -> Moved:
-    """Ends of several parts in one: those of part ``k`` at ``places[k]``."""
+def join_ends(places: Mapping[int, np.ndarray], parts: Sequence[PathEnds]) -> PathEnds:
+    """Ends of several parts on one slice in one: those of part ``k`` at ``places[k]``."""
     count = sum(map(len, places.values()))
     arrays = {}
     for name in ("points", "finite", "regular", "failed", "accuracy"):
@@ -371,34 +370,30 @@ def joined(places: Mapping[int, np.ndarray], parts: Sequence[Moved]) -> Moved:
             whole[places[k]] = piece
         arrays[name] = whole
     fine = {int(places[k][i]): f for k, part in enumerate(parts) for i, f in part.fine.items()}
-    return Moved(**arrays, counts=sum((p.counts for p in parts), PathCounts()), fine=fine)
+    counts = sum((p.counts for p in parts), PathCounts())
+    return replace(parts[0], **arrays, counts=counts, fine=fine)
 
 
 def join_fibres(parts: Sequence[Fibre]) -> Fibre:
-    """Points of several fibres of one cut in one."""
+    """Points of several fibres of one cut on one slice in one."""
     fine, first = {}, 0
     for part in parts:
         fine |= {first + i: each for i, each in part.fine.items()}
         first += len(part)
     points = np.vstack([part.points for part in parts])
-    return Fibre(parts[0].cut, parts[0].dimension, points, fine)
+    return replace(parts[0], points=points, fine=fine)
 
 
 def move_regular(
-    fibres: Sequence[Fibre],
-    source: np.ndarray,
-    target: np.ndarray,
-    gamma: complex,
-    run: Run,
+    fibres: Sequence[Fibre], target: np.ndarray, gamma: complex, run: Run
 ) -> tuple[list[Fibre] | None, PathCounts]:
     """The fibres on another generic slice, or None if a path did not arrive regularly."""
     counts, result = PathCounts(), []
-    moves = move(fibres, source, target, gamma, run)
-    for fibre, ends in zip(fibres, moves, strict=True):
+    for ends in move(fibres, target, gamma, run):
         counts += ends.counts.judged_elsewhere
         if not ends.regular.all():
             return None, counts
-        result.append(ends.fibre(fibre.cut, fibre.dimension, range(len(fibre))))
+        result.append(ends.fibre())
     return result, counts
 
 
@@ -433,5 +428,5 @@ def admit(
     if found is None:
         return False
     cut, z = found
-    fibres.append(Fibre(cut, len(rows), z[None]))
+    fibres.append(Fibre(cut, rows, z[None]))
     return True

@@ -111,22 +111,22 @@ def image(component: WitnessSet, symmetry: SignedPermutation) -> WitnessSet:
     """
     cut = Slice(symmetry.of_point(component.slice.A), component.slice.b)
     points = symmetry.of_point(component.points)
-    fibres = tuple(_image(fibre, symmetry) for fibre in component.fibres)
+    fibres = tuple(_image(fibre, symmetry, cut.rows) for fibre in component.fibres)
     radii = np.abs(symmetry.of_point(component.radii))
     return replace(
         component, slice=cut, points=points, radii=radii, orbit=1, images=(), fibres=fibres
     )
 
 
-def _image(fibre: Fibre, symmetry: SignedPermutation) -> Fibre:
-    """A fibre's points and equations, added unknowns left as they are."""
+def _image(fibre: Fibre, symmetry: SignedPermutation, rows: np.ndarray) -> Fibre:
+    """A fibre on the image ``rows`` of its slice, added unknowns left as they are."""
     n, aux = fibre.cut.n, fibre.cut.aux
     back = symmetry.inverse
     whole = SignedPermutation((*back.sources, *range(n, n + aux)), (*back.signs, *([1] * aux)))
     polynomials = tuple(whole.of_polynomial(f) for f in fibre.cut.polynomials)
     points = np.hstack([symmetry.of_point(fibre.x), fibre.points[:, n:]])
     fine = {i: _image_of_fine(each, symmetry, n) for i, each in fibre.fine.items()}
-    return Fibre(Cut(n, aux, polynomials), fibre.dimension, points, fine)
+    return Fibre(Cut(n, aux, polynomials), rows, points, fine)
 
 
 def _image_of_fine(point: Fine, symmetry: SignedPermutation, n: int) -> Fine:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
@@ -28,7 +28,7 @@ from nag.witness.close_points import BASIN, DIGITS, Fine, distance, rated
 from nag.witness.component_equations import component_fibres, component_system
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import exact_zeros
-from nag.witness.fibres import Fibre, Moved, join_fibres, move
+from nag.witness.fibres import Fibre, PathEnds, join_fibres, move
 from nag.witness.gauss_newton import polish
 from nag.witness.given_component import check_decomposition, in_doubles, rounded
 from nag.witness.slices import padded, rows_through, unit_complex
@@ -53,16 +53,14 @@ def is_member(
     point: np.ndarray,
     accuracy: float,
     fibres: Sequence[Fibre],
-    flag: np.ndarray,
     rng: np.random.Generator,
     run: Run,
     given: Sequence[Number] | None = None,
 ) -> tuple[Membership, PathCounts]:
     """Whether an affine point lies in the closure of the set that ``fibres`` stand for.
 
-    ``fibres`` have one dimension and lie on the leading rows of ``flag``. The slice moves to a
-    generic one through the point; the point is a member exactly when a path ends there
-    (Sommese, Verschelde & Wampler 2001).
+    ``fibres`` lie on one slice. It moves to a generic one through the point; the point is a member
+    exactly when a path ends there (Sommese, Verschelde & Wampler 2001).
 
     Args:
         given: of a point that was asked about, its exact coordinates, none if they are not known;
@@ -70,8 +68,40 @@ def is_member(
             point than this and its own error explain is another one then. None of a point that
             paths led to.
     """
-    ((answer, _),), counts = find_members(point, accuracy, [fibres], flag, rng, run, given)
+    ((answer, _),), counts = find_members(point, accuracy, [fibres], rng, run, given)
     return answer, counts
+
+
+def is_on_larger_set(
+    point: np.ndarray,
+    accuracy: float,
+    sets: Mapping[int, Sequence[Fibre]],
+    dimension: int,
+    rng: np.random.Generator,
+    run: Run,
+) -> tuple[Membership, PathCounts]:
+    """Whether a point lies on one of some sets, by dimension, of more than its own one."""
+    higher = sorted((d for d in sets if d > dimension), reverse=True)
+    return is_on_one_of(point, accuracy, [sets[d] for d in higher], rng, run)
+
+
+def is_on_one_of(
+    point: np.ndarray,
+    accuracy: float,
+    sets: Iterable[Sequence[Fibre]],
+    rng: np.random.Generator,
+    run: Run,
+) -> tuple[Membership, PathCounts]:
+    """Whether a point lies on one of some sets at least; the first is asked that it is on."""
+    whole, counts = Membership.FOREIGN, PathCounts()
+    for fibres in sets:
+        answer, spent = is_member(point, accuracy, fibres, rng, run)
+        counts += spent
+        if answer is Membership.MEMBER:
+            return answer, counts
+        if answer is Membership.UNDECIDED:
+            whole = answer
+    return whole, counts
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -79,7 +109,6 @@ def find_members(
     point: np.ndarray,
     accuracy: float,
     sets: Sequence[Sequence[Fibre]],
-    flag: np.ndarray,
     rng: np.random.Generator,
     run: Run,
     given: Sequence[Number] | None = None,
@@ -100,15 +129,14 @@ def find_members(
         return [(Membership.FOREIGN, False) for _ in sets], counts
     first = together[0][0]
     target = rows_through(rng, first.dimension, point, first.sizes)
-    rows, fibres = (flag[: first.dimension], target), [fibre for fibre, _ in together]
-    gamma = complex(unit_complex(rng))
-    moves = move(fibres, *rows, gamma, run, endgame=True, through=given or ())
-    for ends, (fibre, owners) in zip(moves, together, strict=True):
+    fibres, gamma = [fibre for fibre, _ in together], complex(unit_complex(rng))
+    moves = move(fibres, target, gamma, run, endgame=True, through=given or ())
+    for ends, (_, owners) in zip(moves, together, strict=True):
         counts += ends.counts.judged_elsewhere
         if bounded:
-            ends = _near_ones_rated(point, accuracy, fibre, ends, target)
+            ends = _near_ones_rated(point, accuracy, ends)
         for k in np.unique(owners).tolist():
-            answers[k].add(_among_ends(point, accuracy, fibre, ends, owners == k, target, bounded))
+            answers[k].add(_among_ends(point, accuracy, ends, owners == k, bounded))
     order = Membership.MEMBER, Membership.UNDECIDED, None, Membership.FOREIGN
     words = [next(word for word in order if word in found) for found in answers]
     return [(word or Membership.UNDECIDED, word is None) for word in words], counts
@@ -132,13 +160,7 @@ def _join_by_cut(sets: Sequence[Sequence[Fibre]]) -> list[tuple[Fibre, np.ndarra
 
 
 def _among_ends(
-    point: np.ndarray,
-    accuracy: float,
-    fibre: Fibre,
-    ends: Moved,
-    own: np.ndarray,
-    target: np.ndarray,
-    bounded: bool,
+    point: np.ndarray, accuracy: float, ends: PathEnds, own: np.ndarray, bounded: bool
 ) -> Membership | None:
     """Whether a point is one of a set's ``own`` ends, on a slice through it.
 
@@ -148,9 +170,9 @@ def _among_ends(
     fine = [i for i in ends.fine if own[i]]
     if fine:
         error = accuracy * (1 + float(np.linalg.norm(point)))
-        answers = {_at_end(point, error, fibre, ends, own, i, target, bounded) for i in fine}
+        answers = {_at_end(point, error, ends, own, i, bounded) for i in fine}
     ends = ends.without({*fine, *np.flatnonzero(~own).tolist()})
-    distances = _distances(point, ends, fibre.sizes[1:])[ends.finite]
+    distances = _distances(point, ends, ends.cut.sizes[1:])[ends.finite]
     if Membership.MEMBER in answers or compared(distances, accuracy)[0].any():
         return Membership.MEMBER
     errors = np.maximum(accuracy, ends.accuracy[ends.finite])
@@ -160,39 +182,35 @@ def _among_ends(
     return None if None in answers else Membership.FOREIGN
 
 
-def _distances(point: np.ndarray, ends: Moved, sizes: np.ndarray) -> np.ndarray:
+def _distances(point: np.ndarray, ends: PathEnds, sizes: np.ndarray) -> np.ndarray:
     """Of the ends from a point, relative to its size; infinite for those that are none.
 
     Paths are tracked, and slices rounded, where the coordinates are divided by their ``sizes``.
     """
-    distances = np.full(len(ends.points), np.inf)
-    off = (ends.points[ends.finite, : len(point)] - point) / sizes
+    distances = np.full(len(ends), np.inf)
+    off = (ends.x[ends.finite] - point) / sizes
     distances[ends.finite] = np.linalg.norm(off, axis=1) / (1 + np.linalg.norm(point / sizes))
     return distances
 
 
-def _near_ones_rated(
-    point: np.ndarray, accuracy: float, fibre: Fibre, ends: Moved, rows: np.ndarray
-) -> Moved:
+def _near_ones_rated(point: np.ndarray, accuracy: float, ends: PathEnds) -> PathEnds:
     """The ends with Newton's constant of those that are near to a point, and not at it."""
-    same, doubtful = compared(_distances(point, ends, fibre.sizes[1:]), accuracy)
+    same, doubtful = compared(_distances(point, ends, ends.cut.sizes[1:]), accuracy)
     # Where sizes are unequal, what is little beside the largest may be much for the point.
     away = _distances(point, ends, np.ones(len(point))) > np.maximum(accuracy, ends.accuracy)
     near = ends.regular & (same | doubtful) & away
     fine = dict(ends.fine)
     for i in set(np.flatnonzero(near).tolist()) - fine.keys():
-        fine[i] = rated(fibre.cut.polynomials, rows, Fine.of_doubles(ends.points[i]))
+        fine[i] = rated(ends.cut.polynomials, ends.rows, Fine.of_doubles(ends.points[i]))
     return replace(ends, fine=fine)
 
 
 def _at_end(
     point: np.ndarray,
     error: float,
-    fibre: Fibre,
-    ends: Moved,
+    ends: PathEnds,
     own: np.ndarray,
     i: int,
-    rows: np.ndarray,
     bounded: bool,
 ) -> Membership | None:
     """Whether a point that is off by so much may be an end to which other zeros are close.
@@ -201,22 +219,22 @@ def _at_end(
     unless that is one of the ``own`` ends as well: then the point is on the set at one or the
     other. None if it is an end of another set.
     """
-    end = ends.fine[i]
+    end, cut, x = ends.fine[i], ends.cut, ends.x
     # The slice through a point beside the set meets it so much further off at most.
     if bounded:
         error = max(error, float(ends.accuracy[i]) * (1 + float(np.linalg.norm(point))))
-    reach = SPREAD * error / _angle(fibre.cut, rows, end)
-    gap = float(np.linalg.norm(ends.points[i, : fibre.cut.n] - point))
+    reach = SPREAD * error / _angle(cut, ends.rows, end)
+    gap = float(np.linalg.norm(x[i] - point))
     if gap > reach:
         return Membership.FOREIGN
     apart = (1 + float(np.linalg.norm(point))) / end.curvature
-    beside = _beside(fibre.cut, point) if bounded else np.inf
+    beside = _beside(cut, point) if bounded else np.inf
     if max(gap, beside) < BASIN * apart:
         # The sheet on which the end is is the one beside the point.
         return Membership.MEMBER if beside <= SPREAD * error else Membership.FOREIGN
     if apart > SPREAD * reach:
         return Membership.MEMBER
-    x, beside_end = ends.points[:, : fibre.cut.n], set[bool]()
+    beside_end = set[bool]()
     for j in np.flatnonzero(ends.finite).tolist():
         other = ends.fine.get(j) or (None if ends.regular[j] else Fine.of_doubles(ends.points[j]))
         if j != i and other and distance(x[i], end, x[j], other) < SPREAD * apart:
@@ -387,10 +405,9 @@ def _by_components(
             rows = component.slice.rows
             moving.setdefault((rows.shape, rows.tobytes()), {})[k] = fibres
     for several in moving.values():
-        rows = components[next(iter(several))].slice.rows
         sets = list(several.values())
         accuracy = asked.accuracy(sets[0][0].sizes[1:])
-        each, _ = find_members(point, accuracy, sets, rows, rng, run, exact)
+        each, _ = find_members(point, accuracy, sets, rng, run, exact)
         answers |= zip(several, each, strict=True)
     if not answers:
         return (), ()
@@ -444,9 +461,8 @@ def _at_isolated(
         fibres = component_fibres(system, isolated)
     except ValueError:
         return Membership.UNDECIDED
-    rows = isolated.slice.rows
     for fibre in fibres:
-        polynomials = fibre.cut.polynomials
+        polynomials, rows = fibre.cut.polynomials, fibre.rows
         zeros = [fibre.fine.get(i) or Fine.of_doubles(x) for i, x in enumerate(fibre.points)]
         apart = min(size / rated(polynomials, rows, zero).curvature for zero in zeros)
         if apart < SPREAD * float(errors.max()):

@@ -83,23 +83,20 @@ class Arrival:
 
 def arrival(
     fibres: Sequence[Fibre],
-    rows: np.ndarray,
     target: np.ndarray,
     rng: np.random.Generator,
     run: Run,
     endgame: bool = True,
 ) -> Arrival:
-    """What becomes of fibres when the slice moves from ``rows`` to ``target``."""
-    if not len(rows):
-        return Arrival([sharpened(fibre, target) for fibre in fibres], 0, 0)
+    """What becomes of fibres when their slice moves to ``target``."""
+    if not len(target):
+        return Arrival([sharpened(fibre) for fibre in fibres], 0, 0)
     found, infinite, irregular = [], 0, 0
     gamma = complex(unit_complex(rng))
-    moves = move(fibres, rows, target, gamma, run, endgame=endgame)
-    for fibre, ends in zip(fibres, moves, strict=True):
+    for ends in move(fibres, target, gamma, run, endgame=endgame):
         infinite += ends.counts.at_infinity
         irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
-        there = ends.fibre(fibre.cut, fibre.dimension, np.flatnonzero(ends.regular))
-        found.append(sharpened(there, target))
+        found.append(sharpened(ends.fibre(np.flatnonzero(ends.regular))))
     return Arrival(found, infinite, irregular)
 
 
@@ -154,7 +151,7 @@ def witness_at(
     here = carry_component(component, natural, own)
     fibres, rows = component_fibres(own, here), natural.rows(goal)
     evaluator = Evaluator.of(own.polynomials, own.n)
-    there = arrival(fibres, here.slice.rows, rows, rng, run)
+    there = arrival(fibres, rows, rng, run)
     found = [each.only(in_order(each.fibre.points)) for each in there.sharp]
     points = np.vstack([each.fibre.x for each in found])
     residual = float(evaluator.residuals(points).max(initial=0.0))

@@ -50,7 +50,6 @@ def multiplicity_at(
     point: np.ndarray,
     accuracy: float,
     fibres: Sequence[Fibre],
-    rows: np.ndarray,
     rng: np.random.Generator,
     run: Run,
 ) -> int | None:
@@ -59,24 +58,23 @@ def multiplicity_at(
     Args:
         point: complex, affine, shape ``(n,)``.
         accuracy: relative error of the point.
-        fibres: the set's points on the slice ``rows``.
+        fibres: the set's points on a slice.
 
     Returns:
         None if it could not be decided.
     """
     fibres = [fibre for fibre in fibres if len(fibre)]
-    dimension = len(rows)
+    dimension = fibres[0].dimension if fibres else 0
     if dimension == 0:
         ends = [(fibre.x, np.ones(len(fibre), dtype=bool)) for fibre in fibres]
         return _come_together(point, accuracy, ends)
     target = rows_through(rng, dimension, point, fibres[0].sizes)
     ends = []
     gamma = complex(unit_complex(rng))
-    moves = move(fibres, rows, target, gamma, run, endgame=True)
-    for fibre, moved in zip(fibres, moves, strict=True):
-        if moved.failed.any():
+    for there in move(fibres, target, gamma, run, endgame=True):
+        if there.failed.any():
             return None
-        ends.append((moved.points[moved.finite, : fibre.cut.n], moved.regular[moved.finite]))
+        ends.append((there.x[there.finite], there.regular[there.finite]))
     return _come_together(point, accuracy, ends)
 
 

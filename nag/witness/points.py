@@ -46,8 +46,9 @@ class Points:
     known: ExactPoints | None = None
 
     @classmethod
-    def of(cls, fibres: Sequence[Fibre], rows: np.ndarray, close: float = CLOSE) -> Points:
+    def of(cls, fibres: Sequence[Fibre], close: float = CLOSE) -> Points:
         """The points of fibres, in their order; those that are ``close`` in many digits."""
+        rows = fibres[0].rows
         which = [k for k, fibre in enumerate(fibres) for _ in range(len(fibre))]
         z = [z for fibre in fibres for z in fibre.points]
         fine, first = {}, 0
@@ -116,8 +117,7 @@ class Points:
     @property
     def sizes(self) -> np.ndarray:
         """Sizes of the homogeneous coordinates ``(1, x)`` of the sets, shape ``(1 + n,)``."""
-        powers = self.cuts[0].powers[: self.n] if self.cuts else np.zeros(self.n, dtype=int)
-        return np.ldexp(1.0, np.concatenate([[0], powers]))
+        return self.cuts[0].sizes if self.cuts else np.ones(1 + self.n)
 
     def fibres(self, indices: Sequence[int]) -> list[tuple[Fibre, np.ndarray]]:
         """The points of given indices by their cuts, with the indices of those of each."""
@@ -128,7 +128,7 @@ class Points:
             own = indices[which[indices] == k]
             if len(own):
                 points = np.array([self.z[i] for i in own])
-                found.append((Fibre(cut, self.dimension, points, chosen(self.fine, own)), own))
+                found.append((Fibre(cut, self.rows, points, chosen(self.fine, own)), own))
         return found
 
     def only(self, indices: Sequence[int]) -> Points:
@@ -143,7 +143,7 @@ class Points:
         if self.known is not None:
             return self.known
         fibres = self.fibres(range(len(self)))
-        parts = [exact_points(fibre, self.rows, FEWEST) for fibre, _ in fibres]
+        parts = [exact_points(fibre, FEWEST) for fibre, _ in fibres]
         order = np.concatenate([own for _, own in fibres])
         return together(parts).only(np.argsort(order))
 
@@ -154,11 +154,11 @@ class Points:
         return Points(self.rows, cuts, (*self.which, cuts.index(cut)), (*self.z, z), known)
 
 
-def with_fine(fibres: Sequence[Fibre], rows: np.ndarray, close: float = CLOSE) -> list[Fibre]:
+def with_fine(fibres: Sequence[Fibre], close: float = CLOSE) -> list[Fibre]:
     """Fibres on a common slice with more digits of all points that are close to others."""
     if not close_pairs(np.vstack([fibre.x for fibre in fibres]), close):
         return list(fibres)
-    points = Points.of(fibres, rows, close)
+    points = Points.of(fibres, close)
     return [fibre for fibre, _ in points.fibres(range(len(points)))]
 
 
@@ -174,7 +174,7 @@ def move_points(
     found: dict[int, tuple[np.ndarray, Fine | None]] = {}
     parts = points.fibres(indices)
     fibres, sizes = [fibre for fibre, _ in parts], points.sizes
-    moves = move(fibres, points.rows, target, gamma, run, sizes=sizes)
+    moves = move(fibres, target, gamma, run, sizes=sizes)
     for there, (_, own) in zip(moves, parts, strict=True):
         counts += there.counts.judged_elsewhere
         for k in np.flatnonzero(there.regular).tolist():

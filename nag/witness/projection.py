@@ -162,7 +162,7 @@ def project(
     fibres = component_fibres(system, component)
     d = component.dimension
     r = _image_dimension(fibres[0], chosen)
-    found = [_pseudo_witness(fibres, component, chosen, r, rng, run) for _ in range(SLICES)]
+    found = [_pseudo_witness(fibres, chosen, r, rng, run) for _ in range(SLICES)]
     degrees = {numbers for numbers, *_ in found}
     if len(degrees) > 1:
         raise ProjectionError("the numbers of points differ between two slices")
@@ -175,17 +175,15 @@ def project(
 
 def _pseudo_witness(
     fibres: Sequence[Fibre],
-    component: WitnessSet,
     coordinates: Sequence[int],
     r: int,
     rng: np.random.Generator,
     run: Run,
 ) -> tuple[tuple[int, int], np.ndarray, Arrival]:
     """Degrees of the image and of the fibre, the slice's rows, and the points on it."""
-    rows, d = component.slice.rows, component.dimension
-    sizes = fibres[0].sizes
+    sizes, d = fibres[0].sizes, fibres[0].dimension
     target = _special_rows(rng, sizes, coordinates, r, d - r)
-    there = arrival(fibres, rows, target, rng, run)
+    there = arrival(fibres, target, rng, run)
     # Finite points of a generic slice are regular (Bertini's theorem).
     if there.irregular or not there.accuracy < SHARP:
         raise ProjectionError("paths failed; the component may not be irreducible")

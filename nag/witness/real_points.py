@@ -136,7 +136,7 @@ def real_points_near(
             zeros += 1
             if coincident(known, x, pull if pull < ALMOST else 0.0).any():
                 continue
-            answer, _ = is_member(x + 0j, LEAST, fibres, component.slice.rows, rng, run)
+            answer, _ = is_member(x + 0j, LEAST, fibres, rng, run)
             undecided += answer is Membership.UNDECIDED
             if answer is Membership.MEMBER:
                 known = np.vstack([known, x])

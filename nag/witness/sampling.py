@@ -124,7 +124,7 @@ def sample(
     evaluator = Evaluator.of(system.polynomials, system.n)
     points, radii = np.zeros((count, system.n), dtype=complex), np.zeros((count, system.n))
     for k in range(count):
-        _, there = at_random(fibres, component.slice.rows, rng, run)
+        there = at_random(fibres, rng, run)
         x = there.x
         if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON):
             some = _samples(evaluator, points[:k], radii[:k], natural)
@@ -133,18 +133,16 @@ def sample(
     return _samples(evaluator, points, radii, natural)
 
 
-def at_random(
-    fibres: Sequence[Fibre], rows: np.ndarray, rng: np.random.Generator, run: Run
-) -> tuple[np.ndarray, Arrival]:
-    """A random slice, and what became of a random point of the fibres on its way there."""
+def at_random(fibres: Sequence[Fibre], rng: np.random.Generator, run: Run) -> Arrival:
+    """What became of a random point of the fibres on its way to a random slice."""
     chosen = int(rng.integers(sum(map(len, fibres))))
     for fibre in fibres:
         if chosen < len(fibre):
             break
         chosen -= len(fibre)
     one = fibre.only(np.arange(len(fibre)) == chosen)
-    target = random_rows(rng, len(rows), fibre.cut.n) / fibre.sizes
-    return target, arrival([one], rows, target, rng, run, endgame=False)
+    target = random_rows(rng, fibre.dimension, fibre.cut.n) / fibre.sizes
+    return arrival([one], target, rng, run, endgame=False)
 
 
 def _samples(

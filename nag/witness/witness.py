@@ -146,7 +146,8 @@ class WitnessSet:
         object.__setattr__(self, "status", Status(self.status))
         if self.multidegree is not None:
             object.__setattr__(self, "multidegree", fixed_array(self.multidegree, int))
-        object.__setattr__(self, "fibres", tuple(fibre.fixed for fibre in self.fibres))
+        rows = fixed_array(self.slice.rows)
+        object.__setattr__(self, "fibres", tuple(fibre.fixed_on(rows) for fibre in self.fibres))
 
     @property
     def dimension(self) -> int:
