@@ -22,6 +22,10 @@ True
 2
 
 Each name says more: ``help(nag.decompose)``. `nag.decomposition` has more to do with components.
+
+Where to add something: a type of joint in `nag.mechanism`, a start system in `nag.solving.start`, a
+method of decomposition in `nag.decomposition`, a command in `nag.cli`; the docstring of each says
+how, and in which order to read its files.
 """
 
 from importlib import import_module
@@ -55,7 +59,7 @@ _HOME = {
     "Solution": "nag.solving.solutions",
     "Status": "nag.witness.witness",
     "WitnessSet": "nag.witness.witness",
-    "decompose": "nag.interface.decompose",
+    "decompose": "nag.mechanism.problem",
     "local_dimension": "nag.numerics.local_dimension",
     "gruebler_kutzbach": "nag.mechanism.loops",
     "mobility": "nag.mechanism.mobility_at",
@@ -63,7 +67,7 @@ _HOME = {
     "read_case": "nag.files.cases",
     "read_decomposition": "nag.files.export",
     "read_solutions": "nag.files.solutions_export",
-    "solve": "nag.interface.solve",
+    "solve": "nag.mechanism.problem",
     "system": "nag.algebra.from_python",
     "write_decomposition": "nag.files.export",
     "write_solutions": "nag.files.solutions_export",

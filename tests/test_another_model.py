@@ -16,7 +16,8 @@ from nag.cli import main
 from nag.mechanism.framework import placed_framework
 from nag.mechanism.framework_model import framework_model
 from nag.mechanism.linkage import Link, Linkage, LinkageModel, linkage_model, pin_model
-from nag.mechanism.parts_coordinates import another_model
+from nag.mechanism.other_equations import other_equations
+from nag.mechanism.problem import problem_of
 
 F = Fraction
 
@@ -59,7 +60,7 @@ def test_turns_and_pins_are_the_same_assembly_exactly(seed: int) -> None:
     made, places, point = assembled_linkage(STEPHENSON, "ground", seed)
     assert not any(made.system(point))
     pins = pin_model(made)
-    at = pins.at(point)
+    at = pins.places_at(point)
     assert at == tuple(x for p in pins.pins for x in places[p])
     assert not any(pins.system(at))
 
@@ -84,21 +85,21 @@ def test_the_mirror_image_of_a_plate_is_no_assembly() -> None:
 )
 def test_pins_and_turns_have_components_of_the_same_degrees(name: str) -> None:
     parts = nag.read_case(CASES / "planar" / f"{name}.toml").assembly
-    other = another_model(parts)
-    assert other is not None and other.alike == "degrees"
+    other = next(other_equations(problem_of(parts)))
+    assert other.alike == "degrees"
     kinds = [
         Counter((c.dimension, c.degree) for c in components_of(p.system).components)
-        for p in (parts, other.parts)
+        for p in (parts, other.problem.parts)
     ]
     assert kinds[0] == kinds[1]
 
 
 def test_another_triangle_in_space_has_as_many_components() -> None:
     parts = nag.read_case(CASES / "spatial" / "octahedron-plane-symmetric.toml").assembly
-    other = another_model(parts)
-    assert other is not None and set(other.parts.pinned) != set(parts.pinned)
-    assert not any(other.parts.system(other.parts.reference))
-    reports = [nag.mobility(p) for p in (parts, other.parts)]
+    other = next(other_equations(problem_of(parts)))
+    assert set(other.problem.parts.pinned) != set(parts.pinned)
+    assert not any(other.problem.system(other.problem.reference))
+    reports = [nag.mobility(p) for p in (parts, other.problem.parts)]
     assert reports[0].same_motion(reports[1], "counts")
 
 
@@ -122,7 +123,7 @@ def test_one_triangle_in_space_leaves_no_second_frame(tmp_path, capsys) -> None:
     places = {"A": (0, 0, 0), "B": (1, 0, 0), "C": (0, 1, 0), "D": (1, 1, 1), "E": (2, 0, 2)}
     bars = [("A", "B"), ("A", "C"), ("B", "C"), ("C", "D"), ("D", "E"), ("E", "B")]
     exact = {name: tuple(map(F, place)) for name, place in places.items()}
-    assert another_model(framework_model(placed_framework(3, exact, bars))) is None
+    assert not list(other_equations(problem_of(framework_model(placed_framework(3, exact, bars)))))
     file = tmp_path / "one.toml"
     file.write_text(
         'kind = "framework"\ntitle = "t"\ndimension = 3\n'

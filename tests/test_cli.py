@@ -11,7 +11,6 @@ import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
@@ -74,9 +73,7 @@ class Engine:
 @pytest.fixture
 def engine(monkeypatch) -> Engine:
     fake = Engine()
-    module = ModuleType("nag.decomposition.components")
-    module.decompose = fake.decompose
-    monkeypatch.setitem(sys.modules, module.__name__, module)
+    monkeypatch.setattr("nag.decomposition.components.decompose", fake.decompose)
     monkeypatch.setattr("nag.witness.membership.components_through", fake.components_through)
     return fake
 

@@ -8,11 +8,10 @@ from linkages import case
 from systems import system
 
 from nag.algebra.symmetry import SignedPermutation
-from nag.decomposition.components import METHODS, decompose
+from nag.decomposition.components import decompose
 from nag.decomposition.independent_parts import independent_variables
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import model
-from nag.report.answer import METHODS as METHODS_IN_WORDS
 
 
 def kinds(answer) -> Counter:
@@ -86,7 +85,3 @@ def test_answers_name_the_method_that_made_them(equations, method):
     names = "xyzuv" if "v" in "".join(equations) else "xyzu" if "u" in "".join(equations) else "xyz"
     answer = decompose(system(" ".join(names), *equations))
     assert answer.complete and answer.method == method
-
-
-def test_every_method_is_told_in_words():
-    assert list(METHODS_IN_WORDS) == [each.__name__ for each in METHODS]

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
-from nag.interface.solve import solve
+from nag.mechanism.problem import solve
 from nag.solving.start.interchange import Interchange
 from nag.solving.start.target import Target
 from nag.solving.start.total_degree import Shape, total_degree

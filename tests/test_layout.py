@@ -27,7 +27,6 @@ ORDER = (
     "symbolic",
     "check",
     "report",
-    "interface",
     "bench",
     "cli",
 )

@@ -14,9 +14,10 @@ from solved import components_of
 
 import nag
 from nag.decomposition.components import decompose
-from nag.mechanism.coordinates import euler_decomposition
+from nag.mechanism.coordinates import carry_to_euler
 from nag.mechanism.graph import Body, Joint, Mechanism
 from nag.mechanism.model import ModelError, formulations, model
+from nag.mechanism.problem import problem_of
 from nag.mechanism.quaternion import norm_squared, rotate
 from nag.mechanism.rods import RodModel
 
@@ -139,7 +140,7 @@ def test_every_formulation_leads_to_the_same_components_in_euler_parameters(name
     for formulation in others:
         m = model(mechanism, formulation)
         answer = components_of(m.system)
-        _, carried = euler_decomposition(m, answer)
+        _, carried = carry_to_euler(problem_of(m), answer)
         assert carried.complete
         counts: Counter = Counter()
         for c in carried.components:
@@ -256,7 +257,7 @@ def test_a_rod_of_length_zero_is_a_spherical_joint(name: str) -> None:
 def test_components_with_rods_of_length_zero_are_those_of_euler_parameters(name: str) -> None:
     mechanism = Mechanism("base", tuple(ZERO_RODS[name][0]))
     m = model(mechanism, "S")
-    _, carried = euler_decomposition(m, decompose(m.system))
+    _, carried = carry_to_euler(problem_of(m), decompose(m.system))
     assert carried.complete
     found = Counter({(c.dimension, c.degree, c.multiplicity): 0 for c in carried.components})
     for c in carried.components:

@@ -71,7 +71,6 @@ def test_names_are_what_their_modules_define_after_these_are_loaded(package: str
         "nag.check",
         "nag.decomposition",
         "nag.files",
-        "nag.interface",
         "nag.machine_code",
         "nag.mechanism",
         "nag.numerics",

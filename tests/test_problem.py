@@ -10,8 +10,9 @@ from typing import Any
 import pytest
 
 import nag
+from nag.mechanism.coordinates import carry_to_euler
 from nag.mechanism.linkage import pin_model
-from nag.mechanism.problem import FormulationError, Problem, carry_to_euler, problem_of
+from nag.mechanism.problem import FormulationError, Problem, problem_of
 
 CASES = Path(__file__).parent.parent / "cases"
 

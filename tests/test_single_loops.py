@@ -7,9 +7,10 @@ from linkages import exact, kinds
 from solved import answer, modelled
 
 from nag.decomposition.components import decompose
-from nag.mechanism.coordinates import euler_decomposition
+from nag.mechanism.coordinates import carry_to_euler
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.model import model
+from nag.mechanism.problem import problem_of
 
 # Those that Euler parameters decompose within two seconds, of the general loops the smaller one.
 # Tables are in tests/test_table_formulations.py.
@@ -26,7 +27,7 @@ LOOPS = [
 def test_half_angles_and_euler_parameters_agree(name: str) -> None:
     joint = modelled(name, "H")
     assert joint is not None
-    _, carried = euler_decomposition(joint, answer(name, "H"))
+    _, carried = carry_to_euler(problem_of(joint), answer(name, "H"))
     assert kinds(carried) == kinds(answer(name, "E"))
 
 
@@ -39,7 +40,7 @@ def test_a_component_is_carried_over_by_a_point_that_is_not_far_away() -> None:
     )
     joint = model(Mechanism("B0", joints), "H")
     for seed in range(3):
-        _, carried = euler_decomposition(joint, decompose(joint.system, seed=seed))
+        _, carried = carry_to_euler(problem_of(joint), decompose(joint.system, seed=seed))
         assert kinds(carried) == {(1, 32, 1): 1}
 
 

@@ -2,7 +2,10 @@
 
 Each command has ``add_arguments(parser)`` and ``run(options)``, which turns the options into a call
 and hands back an `Answer`; starting, telling, writing and printing is done by `running`. Nothing
-imports this package.
+imports this package. `witness_input` is what the commands that work with components begin with.
+
+To add a command, write such a file and enter it in `command_line.COMMANDS`; the schema of what it
+exports, if it does, goes to the folder `nag/files/schema`.
 
 The way of ``nag decompose cases/bennett.toml`` from the command to the table leads through
 `cli/command_line`, `cli/decompose`, `cli/arguments`; `files/cases`, `files/mechanism_case`;

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
 from nag.errors import NagError
-from nag.mechanism.formulation_names import FORMULATIONS
+from nag.mechanism import FORMULATIONS
 
 if TYPE_CHECKING:
     from nag.files.cases import Case

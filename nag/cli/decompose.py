@@ -144,7 +144,7 @@ def _decompose(arguments: argparse.Namespace, problem: Problem) -> tuple[Problem
     decomposition = problem.decompose(**options)
     if arguments.coordinates != "euler" or problem.formulation is None:
         return problem, decomposition
-    from nag.mechanism.problem import carry_to_euler
+    from nag.mechanism.coordinates import carry_to_euler
 
     return carry_to_euler(problem, decomposition, threads=arguments.threads)
 

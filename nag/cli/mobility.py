@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from nag.algebra.number import Number
     from nag.files.cases import Case
     from nag.mechanism.mobility_report import Alike, MobilityReport
-    from nag.mechanism.problem import OtherEquations, Problem
+    from nag.mechanism.other_equations import OtherEquations
+    from nag.mechanism.problem import Problem
 
 FORMAT = "nag-mobility"
 
@@ -60,7 +61,7 @@ def run(options: argparse.Namespace) -> Answer:
     at = None if options.at is None else point_at(options.at, problem.system.variables)
     other, comparable = None, problem is not None
     if options.check and problem is not None:
-        from nag.mechanism.problem import other_equations
+        from nag.mechanism.other_equations import other_equations
 
         other = next(other_equations(problem, at), None)
         comparable = other is not None or (problem.mechanism is not None and at is None)

@@ -7,8 +7,7 @@ import argparse
 from nag.cli.arguments import UsageError, add_case, add_certify, add_running, read_problem
 from nag.cli.certify import proof_asked_for
 from nag.cli.running import Answer, as_chosen, name_case, run_row
-
-STARTS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy", "parameter")
+from nag.solving.start import KINDS
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_certify(parser)
     parser.add_argument(
         "--start",
-        choices=STARTS,
+        choices=(*KINDS, "parameter"),
         default="auto",
         help="start system (default: auto, parameter where the case has a [family] whose number of "
         "solutions is known, else the one with the least work)",
@@ -29,17 +28,11 @@ def run(options: argparse.Namespace) -> Answer:
     """All isolated solutions of a case."""
     from nag.errors import StartError
     from nag.files.solutions_export import document
-    from nag.interface.solve import solve
     from nag.report.solutions import solution_lines
 
     case, problem = read_problem(options)
     try:
-        result = solve(
-            problem,
-            start=options.start,
-            **as_chosen(options),
-            progress=options.progress,
-        )
+        result = problem.solve(start=options.start, **as_chosen(options), progress=options.progress)
     except StartError as error:
         raise UsageError(f"{options.case}: {error}") from None
     return Answer(

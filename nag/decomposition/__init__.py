@@ -12,6 +12,10 @@ cut by a slice at once) and `superset` (equation by equation) on `hypersurface` 
 points are on, `singular_points` (on `rank_drop` and `linear_hull`) where a component is singular,
 `singular_members` and `sweep` what parameters change, `curve_genus` by `branch_points` the genus.
 
+To add a method of decomposition, write a file whose function makes a `method.Attempt` of a
+`method.Task`, and put it, with the sentence that is printed of it, in `components.METHODS` at the
+place where it is asked.
+
 What decides, beside the errors of points, stands in `nag.thresholds`.
 
 What can be done with components, beside what they can do themselves (`nag.WitnessSet`):

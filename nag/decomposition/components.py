@@ -16,7 +16,7 @@ from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.independent_parts import decompose_parts
-from nag.decomposition.method import Attempt, Others, Task, decompose_by
+from nag.decomposition.method import Attempt, Method, Others, Task, decompose_by
 from nag.decomposition.one_equation import decompose_one_equation
 from nag.decomposition.rational_curve import decompose_rational_curve
 from nag.numerics.system_facts import SystemFacts
@@ -67,7 +67,7 @@ def decompose(
     check_listed(symmetries, "symmetries", "a list of nag.SignedPermutation")
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
-    return decompose_by(METHODS, Task(SystemFacts(system), tuple(symmetries), run))
+    return decompose_by(tuple(METHODS), Task(SystemFacts(system), tuple(symmetries), run))
 
 
 def by_variables(task: Task, others: Others) -> Attempt:
@@ -115,13 +115,19 @@ def one_by_one(task: Task, _: Others) -> Attempt:
     return Attempt(decompose_several(task))
 
 
-# In the order in which they are asked; `Decomposition.method` names the one that answered.
-METHODS = (
-    by_variables,
-    by_branches,
-    one_equation,
-    rational_curve,
-    section_at_once,
-    all_at_once,
-    one_by_one,
+ONE_EQUATION = (
+    "exact linear algebra leaves one equation: its factors over the complex numbers are the "
+    "components"
 )
+# In the order in which they are asked, and what is printed of each; `Decomposition.method` names
+# the one that answered.
+METHODS: dict[Method, str] = {
+    by_variables: "equations that share no variables are decomposed apart; the components are "
+    "products",
+    by_branches: "the equations have factors, or few zeros: what they leave is decomposed apart",
+    one_equation: ONE_EQUATION,
+    rational_curve: "a curve that polynomials in one variable give, exactly",
+    section_at_once: "cut by a slice all at once, which has as many points as its mixed volume",
+    all_at_once: "a finite set, solved all at once",
+    one_by_one: "the equations are intersected one by one",
+}

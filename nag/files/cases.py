@@ -32,7 +32,7 @@ from nag.files.case_table import (
     read_toml,
     with_values,
 )
-from nag.mechanism.formulation_names import FORMULATIONS
+from nag.mechanism import FORMULATIONS
 
 if TYPE_CHECKING:
     from nag.algebra.symmetric_family import FamilyMember

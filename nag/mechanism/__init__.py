@@ -1,15 +1,27 @@
 """Mechanisms: bodies and joints, and the smallest polynomial systems that model them.
 
 Read in this order: `graph` on `joint_types` (the data), `networkx_graph`;
-`axes`, `quaternion` (vectors, turns); `loops` (what can move); `formulations` (by
-`formulation_names`) and `model` (the choice, by `path_estimates`); the formulations `planar`,
+`axes`, `quaternion` (vectors, turns); `loops` (what can move); `formulations` (each in
+`FORMULATIONS`) and `model` (the choice, by `path_estimates`); the formulations `planar`,
 `euler`, and `half_angles` and `rods` on `joint_factors` and `loop_product`; `assembly_modes`,
-`mode_classes` and `mode_decomposition`; `configuration`, `projection` and `coordinates` (from one
-formulation to another), and `unreduced` (all constraints, for checks).
+`mode_classes` and `mode_decomposition`; `configuration` (all bodies), and `unreduced` (all
+constraints, for checks).
 Other ways to give one are `framework` (with `framework_model`, `isotropic` and
 `framework_decomposition`), `dh` (with `dh_euler`) and `linkage`, on `assembly` and
-`real_assemblies`; `parts_coordinates` is what each of their coordinates would cost, and what others
-must agree with. `problem` is what all of these come down to, and cases and equations with them.
+`real_assemblies`; `parts_coordinates` is what each of their coordinates would cost. `problem` is
+what all of these come down to, and cases and equations with them, and what `nag.decompose` and
+`nag.solve` ask; `coordinates` carries its components over to Euler parameters, `other_equations`
+are those that must say the same.
 `mobility_at` with `mobility_report` and `bonds` says how one moves; `shown` is what is seen at the
 prompt.
+
+To add a type of joint, write its record in `joint_types`: all formulations, case files, graphs and
+tables read it from there. A new kind of factor has its generators and letters in `joint_factors`.
 """
+
+# Names of the formulations, for whoever must not load them.
+FORMULATIONS = {
+    "E": "Euler parameters, in the plane a cosine and a sine for each body",
+    "H": "half-angles, slides and quaternions of the joints",
+    "S": "rods between spherical joints as distances, free bodies in Study coordinates",
+}

@@ -23,7 +23,7 @@ class AssemblyModel:
         reason: one sentence: what was made of the parts.
         space: in which the parts move.
         gruebler_kutzbach: the mobility that counting predicts.
-        described: what the equations are, as text.
+        formulation_text: what the equations are, as text.
         formulation: its name, where parts have formulations and not only coordinates.
         freedoms_left_out: freedoms that every assembly has besides, and whose they are.
         zero_links: which links have length zero.
@@ -34,12 +34,12 @@ class AssemblyModel:
     """
 
     system: PolynomialSystem
-    reference: tuple[Number, ...] | None
-    symmetries: tuple[SignedPermutation, ...]
+    reference: tuple[Number, ...] | None = None
+    symmetries: tuple[SignedPermutation, ...] = ()
     reason: str
     space: Space
     gruebler_kutzbach: int
-    described: str
+    formulation_text: str
     formulation: str | None = None
     freedoms_left_out: tuple[tuple[int, str], ...] = ()
     zero_links: tuple[str, ...] = ()

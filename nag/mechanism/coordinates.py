@@ -1,4 +1,4 @@
-"""A decomposition in joint coordinates, carried over to Euler parameters.
+"""Components in joint coordinates, carried over to Euler parameters.
 
 One configuration has as many points in Euler parameters as there are sign changes of them, so that
 a component in half-angles is an orbit of components there, each a covering of it. The witness
@@ -7,76 +7,67 @@ point that is smallest there leads on; loops and the trace find those of the com
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from nag.algebra.symmetry import SignedPermutation
-from nag.algebra.system import PolynomialSystem
 from nag.decomposition.given_points import best_lifted, components_through_points
+from nag.mechanism.dh_euler import dh_euler_model
 from nag.mechanism.model import Model, model
+from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.rods import RodModel
 from nag.witness.witness import Decomposition, Status
 
 
-def euler_decomposition(
-    source: Model, decomposition: Decomposition, *, threads: int = 1
-) -> tuple[Model, Decomposition]:
-    """The model in Euler parameters and its components, from those in other coordinates.
+def carry_to_euler(
+    problem: Problem, decomposition: Decomposition, *, threads: int = 1
+) -> tuple[Problem, Decomposition]:
+    """A problem in Euler parameters and its components, from those in its own formulation.
 
     Complete if the given decomposition is and every component was found and confirmed. Degrees and
     multiplicities are those in Euler parameters (and slides that these do not determine).
 
     Args:
-        source: the model that was decomposed.
+        problem: of a mechanism, or of a table by Denavit and Hartenberg.
         decomposition: its components, all of them or one of each orbit.
         threads: for path tracking.
     """
-    target = model(source.mechanism, "E", source.modes, source.space)
-    reason = f"{source.reason}; carried over from formulation {source.formulation}"
-    target = replace(target, reason=f"{reason} to the bodies' Euler parameters")
-    spins = source.form.spins if isinstance(source.form, RodModel) else 0
-    starts = []
-    for component in decomposition.components:
-        point = best_lifted(component, lambda x: target.project(source.lift(x)))
-        starts.append((component.dimension + spins, point))
-    return target, carry_components_over(
-        decomposition, target.system, target.symmetries, starts, threads
-    )
-
-
-def carry_components_over(
-    decomposition: Decomposition,
-    system: PolynomialSystem,
-    symmetries: Sequence[SignedPermutation],
-    starts: Sequence[tuple[int, np.ndarray]],
-    threads: int,
-) -> Decomposition:
-    """Components in other coordinates, each through a point that a component was lifted to.
-
-    Complete if the given decomposition is and every component was found and confirmed.
-
-    Args:
-        system: the equations in the other coordinates; symmetries: theirs.
-        starts: for each component its dimension there and the point.
-    """
+    if problem.formulation == "E":
+        return problem, decomposition
+    target, lift, spins = _in_euler_parameters(problem)
+    starts = [(c.dimension + spins, best_lifted(c, lift)) for c in decomposition.components]
     notes = [
         f"a component of dimension {component.dimension} is undecided"
         for component in decomposition.components
         if component.status is not Status.IRREDUCIBLE
     ]
     answer = components_through_points(
-        system,
+        target.system,
         starts,
         seed=decomposition.seed,
         threads=threads,
         settings=decomposition.settings,
-        symmetries=symmetries,
+        symmetries=target.symmetries,
     )
-    return replace(
+    return target, replace(
         answer,
         paths=decomposition.paths + answer.paths,
         complete=decomposition.complete and answer.complete and not notes,
         notes=(*decomposition.notes, *notes, *answer.notes),
     )
+
+
+def _in_euler_parameters(
+    problem: Problem,
+) -> tuple[Problem, Callable[[np.ndarray], np.ndarray], int]:
+    """The problem, where its points go, and how many freedoms it has besides."""
+    source = problem.model
+    if not isinstance(source, Model):
+        table = dh_euler_model(source.loop)  # type: ignore[union-attr]
+        return problem_of(table), lambda x: table.of_half_angles(source, x), 0  # type: ignore[arg-type]
+    made = model(source.mechanism, "E", source.modes, source.space)
+    reason = f"{source.reason}; carried over from formulation {source.formulation}"
+    target = replace(made, reason=f"{reason} to the bodies' Euler parameters")
+    spins = source.form.spins if isinstance(source.form, RodModel) else 0
+    return problem_of(target), lambda x: target.project(source.lift(x)), spins

@@ -108,9 +108,32 @@ class DHLoop:
         return tuple(i for i, row in enumerate(self.rows) if row.theta is None)
 
 
+class TableModel(AssemblyModel):
+    """All ways to close a table with open angles, in whatever formulation.
+
+    Attributes:
+        loop: the table.
+    """
+
+    loop: DHLoop
+
+    space = "spatial"
+    solution = "closing"
+
+    @property
+    def formulation_text(self) -> str:
+        """What the equations are, as text."""
+        return f"formulation {self.formulation} of the closed table"
+
+    @property
+    def gruebler_kutzbach(self) -> int:
+        """The mobility that counting predicts."""
+        return len(self.loop.open) - 6
+
+
 @dataclass(frozen=True)
-class DHModel(AssemblyModel):
-    """All ways to close a table with open angles.
+class DHModel(TableModel):
+    """All ways to close a table, by the half-angles of its open joints.
 
     Attributes:
         loop: the table.
@@ -124,17 +147,7 @@ class DHModel(AssemblyModel):
     charts: Charts
     system: PolynomialSystem
 
-    reference = None
-    symmetries = ()
-    space = "spatial"
     formulation = "H"
-    described = "formulation H of the closed table"
-    solution = "closing"
-
-    @property
-    def gruebler_kutzbach(self) -> int:
-        """The mobility that counting predicts."""
-        return len(self.loop.open) - 6
 
     @property
     def reason(self) -> str:

@@ -21,11 +21,8 @@ from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.given_points import best_lifted
-from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.configuration import arithmetic_of, as_entries
-from nag.mechanism.coordinates import carry_components_over
-from nag.mechanism.dh import DHError, DHLoop, DHModel, dh_model, open_joints
+from nag.mechanism.dh import DHError, DHLoop, DHModel, TableModel, dh_model, open_joints
 from nag.mechanism.formulations import Alternative
 from nag.mechanism.quaternion import (
     DualQuaternion,
@@ -37,14 +34,13 @@ from nag.mechanism.quaternion import (
     scale,
     translation,
 )
-from nag.witness.witness import Decomposition
 
 ZERO, ONE = Fraction(0), Fraction(1)
 _IDENTITY: Quaternion = (ONE, ZERO, ZERO, ZERO)
 
 
 @dataclass(frozen=True)
-class DHEulerModel(AssemblyModel):
+class DHEulerModel(TableModel):
     """All ways to close a table, by the Euler parameters of the bodies between its open joints.
 
     Attributes:
@@ -63,16 +59,7 @@ class DHEulerModel(AssemblyModel):
     system: PolynomialSystem
     symmetries: tuple[SignedPermutation, ...]
 
-    reference = None
-    space = "spatial"
     formulation = "E"
-    described = "formulation E of the closed table"
-    solution = "closing"
-
-    @property
-    def gruebler_kutzbach(self) -> int:
-        """The mobility that counting predicts."""
-        return len(self.loop.open) - 6
 
     @property
     def points_of_each(self) -> int:
@@ -171,22 +158,4 @@ def table_alternatives(loop: DHLoop) -> tuple[Alternative, ...]:
     return tuple(
         Alternative(name, table_model(loop, name))  # type: ignore[arg-type]
         for name in FORMULATIONS
-    )
-
-
-def euler_closings(
-    source: DHModel, closings: Decomposition, *, threads: int = 1
-) -> tuple[DHEulerModel, Decomposition]:
-    """A table in Euler parameters and its components, from those in half-angles.
-
-    A component in half-angles is an orbit of components there, each a covering of it, which one
-    lifted point of it leads to (as in `nag.mechanism.coordinates`).
-    """
-    target = dh_euler_model(source.loop)
-    starts = []
-    for component in closings.components:
-        point = best_lifted(component, lambda x: target.of_half_angles(source, x))
-        starts.append((component.dimension, point))
-    return target, carry_components_over(
-        closings, target.system, target.symmetries, starts, threads
     )

@@ -74,6 +74,11 @@ class EulerModel:
         }
         return configuration(structure, euler, arithmetic, slides)
 
+    def project(self, placed: Configuration) -> tuple[Any, ...]:
+        """The coordinates of a configuration; the signs of Euler parameters are taken as given."""
+        entries = [x for body in self.structure.moving for x in placed.euler[body]]
+        return project_onto(self.structure, self.elimination, placed, entries)
+
 
 def euler_model(
     structure: LoopStructure, spherical: bool = False, modes: Modes = REFERENCE
@@ -306,3 +311,43 @@ def _is_symmetry(system: PolynomialSystem, signs: Sequence[int]) -> bool:
     return all(
         len({sum(e[i] for i in flipped) % 2 for e in f.terms}) == 1 for f in system.polynomials
     )
+
+
+def project_onto(
+    structure: LoopStructure, elimination: Elimination, placed: Configuration, turns: Sequence[Any]
+) -> tuple[Any, ...]:
+    """The point of a system, linear equations solved away, that a configuration is.
+
+    Args:
+        turns: the coordinates of the bodies' turns; those of slides are worked out.
+    """
+    entries = list(turns)
+    arithmetic = arithmetic_of(entries)
+    for joint in structure.joints:
+        if slide_directions(joint):
+            entries += _distances(structure, joint, placed, arithmetic)
+    return tuple(elimination.project(entries))
+
+
+def turn_from_reference(
+    structure: LoopStructure, body: str, placed: Configuration, arithmetic: Arithmetic
+) -> Sequence[Any]:
+    """The turn of a body from the reference configuration."""
+    reference = [arithmetic.convert(x) for x in structure.mechanism.orientation(body)]
+    return multiply(placed.euler[body], conjugate(reference))
+
+
+def _distances(
+    structure: LoopStructure, joint: Joint, placed: Configuration, arithmetic: Arithmetic
+) -> list[Any]:
+    """How far a joint has slid along each of its directions."""
+    point = [arithmetic.convert(x) for x in joint.point]
+    carrier = slide_carrier(structure, joint)
+    turns = {b: turn_from_reference(structure, b, placed, arithmetic) for b in joint.bodies}
+    at = {
+        b: [r + x for r, x in zip(placed.position[b], rotate(turns[b], point), strict=True)]
+        for b in joint.bodies
+    }
+    gap = rotate(conjugate(turns[carrier]), difference(at[joint.other(carrier)], at[carrier]))
+    directions = ([arithmetic.convert(x) for x in u] for u in slide_directions(joint))
+    return [dot(gap, u) / dot(u, u) for u in directions]

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import FEWEST_LOOPS
 from nag.errors import MechanismError
+from nag.mechanism import FORMULATIONS
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space
 from nag.mechanism.euler import EulerModel, euler_model
-from nag.mechanism.formulation_names import FORMULATIONS
 from nag.mechanism.graph import Joint
 from nag.mechanism.half_angles import HalfAngleModel, half_angle_model
 from nag.mechanism.loops import LoopStructure

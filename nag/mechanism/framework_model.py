@@ -52,7 +52,7 @@ class FrameworkModel(AssemblyModel):
     smaller: FrameworkModel | None = None
     instead: tuple[str, int] | None = None
 
-    described = "of a framework"
+    formulation_text = "of a framework"
     solution = "realisation"
     counted_up_to = " up to motions"
 

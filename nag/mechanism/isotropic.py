@@ -17,6 +17,7 @@ from typing import Any
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.framework import Framework
+from nag.mechanism.loops import minimum_cycles
 
 # Equations of longer loops have too many terms.
 LONGEST_LOOP = 7
@@ -77,18 +78,9 @@ def _excluding(framework: Framework, loops: Sequence[Sequence[str]]) -> list[tup
 
 def bar_loops(framework: Framework) -> list[tuple[str, ...]]:
     """A minimum cycle basis of the bars, shorter loops first, each as its points in order."""
-    import networkx
-
-    index = {p: i for i, p in enumerate(framework.points)}
-    graph: networkx.Graph = networkx.Graph()
-    graph.add_edges_from((index[a], index[b]) for a, b in framework.bars)
-    loops = []
     # Numbers, not names, so that their order does not depend on hashes.
-    for nodes in networkx.minimum_cycle_basis(graph):
-        ring = [min(nodes)]
-        while len(ring) < len(nodes):
-            ring.append(min(v for v in graph[ring[-1]] if v in nodes and v not in ring))
-        loops.append(tuple(ring))
+    index = {p: i for i, p in enumerate(framework.points)}
+    loops = minimum_cycles((index[a], index[b]) for a, b in framework.bars)
     loops.sort(key=lambda ring: (len(ring), ring))
     return [tuple(framework.points[i] for i in ring) for ring in loops]
 

@@ -25,6 +25,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
 from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.loops import minimum_cycles
 
 Place = tuple[Number, Number]
 
@@ -131,10 +132,8 @@ class LinkageModel(AssemblyModel):
     system: PolynomialSystem
     in_loops: tuple[Link, ...]
 
-    reference = None
-    symmetries = ()
     space = "planar"
-    described = "of a linkage"
+    formulation_text = "of a linkage"
 
     @property
     def gruebler_kutzbach(self) -> int:
@@ -211,16 +210,10 @@ def _is_joined(pin: str, link: Link, links: Sequence[Link]) -> bool:
 
 def _loops(links: Sequence[Link]) -> list[list[tuple[Link, str, str]]]:
     """A minimum cycle basis of the graph of links and pins; each link from one pin to another."""
-    import networkx
-
-    graph: networkx.Graph = networkx.Graph()
-    for link in links:
-        for pin in link.pins:
-            graph.add_edge(("link", link.name), ("pin", pin))
     by_name = {link.name: link for link in links}
     loops = []
-    for nodes in networkx.minimum_cycle_basis(graph):
-        ring = _order_ring(graph.subgraph(nodes), sorted(nodes)[0])
+    edges = ((("link", link.name), ("pin", pin)) for link in links for pin in link.pins)
+    for ring in minimum_cycles(edges):
         loop = []
         for i, (kind, name) in enumerate(ring):
             if kind == "link":
@@ -230,52 +223,25 @@ def _loops(links: Sequence[Link]) -> list[list[tuple[Link, str, str]]]:
     return sorted(loops, key=lambda loop: [(link.name, a, b) for link, a, b in loop])
 
 
-def _order_ring(ring: Any, start: tuple[str, str]) -> list[tuple[str, str]]:
-    """The nodes of a minimum cycle, one after the other."""
-    order = [start]
-    while len(order) < len(ring):
-        last = order[-1]
-        order.append(next(v for v in sorted(ring[last]) if v not in order))
-    return order
-
-
 @dataclass(frozen=True)
-class PinModel(AssemblyModel):
-    """All assemblies of a linkage as the places of its pins.
+class PinModel(LinkageModel):
+    """The same as the places of the pins.
 
     Attributes:
-        turns: the same linkage by its links' turns.
-        pins: those that are not on the held link, in the order of the variables.
         system: a distance for each moving link, and two equations for each further pin.
+        pins: those that are not on the held link, in the order of the variables.
     """
 
-    turns: LinkageModel
     pins: tuple[str, ...]
-    system: PolynomialSystem
-
-    reference = None
-    symmetries = ()
-    space = "planar"
-    described = "of a linkage"
-
-    @property
-    def gruebler_kutzbach(self) -> int:
-        """The mobility that counting predicts."""
-        return self.turns.gruebler_kutzbach
-
-    @property
-    def freedoms_left_out(self) -> tuple[tuple[int, str], ...]:
-        """The turns of links that close nothing."""
-        return self.turns.freedoms_left_out
 
     @property
     def reason(self) -> str:
         """One sentence: what was made of the linkage."""
-        return f"planar linkage of {len(self.turns.linkage.links)} links by the places of its pins"
+        return f"planar linkage of {len(self.linkage.links)} links by the places of its pins"
 
-    def at(self, point: Sequence[Number]) -> tuple[Number, ...]:
+    def places_at(self, point: Sequence[Number]) -> tuple[Number, ...]:
         """The places of the pins where the moving links have these cosines and sines."""
-        held, *moving = self.turns.in_loops
+        held, *moving = self.in_loops
         turn: dict[str, tuple[Any, Any]] = {held.name: (1, 0)}
         turn |= {k.name: (point[2 * i], point[2 * i + 1]) for i, k in enumerate(moving)}
         places: dict[str, tuple[Any, Any]] = dict(zip(held.pins, held.shape, strict=True))
@@ -304,7 +270,8 @@ def pin_model(turns: LinkageModel) -> PinModel:
     places |= {pin: (x[2 * i], x[2 * i + 1]) for i, pin in enumerate(pins)}
     equations = [f for link in moving for f in _rigid(link, places)]
     names = tuple(f"{letter}_{pin}" for pin in pins for letter in "xy")
-    return PinModel(turns, pins, PolynomialSystem(names, tuple(equations)))
+    system = PolynomialSystem(names, tuple(equations))
+    return PinModel(turns.linkage, turns.loops, turns.free, system, turns.in_loops, pins)
 
 
 def _rigid(link: Link, places: dict[str, tuple[Polynomial, Polynomial]]) -> list[Polynomial]:

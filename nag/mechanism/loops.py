@@ -9,16 +9,13 @@ components. In half-angles a planar triangle's equation factors, so that exact a
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TypeVar
 
 from nag.mechanism.axes import space_of
 from nag.mechanism.graph import Body, Joint, Mechanism, check_mechanism
-
-if TYPE_CHECKING:
-    import networkx
 
 
 @dataclass(frozen=True)
@@ -182,7 +179,9 @@ def loop_structure(mechanism: Mechanism) -> LoopStructure:
     distance = _distances(mechanism)
     base = min((b for b in mechanism.body_names if b in looped), key=lambda b: distance[b])
     moving = tuple(b for b in mechanism.body_names if b in looped and b != base)
-    loops = _cycle_basis(kept)
+    # As many joints as bodies, none of them dangling: they are one loop.
+    one = len(kept) == len(looped)
+    loops = (_order_loop(list(kept)),) if one else _loops_of(minimum_cycles(_edges(kept)), kept)
     return LoopStructure(mechanism, groups, base, moving, kept, left_out, loops, bridges)
 
 
@@ -197,7 +196,7 @@ def loop_bases(structure: LoopStructure) -> Iterator[tuple[Loop, ...]]:
     yield structure.loops
     import networkx
 
-    graph = _bipartite(structure.joints)
+    graph = networkx.Graph(_edges(structure.joints))
     for body in (structure.base, *structure.moving):
         yield _loops_of(networkx.cycle_basis(graph, ("body", body)), structure.joints)
 
@@ -221,7 +220,7 @@ def _bridges(joints: Sequence[Joint]) -> set[str]:
         return set()
     import networkx
 
-    edges = networkx.bridges(_bipartite(tuple(joints)))
+    edges = networkx.bridges(networkx.Graph(_edges(joints)))
     return {name for edge in edges for kind, name in edge if kind == "joint"}
 
 
@@ -236,25 +235,30 @@ def _distances(mechanism: Mechanism) -> dict[str, int]:
     return distance
 
 
-def _cycle_basis(joints: tuple[Joint, ...]) -> tuple[Loop, ...]:
-    """Minimum cycle basis of a multigraph."""
-    if len(joints) == len({b for j in joints for b in j.bodies}):
-        # As many joints as bodies, none of them dangling: they are one loop.
-        return (_order_loop(list(joints)),)
+Node = TypeVar("Node")
+
+
+def minimum_cycles(edges: Iterable[tuple[Node, Node]]) -> list[list[Node]]:
+    """A minimum cycle basis of a graph, the nodes of each cycle one after the other.
+
+    Each begins with its least node and goes on to its least neighbour. Which of several minimum
+    bases is taken follows the hashes of the nodes: numbers have the same ones in every run.
+    """
     import networkx
 
-    return _loops_of(networkx.minimum_cycle_basis(_bipartite(joints)), joints)
+    graph: networkx.Graph = networkx.Graph(edges)
+    cycles = []
+    for nodes in networkx.minimum_cycle_basis(graph):
+        cycle = [min(nodes)]
+        while len(cycle) < len(nodes):
+            cycle.append(min(v for v in graph[cycle[-1]] if v in nodes and v not in cycle))
+        cycles.append(cycle)
+    return cycles
 
 
-def _bipartite(joints: tuple[Joint, ...]) -> networkx.Graph:
+def _edges(joints: Iterable[Joint]) -> list[tuple[tuple[str, str], tuple[str, str]]]:
     """A simple graph in which a joint is a node of its own."""
-    import networkx
-
-    graph: networkx.Graph = networkx.Graph()
-    for joint in joints:
-        for body in joint.bodies:
-            graph.add_edge(("body", body), ("joint", joint.name))
-    return graph
+    return [(("body", body), ("joint", joint.name)) for joint in joints for body in joint.bodies]
 
 
 def _loops_of(

@@ -207,7 +207,7 @@ def _count_freedoms(problem: Problem) -> dict[str, Any]:
     return {
         "space": problem.space,
         "gruebler_kutzbach": made.gruebler_kutzbach,
-        "formulation": made.described,
+        "formulation": made.formulation_text,
         "variables": problem.system.n,
         "equations": len(problem.system.polynomials),
         "free": problem.free,

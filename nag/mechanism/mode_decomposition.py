@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from nag.algebra.exact_ranks import rank
 from nag.decomposition.components import decompose
 from nag.decomposition.intersection import intersect_components
-from nag.mechanism.coordinates import euler_decomposition
+from nag.mechanism.coordinates import carry_to_euler
 from nag.mechanism.euler import mode_conditions
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.mode_classes import ModeClass, mode_classes
 from nag.mechanism.model import Model, ModelError, model, with_loops
+from nag.mechanism.problem import problem_of
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition
@@ -90,7 +91,8 @@ def decompose_modes(
             symmetries=chosen.symmetries,
         )
         if coordinates == "euler" and chosen.formulation != "E":
-            chosen, answer = euler_decomposition(chosen, answer, threads=run.threads)
+            problem, answer = carry_to_euler(problem_of(chosen), answer, threads=run.threads)
+            chosen = problem.mechanism
         answers.append(ClassAnswer(each, chosen, answer))
     return ModesAnswer(
         structure,

@@ -12,11 +12,11 @@ from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
+from nag.mechanism import FORMULATIONS
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space, same_line, space_of, zero_length
 from nag.mechanism.configuration import Configuration
 from nag.mechanism.euler import EulerModel
-from nag.mechanism.formulation_names import FORMULATIONS
 from nag.mechanism.formulations import (
     Alternative,
     Form,
@@ -32,7 +32,6 @@ from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
 from nag.mechanism.path_estimates import path_bound
 from nag.mechanism.planar import PlanarModel
-from nag.mechanism.projection import project_configuration
 from nag.mechanism.rods import RodModel
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
 from nag.text.table import counted, one_line
@@ -96,7 +95,7 @@ class Model:
         """
         if not isinstance(self.form, EulerModel | PlanarModel):
             raise NagError(f"formulation {self.formulation} has no coordinates of bodies")
-        return project_configuration(self.form, configuration)
+        return self.form.project(configuration)
 
     @cached_property
     def unreduced(self) -> PolynomialSystem:
@@ -118,7 +117,7 @@ class Model:
         return gruebler_kutzbach(self.mechanism)
 
     @property
-    def described(self) -> str:
+    def formulation_text(self) -> str:
         """What the equations are, as text."""
         return f"formulation {self.formulation}"
 

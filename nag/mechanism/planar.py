@@ -34,7 +34,13 @@ from nag.mechanism.configuration import (
     as_entries,
     configuration,
 )
-from nag.mechanism.euler import slide_carrier, slide_names, without_slides
+from nag.mechanism.euler import (
+    project_onto,
+    slide_carrier,
+    slide_names,
+    turn_from_reference,
+    without_slides,
+)
 from nag.mechanism.graph import Joint
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import Quaternion, multiply
@@ -90,6 +96,21 @@ class PlanarModel:
             sign = 1 if slide_carrier(self.structure, joint) == joint.bodies[0] else -1
             slides[joint.name] = tuple(convert(x) * distance * sign for x in direction(joint.axis))
         return configuration(self.structure, euler, arithmetic, slides)
+
+    def project(self, placed: Configuration) -> tuple[Any, ...]:
+        """The coordinates of a configuration; (c, s) know no signs of Euler parameters."""
+        moving = self.structure.moving
+        arithmetic = arithmetic_of([x for body in moving for x in placed.euler[body]])
+        turns = [x for body in moving for x in self._turn(body, placed, arithmetic)]
+        return project_onto(self.structure, self.elimination, placed, turns)
+
+    def _turn(self, body: str, placed: Configuration, arithmetic: Arithmetic) -> Turn:
+        normal = [arithmetic.convert(x) for x in self.normal]
+        squared = dot(normal, normal)
+        half = turn_from_reference(self.structure, body, placed, arithmetic)
+        s = dot(half[1:], normal) / squared
+        turn = half[0] * half[0] - squared * (s * s), 2 * half[0] * s
+        return _compose(turn, tuple(arithmetic.convert(x) for x in self.offsets[body]), squared)
 
 
 def planar_model(structure: LoopStructure) -> PlanarModel:

@@ -2,22 +2,22 @@
 
 Equations, mechanisms, their models, parts that may be assembled, tables by Denavit and Hartenberg
 and cases of all of these come down to a `Problem`. What solves, decomposes, moves or reports one
-asks the problem, and never again what it was given as.
+asks the problem, and never again what it was given as. `nag.decompose` and `nag.solve` take
+whatever describes one; `nag.decomposition` and `nag.solving` take systems only.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.from_python import system as system_of_equations
-from nag.algebra.given import is_a
+from nag.algebra.given import check_listed, is_a
 from nag.algebra.number import Number
-from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import NamedPoint, PolynomialSystem
-from nag.errors import NagError
+from nag.errors import NagError, StartError
 from nag.mechanism.assembly import AssemblyModel
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from nag.algebra.symmetric_family import FamilyMember
     from nag.mechanism.axes import Space
     from nag.mechanism.configuration import Configuration
-    from nag.mechanism.mobility_report import Alike
     from nag.mechanism.model import Model
+    from nag.solving.solutions import SolveResult
     from nag.witness.witness import Decomposition
 
 
@@ -130,6 +130,25 @@ class Problem:
 
         return decompose(self.system, run=run, symmetries=used)
 
+    @takes_run
+    def solve(self, *, start: str = "auto", run: Run = DEFAULT_RUN) -> SolveResult:
+        """The isolated solutions of the system, as `nag.solve` gives them.
+
+        Args:
+            start: as for `nag.solve`.
+            run: how it is worked out; ``seed=1`` and the like stand for a run.
+        """
+        family = self.family
+        if start == "parameter" or (start == "auto" and family and family.solutions):
+            from nag.solving.parameter import solve_member
+
+            if family is None:
+                raise StartError("parameter: the system has no [family]; leave out start")
+            return solve_member(self.system, family, exact_first=start == "auto", run=run)
+        from nag.solving.solve import solve as solve_system
+
+        return solve_system(self.system, start=start, run=run)
+
 
 def problem_of(given: Any, variables: Any = None, *, formulation: str = "auto") -> Problem:
     """The problem that a mechanism, a model, parts, a case, a system or equations describe.
@@ -223,23 +242,6 @@ def _of_parts(parts: AssemblyModel, formulation: str) -> Problem:
     return Problem(parts.system, tuple(parts.symmetries), known, model=parts)
 
 
-def carry_to_euler(
-    problem: Problem, decomposition: Decomposition, *, threads: int = 1
-) -> tuple[Problem, Decomposition]:
-    """A problem in Euler parameters and its components, from those in its own formulation."""
-    if problem.formulation == "E":
-        return problem, decomposition
-    if problem.mechanism is not None:
-        from nag.mechanism.coordinates import euler_decomposition
-
-        made, carried = euler_decomposition(problem.mechanism, decomposition, threads=threads)
-        return problem_of(made), carried
-    from nag.mechanism.dh_euler import euler_closings
-
-    parts, carried = euler_closings(problem.model, decomposition, threads=threads)  # type: ignore[arg-type]
-    return problem_of(parts), carried
-
-
 def in_real_coordinates(problem: Problem) -> Problem:
     """The same in coordinates in which a real configuration has real coordinates."""
     if not is_a(problem.model, "nag.mechanism.framework_model", "FrameworkModel"):
@@ -249,53 +251,113 @@ def in_real_coordinates(problem: Problem) -> Problem:
     return problem_of(cartesian_model(problem.model.framework))  # type: ignore[union-attr]
 
 
-@dataclass(frozen=True)
-class OtherEquations:
-    """A problem in other equations, to compare what both say.
+@takes_run
+def decompose(
+    system: Any,
+    variables: Any = None,
+    *,
+    run: Run = DEFAULT_RUN,
+    symmetries: Iterable[Any] | None = None,
+) -> Decomposition:
+    """The irreducible components over the complex numbers of what satisfies the equations.
 
-    Attributes:
-        name: of its formulation or its coordinates.
-        problem: in them.
-        at: the configuration in its variables; None if none was given.
-        alike: what of the components is the same in both.
-    """
-
-    name: str
-    problem: Problem
-    at: tuple[Number, ...] | None
-    alike: Alike
-
-
-def other_equations(
-    problem: Problem, at: Sequence[Number] | None = None
-) -> Iterator[OtherEquations]:
-    """Other equations of the same mechanism or parts: formulations, or coordinates.
+    Equations that factor are decomposed apart, the others intersected one by one (u-generation:
+    Duff, Leykin & Rodriguez 2022); points are split by monodromy, and components confirmed by the
+    trace test (Sommese, Verschelde & Wampler 2001, 2002).
 
     Args:
-        at: a configuration in the variables of the problem; where it cannot be carried over, there
-            are none.
+        system: a `nag.Mechanism`, a `nag.model`, a `nag.Case`, a `nag.PolynomialSystem`, or
+            equations as `nag.system` takes them: texts, sympy's expressions, one or a list.
+        variables: of equations, their names in order; see `nag.system`.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        symmetries: signed permutations of the variables that keep the equations, each a
+            `nag.SignedPermutation`, a dict ``{"x": "-x", "y": "z", "z": "y"}`` or a sign for each
+            variable. Of the components that they carry into each other one is reported, with the
+            size of its orbit. By default those that the model or the case has; ``()`` for none.
+
+    Returns:
+        The components, by falling dimension, as witness sets: points of shape ``(degree, n)``.
+        Of a mechanism they live in the variables of ``nag.model(mechanism).system``.
+
+    Raises:
+        nag.mechanism.model.ModelError: if a mechanism has no loop.
+        nag.algebra.symmetry.SymmetryError: if a symmetry does not keep the equations.
+        ValueError: if another argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> answer = nag.decompose(["(x^2 + y^2 - 1)*(x - y)^2"])
+    >>> [(c.dimension, c.degree, c.multiplicity) for c in answer.components]
+    [(1, 1, 2), (1, 2, 1)]
     """
-    if problem.mechanism is not None:
-        yield from () if at is not None else _other_formulations(problem.mechanism)
-    elif problem.formulation == "H":
-        other = problem_of(problem, formulation="E")
-        there = None if at is None else tuple(other.model.of_half_angles(problem.model, at))  # type: ignore[union-attr]
-        yield OtherEquations("formulation E", other, there, "dimensions")
-    elif problem.parts is not None:
-        from nag.mechanism.parts_coordinates import another_model
-
-        another = another_model(problem.parts, at)
-        if another is not None:
-            there = another.at
-            yield OtherEquations(another.name, problem_of(another.parts), there, another.alike)
+    problem = problem_of(system, variables)
+    kept = read_symmetries(symmetries, problem)
+    try:
+        return problem.decompose(run=run, symmetries=kept)
+    except SymmetryError as error:
+        raise SymmetryError(f"symmetries: {error}") from None
 
 
-def _other_formulations(made: Model) -> Iterator[OtherEquations]:
-    from nag.mechanism.formulation_names import FORMULATIONS
-    from nag.mechanism.model import ModelError
+def read_symmetries(given: Iterable[Any] | None, problem: Problem) -> tuple[SignedPermutation, ...]:
+    """Symmetries given as signed permutations, as maps of names, or as signs of the variables.
 
-    for name in FORMULATIONS:
-        if name != made.formulation:
-            with suppress(ModelError):
-                other = problem_of(made.mechanism, formulation=name)
-                yield OtherEquations(f"formulation {name}", other, None, "dimensions")
+    Raises:
+        SymmetryError: if one is none.
+    """
+    if given is None:
+        return problem.symmetries
+    check_listed(given, "symmetries", "a list of them: [{'x': '-x'}, ...]")
+    found = []
+    for i, item in enumerate(given):
+        try:
+            if isinstance(item, SignedPermutation):
+                found.append(item)
+            elif isinstance(item, Mapping):
+                texts = {str(name): str(image) for name, image in item.items()}
+                found.append(SignedPermutation.of_map(texts, problem.system.variables))
+            elif isinstance(item, Iterable) and not isinstance(item, str):
+                found.append(SignedPermutation.of_signs(tuple(int(sign) for sign in item)))
+            else:
+                raise SymmetryError("give a dict like {'x': '-x'}, or a sign for each variable")
+        except (TypeError, ValueError) as error:
+            raise SymmetryError(f"symmetries[{i}]: {error}") from None
+    return tuple(found)
+
+
+@takes_run
+def solve(
+    system: Any,
+    variables: Any = None,
+    *,
+    start: str = "auto",
+    run: Run = DEFAULT_RUN,
+) -> SolveResult:
+    """All isolated solutions of equations, each once, with their multiplicities.
+
+    Equations that factor are solved apart; what comes down to one variable, or to two equations in
+    two of few solutions, is solved exactly; else one path is tracked for each solution of a start
+    system (Sommese & Wampler 2005, chapters 7 and 8). Of a case with a ``[family]`` whose
+    number of solutions is known, they are as many as the family has.
+
+    Args:
+        system: equations as `nag.system` takes them (texts, sympy's expressions, one or a list), a
+            `nag.PolynomialSystem`, a `nag.Case`, or a mechanism or its model.
+        variables: of equations, their names in order; see `nag.system`.
+        start: ``"auto"`` (the family's solutions where their number is known, else the least
+            work), ``"total"``, ``"multihomogeneous"``, ``"polyhedral"``, ``"monodromy"``, or
+            ``"parameter"`` for loops of the parameters of a case's family.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+
+    Returns:
+        The solutions; ``.points`` has shape ``(k, n)``, ``.real`` are the real ones.
+
+    Raises:
+        nag.StartError: if there would be too many paths, or ``"parameter"``
+            is asked for and there is no family.
+        ValueError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> answer = nag.solve(["x^2 + y^2 - 1", "x - y"])
+    >>> [[round(float(z.real), 6) for z in s.point] for s in answer.real]
+    [[-0.707107, -0.707107], [0.707107, 0.707107]]
+    """
+    return problem_of(system, variables).solve(start=start, run=run)

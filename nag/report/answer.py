@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from nag.algebra.number import number_text
 from nag.algebra.system import system_line
+from nag.decomposition.components import METHODS, ONE_EQUATION
 from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
@@ -23,27 +24,11 @@ if TYPE_CHECKING:
     from nag.mechanism.problem import Problem
 
 
-ONE_EQUATION = (
-    "exact linear algebra leaves one equation: its factors over the complex numbers are the "
-    "components"
-)
-# What each of `nag.decomposition.components.METHODS` does.
-METHODS = {
-    "by_variables": "equations that share no variables are decomposed apart; the components are "
-    "products",
-    "by_branches": "the equations have factors, or few zeros: what they leave is decomposed apart",
-    "one_equation": ONE_EQUATION,
-    "rational_curve": "a curve that polynomials in one variable give, exactly",
-    "section_at_once": "cut by a slice all at once, which has as many points as its mixed volume",
-    "all_at_once": "a finite set, solved all at once",
-    "one_by_one": "the equations are intersected one by one",
-}
-
-
 def _method_rows(decomposition: Decomposition) -> list[tuple[str, str]]:
-    if decomposition.method not in METHODS:
+    texts = {method.__name__: text for method, text in METHODS.items()}
+    if decomposition.method not in texts:
         return []
-    text = METHODS[decomposition.method]
+    text = texts[decomposition.method]
     if not decomposition.paths.tracked:
         text += "; by algebra alone, without paths"
     return [("method", text)]

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from nag.errors import NagError, StartError
+from nag.solving.start import KINDS
 from nag.solving.start.multihomogeneous import (
     MOST_TERMS,
     Groups,
@@ -18,7 +19,6 @@ from nag.solving.start.target import Start, Target, group_degrees
 from nag.solving.start.total_degree import Shape, bezout, total_degree
 from nag.tracking.known import Known
 
-KINDS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy")
 # So few paths are tracked in less time than another start system takes to be found.
 FEW = 64
 # A start system of the target's monomials is itself found by a path a solution; paths to infinity,

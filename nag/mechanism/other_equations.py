@@ -1,0 +1,91 @@
+"""Other equations of the same problem, to compare what both say: formulations, or coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+from nag.algebra.number import Number
+from nag.mechanism import FORMULATIONS
+from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.framework_model import (
+    FrameworkModel,
+    cartesian_model,
+    in_isotropic_coordinates,
+    pin_differently,
+)
+from nag.mechanism.linkage import LinkageModel, pin_model
+from nag.mechanism.mobility_report import Alike
+from nag.mechanism.model import ModelError
+from nag.mechanism.problem import Problem, problem_of
+
+
+@dataclass(frozen=True)
+class OtherEquations:
+    """A problem in other equations.
+
+    Attributes:
+        name: of its formulation or its coordinates.
+        problem: in them.
+        at: the configuration in its variables; None if none was given.
+        alike: what of the components is the same in both.
+    """
+
+    name: str
+    problem: Problem
+    at: tuple[Number, ...] | None
+    alike: Alike
+
+
+def other_equations(
+    problem: Problem, at: Sequence[Number] | None = None
+) -> Iterator[OtherEquations]:
+    """Other equations of the same mechanism or parts.
+
+    Args:
+        at: a configuration in the variables of the problem; where it cannot be carried over, there
+            are none.
+    """
+    made = problem.mechanism
+    if made is not None:
+        for name in FORMULATIONS if at is None else ():
+            if name != made.formulation:
+                with suppress(ModelError):
+                    other = problem_of(made.mechanism, formulation=name)
+                    yield OtherEquations(f"formulation {name}", other, None, "dimensions")
+    elif problem.formulation == "H":
+        other = problem_of(problem, formulation="E")
+        there = None if at is None else tuple(other.model.of_half_angles(problem.model, at))  # type: ignore[union-attr]
+        yield OtherEquations("formulation E", other, there, "dimensions")
+    elif problem.parts is not None:
+        yield from _other_coordinates(problem.parts, at)
+
+
+def _other_coordinates(
+    parts: AssemblyModel, at: Sequence[Number] | None
+) -> Iterator[OtherEquations]:
+    """Other coordinates of a linkage or a framework.
+
+    A linkage that was given by its links' turns is taken by the places of its pins. A framework in
+    the plane is taken in x and y without isotropic coordinates, or with them where it had none; in
+    space another triangle is pinned.
+    """
+    if isinstance(parts, LinkageModel):
+        pins = pin_model(parts)
+        there = None if at is None else pins.places_at(at)
+        yield OtherEquations("pins", problem_of(pins), there, "degrees")
+    if not isinstance(parts, FrameworkModel):
+        return
+    here = None if at is None else tuple(at)
+    if parts.coordinates.startswith("z"):
+        plain = replace(cartesian_model(parts.framework), smaller=None)
+        yield OtherEquations("coordinates (x, y)", problem_of(plain), here, "counts")
+    elif parts.smaller is not None:
+        plain = problem_of(replace(parts, smaller=None))
+        yield OtherEquations("coordinates (x, y)", plain, here, "degrees")
+    elif parts.coordinates == "xy" and (other := in_isotropic_coordinates(parts)) is not None:
+        yield OtherEquations("isotropic coordinates", problem_of(other), here, "degrees")
+    elif at is None and (pinned := pin_differently(parts)) is not None:
+        name = f"{'-'.join(pinned.pinned)} pinned"
+        yield OtherEquations(name, problem_of(pinned), None, "counts")
