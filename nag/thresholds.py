@@ -373,7 +373,8 @@ Other values of these give the same answers, sooner or later: sizes of steps and
 rounding, digits that are taken, where random numbers come from.
 
 algebra.evaluation: HUGE; algebra.number: LARGEST_ANGLE; numerics.certified_points: FLAT, LEAST;
-numerics.close_zeros: ROUNDING; numerics.curves: CLOSE, CLOSER, PATIENCE;
+numerics.ball_boxes: EXPANDING; numerics.close_zeros: ROUNDING; numerics.curves: CLOSE, CLOSER,
+PATIENCE;
 numerics.deflated_system: MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK;
 numerics.digits: LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION,
 ROUNDING, FIRST, LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function:

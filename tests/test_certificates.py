@@ -27,7 +27,8 @@ from nag.files.export import write_decomposition
 from nag.files.json_schema import schema
 from nag.files.solutions_export import read_solutions, write_solutions
 from nag.mechanism.model import model
-from nag.numerics.certified_points import Proof, certify_points
+from nag.numerics.ball_boxes import BallOperator
+from nag.numerics.certified_points import Proof, certify_points, certify_regular_points
 from nag.numerics.discs import DiscPolynomials, Discs, product
 from nag.numerics.krawczyk import boxes_in_doubles, find_overlaps, prove_boxes, tell_real_zeros
 from nag.numerics.point_claims import zero_digits
@@ -137,6 +138,20 @@ def test_multiple_zeros_are_not_proved_simple() -> None:
     equations = [(x - y) ** 2, x + y - 2]
     found = prove_boxes(equations, NO_SLICE, np.ones((1, 2), dtype=complex), np.array([1e-6]))
     assert not found.proved.any()
+
+
+def test_points_on_a_curve_are_seen_at_once_to_have_no_box(monkeypatch) -> None:
+    images = []
+    image = BallOperator.image
+    monkeypatch.setattr(BallOperator, "image", lambda *given: images.append(given) or image(*given))
+    # Each of the points is cut by two of three equations, and by none of these pairs regularly.
+    curve = [f * (x**2 + y**2 - 2) for f in (x - y, x - 3, y + 5)]
+    angles = np.arange(1, 17)
+    points = 2**0.5 * np.stack([np.cos(angles), np.sin(angles)], axis=1).astype(complex)
+    found = certify_regular_points(curve, NO_SLICE, points, np.full(16, 1e-15))
+    assert not found.boxes.proved.any()
+    # A test or two in each of three precisions.
+    assert len(images) <= 2 * 3 * len(points)
 
 
 def test_points_at_one_zero_are_seen_to_be_one() -> None:

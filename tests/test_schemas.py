@@ -115,9 +115,9 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, int], l
     folder = tmp_path_factory.mktemp("written")
     found: dict[tuple[str, int], list[Any]] = {}
 
-    def ask(*words: str, quiet: bool = True) -> str:
+    def ask(*words: str, running: bool = True) -> str:
         target = folder / f"{len(list(folder.iterdir()))}.json"
-        rest = ["--quiet", "--threads", "1"] if quiet else []
+        rest = ["--quiet", *(["--threads", "1"] if running else [])]
         assert main([*words, *rest, "--json", str(target)]) in (0, 1)
         content = json.loads(target.read_text())
         found.setdefault((content["format"], content["version"]), []).append(content)
@@ -142,8 +142,8 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, int], l
     ask("local", whole)
     ask("mobility", linkage, "--curves", "--check")
     ask("decompose", str(CASES / "bennett.toml"), "--modes", "all")
-    ask("certify", export, "--paths", quiet=False)
-    ask("certify", solved, "--paths", quiet=False)
+    ask("certify", export, "--paths", running=False)
+    ask("certify", solved, "--paths", running=False)
     found["nag-decomposition", 2].append(json.loads(json.dumps(document(nag.decompose(SHEETS)))))
     return found
 

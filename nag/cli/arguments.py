@@ -114,6 +114,11 @@ def add_tracking(parser: argparse.ArgumentParser) -> None:
         default="default",
         help="how carefully paths are tracked (default: default)",
     )
+    add_quiet(parser)
+
+
+def add_quiet(parser: argparse.ArgumentParser) -> None:
+    """The option of the commands that may take long."""
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
 
 

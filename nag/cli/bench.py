@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from nag.cli import bench_decompose, bench_models
-from nag.cli.arguments import UsageError, problem_of_case, read_case_file, whole
+from nag.cli.arguments import UsageError, add_quiet, problem_of_case, read_case_file, whole
 from nag.cli.running import Answer
 
 FOLDER = Path("cases") / "benchmarks"
@@ -66,7 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--peers", action="store_true", help="run M2 and phc too, where installed")
     parser.add_argument("--json", metavar="FILE", help="write the table to FILE as JSON")
-    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    add_quiet(parser)
     bench_decompose.add_arguments(parser)
 
 

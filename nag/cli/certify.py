@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from nag.cli.arguments import add_quiet
 from nag.cli.running import Answer
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "the loops that connect their points",
     )
     parser.add_argument("--json", metavar="FILE", help="write the boxes to FILE as JSON")
+    add_quiet(parser)
 
 
 def run(options: argparse.Namespace) -> Answer:
@@ -101,13 +103,15 @@ def certify_result(
     started = time.perf_counter()
     if isinstance(found, SolveResult):
         certificate = certify_solutions(found)
+        claims = certificate.claims
         rows = solution_rows(certificate, time.perf_counter() - started)
         more = _paths(certificate) if paths else None
     else:
         certificate = certify_decomposition(found)
+        claims = certificate.claims
         rows = decomposition_rows(certificate, time.perf_counter() - started)
         more = _loops(certificate) if paths else None
-    proved, further, good, claims = more or (None, [], True, certificate.claims)
+    proved, further, good, claims = more or (None, [], True, claims)
     claims = (*claims, *lost)
     good = good and certificate.all_proved and nothing_against(claims)
     return Certified([*rows, *further, *claims_rows(claims)], good, certificate, proved, claims)

@@ -135,7 +135,7 @@ def begin(options: argparse.Namespace) -> None:
 @contextlib.contextmanager
 def show_progress(options: argparse.Namespace) -> Iterator[ProgressLine | None]:
     """Tell on standard error what a command that tracks paths does; the progress callback."""
-    if "threads" not in options:
+    if "quiet" not in options:
         yield None
         return
     with (

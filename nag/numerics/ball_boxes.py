@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import flint
+import numpy as np
 
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import in_bits
@@ -21,6 +23,8 @@ STEPS = 12
 FIRST_SIDE, SIDES_APART, LAST_SIDE = -16, 16, 24
 # Times that a box is replaced by its image, in which its zero lies.
 SMALLER = 12
+# Spectral radius, in doubles, of slopes over a box that is none's image, nor is one about it.
+EXPANDING = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,9 +102,13 @@ def ball_box(system: Functions, x: list[flint.acb], bits: int) -> FineBox | None
             # Sides of one size, and sides as the coordinates have them.
             for sizes in (alike, [abs(z).mid() + scale * part for z in x]):
                 outer = [(size * part).mid() for size in sizes]
+                if not all(a < r for a, r in zip(about.far, outer, strict=True)):
+                    continue
                 image = about.image(outer)
                 if all(a < r for a, r in zip(image, outer, strict=True)):
                     return FineBox(tuple(x), tuple(outer), _shrunk(about, image))
+                if not about.may_contract:
+                    return None
     return None
 
 
@@ -125,19 +133,44 @@ class BallOperator:
         step = None if inverse is None else newton_step(system, x, bits, inverse)
         return None if step is None else cls(system, x, bits, inverse, step)
 
-    def image(self, sides: Sequence[flint.arb]) -> list[flint.arb]:
-        """Upper bounds of the distances of K(X) from ``x``, for discs X of these radii about it."""
+    @cached_property
+    def far(self) -> list[flint.arb]:
+        """Upper bounds of Newton's step, which a box with its image inside is larger than."""
+        with in_bits(self.bits):
+            return [z.abs_upper() for z in self.step]
+
+    @cached_property
+    def may_contract(self) -> bool:
+        """Whether some box may have its image inside.
+
+        Each such box holds the one as large as Newton's step. The smaller a box is, the smaller are
+        all entries of its slopes, and the spectral radius of one with its image inside is below 1.
+        """
+        entries = [[float(z.mid()) for z in row] for row in self.slopes(self.far)]
+        if not np.isfinite(entries).all():
+            return False
+        return bool(np.abs(np.linalg.eigvals(entries)).max(initial=0.0) < EXPANDING)
+
+    def slopes(self, sides: Sequence[flint.arb]) -> list[list[flint.arb]]:
+        """Absolute values of the entries of ``1 - Y F'(X)`` for discs X of these radii."""
         with in_bits(self.bits):
             box = [
                 z + flint.acb(flint.arb(0, r), flint.arb(0, r))
                 for z, r in zip(self.x, sides, strict=True)
             ]
-            product, n = self.inverse * self.system.jacobian(box, self.bits), len(self.x)
+            product = (self.inverse * self.system.jacobian(box, self.bits)).tolist()
+            return [
+                [abs(z - int(i == j)) for j, z in enumerate(row)] for i, row in enumerate(product)
+            ]
+
+    def image(self, sides: Sequence[flint.arb]) -> list[flint.arb]:
+        """Upper bounds of the distances of K(X) from ``x``, for discs X of these radii about it."""
+        slopes = self.slopes(sides)
+        with in_bits(self.bits):
             found = []
-            for i in range(n):
-                total = self.step[i].abs_upper()
-                for j in range(n):
-                    total = total + abs(product[i, j] - int(i == j)) * sides[j]
+            for total, row in zip(self.far, slopes, strict=True):
+                for entry, side in zip(row, sides, strict=True):
+                    total = total + entry * side
                 found.append(flint.acb(total).abs_upper())
             return found
 

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
+from functools import cache, partial
 
 import flint
 import numpy as np
@@ -248,16 +249,25 @@ def _overdetermined(
     """
     boxes, points, refuted, left = found.boxes, found.points, set(), tested
     seen: set[tuple[int, ...]] = set()
+
+    @cache
+    def chosen(i: int) -> list[int]:
+        return independent_equations(equations, slices, points[i])
+
+    def is_chosen(rows: list[int], places: np.ndarray, i: int) -> bool:
+        return chosen(int(places[i])) == rows
+
     while len(left):
-        # Another point may need other equations.
-        rows = independent_equations(equations, slices, points[left[0]])
+        # Another point may need other equations: in balls, each is tried with its own alone.
+        rows = chosen(int(left[0]))
         if tuple(rows) in seen:
             left = left[1:]
             continue
         seen.add(tuple(rows))
         square = [equations[i] for i in rows]
         others = [f for i, f in enumerate(equations) if i not in set(rows)]
-        _enter(boxes, left, prove_boxes(square, slices, points[left], reach[left]))
+        own = partial(is_chosen, rows, left)
+        _enter(boxes, left, prove_boxes(square, slices, points[left], reach[left], own))
         for i in left[boxes.proved[left]].tolist():
             vanishing, exact = _others(square, others, slices, points[i])
             found.digits[i] = np.inf if exact else vanishing

@@ -14,7 +14,7 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import flint
@@ -69,6 +69,7 @@ def prove_boxes(
     slices: np.ndarray,
     points: np.ndarray,
     reach: np.ndarray,
+    in_balls: Callable[[int], bool] = lambda _: True,
 ) -> Boxes:
     """Prove a simple zero next to each point.
 
@@ -78,15 +79,16 @@ def prove_boxes(
             ``(n - len(polynomials), 1 + n)``.
         points: complex, shape ``(P, n)``.
         reach: how far from the points zeros may be to count, relative to their size, ``(P,)``.
+        in_balls: which points, by their indices, are looked at in more digits than doubles have.
     """
     found = boxes_in_doubles(polynomials, slices, points)
     sizes = np.maximum(1.0, np.abs(points).max(axis=1, initial=0.0))
     found.proved[~(found.inner.max(axis=1, initial=0.0) < reach * sizes)] = False
-    left = np.flatnonzero(~found.proved)
-    if not len(left):
+    left = [i for i in np.flatnonzero(~found.proved).tolist() if in_balls(i)]
+    if not left:
         return found
     system = BallPolynomials.of(polynomials, slices)
-    for i in left.tolist():
+    for i in left:
         fine = box_in_balls(system, points[i], float(reach[i]))
         if fine is not None:
             enter_box(found, i, fine)
