@@ -8,6 +8,7 @@ from itertools import product
 import flint
 import numpy as np
 import pytest
+from random_small import far_system
 
 import nag
 from nag.algebra.polynomial import Polynomial
@@ -285,6 +286,14 @@ def test_solutions_of_size_1e80_are_found() -> None:
     assert len(found.solutions) == 8
     assert found.complete
     assert np.abs(found.points).max() > 1e79
+
+
+def test_a_zero_beside_a_multiple_one_at_infinity_is_not_taken_for_a_branch_of_it() -> None:
+    # From 1e-4 away seven branches lead to the point at infinity; from 1e-17 away six do, and the
+    # seventh to a zero of size 1e40.
+    system = far_system(7, 15647).system
+    answer = nag.solve(system, settings=Settings(digits=64))
+    assert len(answer.points) == 14 or not answer.complete
 
 
 def test_a_box_smaller_than_doubles_can_be_proves_nothing() -> None:

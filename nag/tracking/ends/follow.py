@@ -324,7 +324,8 @@ def _limit(
     limit = limits.of(states.where[path], found, known, states.t[path], w)
     need = needs[(w & -w).bit_length() - 1]
     noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
-    if limit is not None and limit.residual <= need and limits.exists(limit, noise):
+    residual = np.inf if limit is None else limits.doubt(limit)
+    if limit is not None and residual <= need and limits.exists(limit, noise):
         states.limits[path] = limit
         if limit.winding > 1:
             return end_run.LIMIT
@@ -333,8 +334,7 @@ def _limit(
         return end_run.OPEN
     # Where no digits are gained on the way in, rounding errors are what is left.
     before = states.last.get(path)
-    further = np.inf if before is None else before.residual
-    residual = np.inf if limit is None else limit.residual
+    further = np.inf if before is None else limits.doubt(before)
     if limit is not None:
         states.last[path] = limit
     stuck = noise > NOISE * need or GAINED * further < residual < NEARLY
@@ -344,7 +344,7 @@ def _limit(
     shrink = FURTHER
     if limit is not None:
         # The last term of the series is about the power of r of its order.
-        shrink = min(0.1, max(FURTHEST, (need / limit.residual) ** (w / limits.order)))
+        shrink = min(0.1, max(FURTHEST, (need / residual) ** (w / limits.order)))
     states.latest[path] = t * shrink
     return end_run.OPEN
 

@@ -81,6 +81,16 @@ class Limits:
     def _fine(self) -> InitialForms:
         return InitialForms(self.terms, FINE)
 
+    def doubt(self, limit: Limit) -> float:
+        """How far off a limit may be: by its tail too at infinity, where nothing else looks at it.
+
+        The forms at a multiple zero are as small as a power of the distance from it; what several
+        branches look like together from afar is told by what is left of the power series.
+        """
+        if (limit.point[list(self.terms.homotopy.infinity)] != 0).all():
+            return limit.residual
+        return max(limit.residual, limit.tail)
+
     def exists(self, limit: Limit, noise: float) -> bool:
         """Whether a limit at infinity is one exactly: what finite ones are is decided elsewhere.
 
