@@ -58,6 +58,7 @@ def test_an_export_reads_back_equal(result: SolveResult, tmp_path: Path) -> None
     )
     assert back.result.system == result.system
     assert back.result.paths == result.paths
+    assert back.result.method == result.method == "by_branches"
 
 
 @pytest.mark.parametrize(

@@ -176,7 +176,8 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
         systems = [natural.system(b.system(given)) for b in apart]
         used = symmetries if len(systems) == 1 and _keep(symmetries, systems[0]) else ()
         parts = [_part(task.of_part(each, used), others, rng) for each in systems]
-    joined, notes, counts = _join(parts, rng, run)
+    joined, notes, coverage = _join(parts, rng, run)
+    without_paths = not coverage.moved
     components = [c.witness for c in joined]
     if apart is not None:
         components = _in_scheme(system, joined)
@@ -184,6 +185,7 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     if symmetries and not used and components:
         try:
             components = _orbits(system, components, symmetries, run)
+            without_paths &= not any(c.dimension for c in components)
         except ValueError as error:
             notes.append(f"orbits of the symmetries are not known: {error}")
     components.sort(key=lambda c: (-c.dimension, c.degree))
@@ -191,8 +193,9 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     components = [_carry_back(c, back, given, exact.get(id(c))) for c in components]
     answers = [part.answer for part in parts if part.answer is not None]
     notes += [note for answer in answers for note in answer.notes]
-    paths = sum((answer.paths for answer in answers), counts)
-    return judged(given, components, paths, run.settings, notes, seed=run.seed)
+    paths = sum((answer.paths for answer in answers), coverage.counts)
+    answer = judged(given, components, paths, run.settings, notes, seed=run.seed)
+    return replace(answer, algebraic=without_paths and all(a.algebraic for a in answers))
 
 
 def _suitable_coordinates(
@@ -310,11 +313,16 @@ def _corank(evaluator: Evaluator, x: np.ndarray) -> int:
 
 @dataclass
 class _Coverage:
-    """Looks for components in larger ones of other branches, and counts the paths that it takes."""
+    """Looks for components in larger ones of other branches.
+
+    Attributes:
+        counts: the paths that it takes; ``moved``: whether slices were moved for it.
+    """
 
     rng: np.random.Generator
     run: Run
     counts: PathCounts = field(default=PathCounts())
+    moved: bool = False
 
     def is_in_larger(self, part: _Part, component: BranchComponent) -> bool | None:
         """Whether a component on which the equations of a part vanish is in a larger one of it."""
@@ -333,6 +341,7 @@ class _Coverage:
                 result = None
                 continue
             point = witness.points[0]
+            self.moved = True
             answer, spent = is_member(point, witness.accuracy, fibres, self.rng, self.run)
             self.counts += spent
             if answer is Membership.MEMBER:
@@ -344,7 +353,7 @@ class _Coverage:
 
 def _join(
     parts: Sequence[_Part], rng: np.random.Generator, run: Run
-) -> tuple[list[BranchComponent], list[str], PathCounts]:
+) -> tuple[list[BranchComponent], list[str], _Coverage]:
     """The components of all branches that lie in no component of another branch."""
     coverage = _Coverage(rng, run)
     kept: list[BranchComponent] = []
@@ -359,7 +368,7 @@ def _join(
             notes.append(f"a component of dimension {d} may lie in one of another branch")
         if not repeated:
             kept.append(component)
-    return kept, notes, coverage.counts
+    return kept, notes, coverage
 
 
 def _in_scheme(system: PolynomialSystem, components: Sequence[BranchComponent]) -> list[WitnessSet]:

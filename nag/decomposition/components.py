@@ -7,7 +7,6 @@ two take a system apart and ask the next ones for its parts.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -84,13 +83,13 @@ def one_equation(task: Task, _: Others) -> Attempt:
     """The factors over the complex numbers of the one equation that linear algebra leaves."""
     moving = any(not g.is_identity for g in task.symmetries)
     answer = decompose_one_equation(task.reduction, task.rng, task.run, task.scheme, one=moving)
-    return Attempt(answer and replace(answer, seed=task.run.seed))
+    return Attempt(answer)
 
 
 def rational_curve(task: Task, _: Others) -> Attempt:
     """A curve that polynomials in one variable give, exactly."""
     answer = decompose_rational_curve(task.reduction, task.rng, task.run, task.scheme)
-    return Attempt(answer and replace(answer, seed=task.run.seed))
+    return Attempt(answer)
 
 
 # Paths take longer to load than most of what needs none takes altogether.

@@ -78,7 +78,8 @@ def decompose_one_equation(
         return None
     components = _components(reduction, cut_out, rows, classes, rng, run, scheme)
     settings = str(run.settings)
-    return judged(reduction.system, components, PathCounts(), settings, order=(0,))
+    answer = judged(reduction.system, components, PathCounts(), settings, order=(0,))
+    return replace(answer, seed=run.seed, algebraic=True)
 
 
 def _components(

@@ -7,6 +7,8 @@ of one polynomial.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import flint
 import numpy as np
 
@@ -66,4 +68,5 @@ def decompose_rational_curve(
     examined = Examined.of(points, [whole], reduction, rng)
     found, counts = checked_witness_set(whole, examined, rng, run, scheme)
     settings, order = str(run.settings), range(n - 1)
-    return judged(reduction.system, [found], counts, settings, order=order)
+    answer = judged(reduction.system, [found], counts, settings, order=order)
+    return replace(answer, seed=run.seed, algebraic=True)

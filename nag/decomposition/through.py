@@ -91,7 +91,7 @@ def _is_on_the_only_one(decomposition: Decomposition, point: Sequence[Number]) -
     """Whether a zero is on the only component, as there are no others by algebra alone."""
     return (
         decomposition.complete
-        and decomposition.paths.tracked == 0
+        and decomposition.algebraic
         and len(decomposition.components) == 1
         and not any(is_zero(f(point)) for f in decomposition.system.nonzero)
     )

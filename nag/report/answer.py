@@ -29,7 +29,7 @@ def _method_rows(decomposition: Decomposition) -> list[tuple[str, str]]:
     if decomposition.method not in texts:
         return []
     text = texts[decomposition.method]
-    if not decomposition.paths.tracked:
+    if decomposition.algebraic:
         text += "; by algebra alone, without paths"
     return [("method", text)]
 

@@ -16,10 +16,23 @@ if TYPE_CHECKING:
     from nag.mechanism.problem import Problem
     from nag.solving.solutions import SolveResult
 
+# What each of `nag.solving.solve.METHODS` does.
+METHODS = {
+    "by_algebra": "by algebra alone, without paths: polynomials in one variable, or two equations "
+    "in two",
+    "by_branches": "the equations have factors: the branches that these leave are solved apart",
+    "by_constants": "by algebra alone, without paths: the equations are constants",
+    "by_turns": "all zeros of turns in loops, by paths in isotropic coordinates",
+    "by_paths": "by paths from the zeros of a start system",
+    "by_family": "by paths from the zeros of a member of the family with random parameters",
+}
+
 
 def solution_lines(result: SolveResult, case: Case, problem: Problem, run: Row) -> list[str]:
     """The whole answer, line by line."""
     head = [("system", system_line(result.system)), ("answer", answer_text(result))]
+    if result.method in METHODS:
+        head.insert(1, ("method", METHODS[result.method]))
     head = [*model_row(problem), *head, *real_rows(problem, result.points)]
     if not result.complete:
         head.append(("", "INCOMPLETE, see below"))

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 # What an export says of how the solutions came about, and of their arithmetic: nothing that is
 # proved rests on it.
-OF_THE_RUN = ("case", "seed", "settings", "start", "reason", "notes", "paths")
+OF_THE_RUN = ("case", "seed", "settings", "method", "start", "reason", "notes", "paths")
 OF_ARITHMETIC = ("residual", "condition", "precision")
 LISTS = {"solutions": "solution", "excluded_solutions": "excluded solution"}
 

@@ -405,6 +405,7 @@ class Decomposition:
         notes: what a reader must know of an incomplete answer.
         method: the name of the one of `nag.decomposition.components.METHODS` that answered; empty
             where another operation gave the components, or it is not known.
+        algebraic: whether exact algebra gave the components, and no paths were needed.
     """
 
     system: PolynomialSystem
@@ -416,6 +417,7 @@ class Decomposition:
     complete: bool
     notes: tuple[str, ...] = field(default=())
     method: str = field(default="", compare=False)
+    algebraic: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
         check_type(self.system, PolynomialSystem, "system", "a nag.PolynomialSystem")
