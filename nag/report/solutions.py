@@ -9,6 +9,7 @@ from nag.algebra.system import system_line
 from nag.report.assemblies import real_rows
 from nag.report.model import model_row
 from nag.solving.shown import MOST_ROWS, answer_text, solution_rows
+from nag.solving.solve import METHOD_TEXTS
 from nag.text.table import Row, align, sheet
 
 if TYPE_CHECKING:
@@ -16,23 +17,12 @@ if TYPE_CHECKING:
     from nag.mechanism.problem import Problem
     from nag.solving.solutions import SolveResult
 
-# What each of `nag.solving.solve.METHODS` does.
-METHODS = {
-    "by_algebra": "by algebra alone, without paths: polynomials in one variable, or two equations "
-    "in two",
-    "by_branches": "the equations have factors: the branches that these leave are solved apart",
-    "by_constants": "by algebra alone, without paths: the equations are constants",
-    "by_turns": "all zeros of turns in loops, by paths in isotropic coordinates",
-    "by_paths": "by paths from the zeros of a start system",
-    "by_family": "by paths from the zeros of a member of the family with random parameters",
-}
-
 
 def solution_lines(result: SolveResult, case: Case, problem: Problem, run: Row) -> list[str]:
     """The whole answer, line by line."""
     head = [("system", system_line(result.system)), ("answer", answer_text(result))]
-    if result.method in METHODS:
-        head.insert(1, ("method", METHODS[result.method]))
+    if result.method in METHOD_TEXTS:
+        head.insert(1, ("method", METHOD_TEXTS[result.method]))
     head = [*model_row(problem), *head, *real_rows(problem, result.points)]
     if not result.complete:
         head.append(("", "INCOMPLETE, see below"))

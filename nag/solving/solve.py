@@ -72,12 +72,12 @@ def solve(
     """
     check_kind(start)
     run.tell("solve", 0, 1)
-    return solve_by(METHODS, SolveTask(facts or SystemFacts(system), start, run, finite))
+    return solve_by(tuple(METHODS), SolveTask(facts or SystemFacts(system), start, run, finite))
 
 
 def solve_without_paths(task: SolveTask) -> SolveResult | None:
     """The solutions of a system that falls apart, or has zeros that are known exactly."""
-    return find_answer(EXACT, task, METHODS)
+    return find_answer(EXACT, task, tuple(METHODS))
 
 
 def solve_by(methods: Sequence[Method], task: SolveTask) -> SolveResult:
@@ -141,9 +141,21 @@ def by_paths(task: SolveTask, _: Others) -> SolveResult:
     return _track_from(task, *choose(*given))
 
 
-# In the order in which they are asked; `SolveResult.method` names the one that answered.
+# In the order in which they are asked, with what is said of each; `SolveResult.method` names the
+# one that answered.
+METHODS: dict[Method, str] = {
+    by_algebra: "by algebra alone, without paths: polynomials in one variable, or two equations in "
+    "two",
+    by_branches: "the equations have factors: the branches that these leave are solved apart",
+    by_constants: "by algebra alone, without paths: the equations are constants",
+    by_turns: "all zeros of turns in loops, by paths in isotropic coordinates",
+    by_paths: "by paths from the zeros of a start system",
+}
+METHOD_TEXTS = {method.__name__: text for method, text in METHODS.items()} | {
+    "by_family": "by paths from the zeros of a member of the family with random parameters",
+}
+# Those that a member of a family is asked as well.
 EXACT: tuple[Method, ...] = (by_algebra, by_branches)
-METHODS: tuple[Method, ...] = (*EXACT, by_constants, by_turns, by_paths)
 
 
 # --- Bounds of the number of isolated zeros, each counted by its multiplicity
