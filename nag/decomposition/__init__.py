@@ -6,8 +6,8 @@ Read in this order: `components` (the list of methods) on `method` (what one is)
 paths: `several_equations` on `isolated` (finite sets, solved at once), `toric_section` (linkages,
 cut by a slice at once) and `superset` (equation by equation) on `hypersurface` (one step) and
 `ends` (sorted out, `excluded`). Then `splitting` on `trace` (by `zero_sums`), `power_sums` and
-`monodromy`, `orbits` and `symmetric_images` (the same up to symmetry); `final_checks` and
-`assembly`, which put the answer together. `discovery`, `given_points` and `intersection` (on
+`monodromy`, `orbits` (the same up to symmetry); `final_checks` and `assembly`, which put the
+answer together. `discovery`, `given_points` and `intersection` (on
 `diagonal` and `factor`) begin elsewhere and end alike. `through` says which components a case's
 points are on, `singular_points` (on `rank_drop` and `linear_hull`) where a component is singular,
 `singular_members` and `sweep` what parameters change, `curve_genus` by `branch_points` the genus.

@@ -21,7 +21,7 @@ from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetr
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.final_checks import judged
 from nag.decomposition.method import Others, Task
-from nag.decomposition.symmetric_images import in_orbits
+from nag.decomposition.orbits import in_orbits
 from nag.numerics.branch_union import (
     BranchZeros,
     GenericPoint,
@@ -40,7 +40,7 @@ from nag.witness.cutting import Cut, numerical_corank
 from nag.witness.exact_points import exact_zeros, framed, sharpened
 from nag.witness.fibres import Fibre
 from nag.witness.frame import Frame
-from nag.witness.membership import Membership, is_member
+from nag.witness.membership import Membership, is_on_one_of
 from nag.witness.moving import witness_at
 from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded, random_rows, to_slice
@@ -176,16 +176,15 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
         systems = [natural.system(b.system(given)) for b in apart]
         used = symmetries if len(systems) == 1 and _keep(symmetries, systems[0]) else ()
         parts = [_part(task.of_part(each, used), others, rng) for each in systems]
-    joined, notes, coverage = _join(parts, rng, run)
-    without_paths = not coverage.moved
+    joined, notes, counts = _join(parts, rng, run)
     components = [c.witness for c in joined]
     if apart is not None:
         components = _in_scheme(system, joined)
     exact = {id(c): each.zero for c, each in zip(components, joined, strict=True) if each.zero}
     if symmetries and not used and components:
         try:
-            components = _orbits(system, components, symmetries, run)
-            without_paths &= not any(c.dimension for c in components)
+            components, spent = _in_orbits(system, components, symmetries, run)
+            counts += spent
         except ValueError as error:
             notes.append(f"orbits of the symmetries are not known: {error}")
     components.sort(key=lambda c: (-c.dimension, c.degree))
@@ -193,9 +192,9 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     components = [_carry_back(c, back, given, exact.get(id(c))) for c in components]
     answers = [part.answer for part in parts if part.answer is not None]
     notes += [note for answer in answers for note in answer.notes]
-    paths = sum((answer.paths for answer in answers), coverage.counts)
+    paths = sum((answer.paths for answer in answers), counts)
     answer = judged(given, components, paths, run.settings, notes, seed=run.seed)
-    return replace(answer, algebraic=without_paths and all(a.algebraic for a in answers))
+    return replace(answer, algebraic=not counts.tracked and all(a.algebraic for a in answers))
 
 
 def _suitable_coordinates(
@@ -316,13 +315,12 @@ class _Coverage:
     """Looks for components in larger ones of other branches.
 
     Attributes:
-        counts: the paths that it takes; ``moved``: whether slices were moved for it.
+        counts: the paths that it takes.
     """
 
     rng: np.random.Generator
     run: Run
     counts: PathCounts = field(default=PathCounts())
-    moved: bool = False
 
     def is_in_larger(self, part: _Part, component: BranchComponent) -> bool | None:
         """Whether a component on which the equations of a part vanish is in a larger one of it."""
@@ -333,27 +331,23 @@ class _Coverage:
         place = component.place_among(part.system.polynomials) if larger else Place.ISOLATED
         if place in (Place.ISOLATED, Place.ON_COMPONENT):
             return place is Place.ON_COMPONENT
-        result: bool | None = False
+        sets, known = [], True
         for each in larger:
             try:
-                fibres = component_fibres(part.system, each.witness)
+                sets.append(component_fibres(part.system, each.witness))
             except ValueError:
-                result = None
-                continue
-            point = witness.points[0]
-            self.moved = True
-            answer, spent = is_member(point, witness.accuracy, fibres, self.rng, self.run)
-            self.counts += spent
-            if answer is Membership.MEMBER:
-                return True
-            if answer is Membership.UNDECIDED:
-                result = None
-        return result
+                known = False
+        point, accuracy = witness.points[0], witness.accuracy
+        answer, spent = is_on_one_of(point, accuracy, sets, self.rng, self.run)
+        self.counts += spent
+        if answer is Membership.FOREIGN and known:
+            return False
+        return True if answer is Membership.MEMBER else None
 
 
 def _join(
     parts: Sequence[_Part], rng: np.random.Generator, run: Run
-) -> tuple[list[BranchComponent], list[str], _Coverage]:
+) -> tuple[list[BranchComponent], list[str], PathCounts]:
     """The components of all branches that lie in no component of another branch."""
     coverage = _Coverage(rng, run)
     kept: list[BranchComponent] = []
@@ -368,7 +362,7 @@ def _join(
             notes.append(f"a component of dimension {d} may lie in one of another branch")
         if not repeated:
             kept.append(component)
-    return kept, notes, coverage
+    return kept, notes, coverage.counts
 
 
 def _in_scheme(system: PolynomialSystem, components: Sequence[BranchComponent]) -> list[WitnessSet]:
@@ -396,12 +390,12 @@ def _in_scheme(system: PolynomialSystem, components: Sequence[BranchComponent]) 
     return found
 
 
-def _orbits(
+def _in_orbits(
     system: PolynomialSystem,
     components: Sequence[WitnessSet],
     symmetries: Sequence[SignedPermutation],
     run: Run,
-) -> list[WitnessSet]:
+) -> tuple[list[WitnessSet], PathCounts]:
     """One of each orbit; components that are not confirmed are none of any.
 
     Raises:
@@ -414,5 +408,7 @@ def _orbits(
         witness_at(system, c, to_slice(flag[: c.dimension]), run=run) if c.dimension else c
         for c in whole
     ]
-    orbits = in_orbits(system, whole, symmetries, run=run)
-    return [*orbits, *(c for c in components if c.status is not Status.IRREDUCIBLE)]
+    moved = PathCounts(sum(c.degree for c in whole if c.dimension))
+    orbits, counts = in_orbits(system, whole, symmetries, run=run)
+    others = [c for c in components if c.status is not Status.IRREDUCIBLE]
+    return [*orbits, *others], moved + counts

@@ -21,8 +21,8 @@ from nag.decomposition.assembly import Assembly, Known, assembled
 from nag.decomposition.excluded import forbidden
 from nag.decomposition.final_checks import judged
 from nag.decomposition.given_points import CommonSlices, Start
+from nag.decomposition.orbits import in_orbits
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.zero_values import LEAST
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.cutting import NEARLY_SINGULAR, Cut
@@ -88,14 +88,12 @@ def discover(
     search.from_random_points(starts)
     found = assembled(search.slices.points, reduction, rng, run, Known(embedded=True))
     notes = search.notes(starts, found)
-    components = list(found.components)
+    components, counts = list(found.components), search.counts + found.counts
     if symmetries:
-        components, more = _with_orbits(system, components, symmetries, run)
-        notes += more
+        components, more, spent = _with_orbits(system, components, symmetries, run)
+        notes, counts = notes + more, counts + spent
     notes += found.notes
-    return judged(
-        system, components, search.counts + found.counts, run.settings, notes, seed=run.seed
-    )
+    return judged(system, components, counts, run.settings, notes, seed=run.seed)
 
 
 @dataclass(eq=False)
@@ -184,16 +182,17 @@ def _with_orbits(
     components: Sequence[WitnessSet],
     symmetries: Sequence[SignedPermutation],
     run: Run,
-) -> tuple[list[WitnessSet], list[str]]:
+) -> tuple[list[WitnessSet], list[str], PathCounts]:
     """One component of each orbit, those included that were not met, and what to say of it."""
     whole = [c for c in components if c.status is Status.IRREDUCIBLE]
     if not whole:
-        return list(components), []
+        return list(components), [], PathCounts()
     try:
-        orbits = in_orbits(system, whole, symmetries, run=run)
+        orbits, counts = in_orbits(system, whole, symmetries, run=run)
     except ValueError as error:
-        return list(components), [f"orbits of the symmetries are not known: {error}"]
+        notes = [f"orbits of the symmetries are not known: {error}"]
+        return list(components), notes, PathCounts()
     unmet = sum(c.orbit for c in orbits) - len(whole)
     notes = [f"{unmet} components were found by symmetry only"] if unmet else []
     found = [*orbits, *(c for c in components if c.status is not Status.IRREDUCIBLE)]
-    return sorted(found, key=lambda c: (-c.dimension, c.degree)), notes
+    return sorted(found, key=lambda c: (-c.dimension, c.degree)), notes, counts

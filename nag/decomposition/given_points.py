@@ -16,8 +16,8 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import assembled
 from nag.decomposition.final_checks import judged
+from nag.decomposition.orbits import in_orbits
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.symmetric_images import in_orbits, keeps, sign_orbit
 from nag.numerics.coincidence import coincident
 from nag.numerics.zero_values import LEAST, ON
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -166,11 +166,11 @@ def components_through_points(
     for piece in found.pieces:
         component, d = piece.component, piece.component.dimension
         if component.status is Status.IRREDUCIBLE and symmetries:
-            whole, spent = _with_orbit(component, piece.fibres, reduction, symmetries, rng, run)
-            counts += spent
-            if whole is None:
+            try:
+                (component,), spent = in_orbits(system, [component], symmetries, run=run)
+                counts += spent
+            except ValueError:
                 notes.append(f"the orbit of a component of dimension {d} is not known")
-            component = component if whole is None else whole
         components.append(component)
     return judged(system, components, counts, run.settings, (*notes, *found.notes), seed=run.seed)
 
@@ -194,40 +194,3 @@ def _on_common_slices(
         if place is None:
             notes.append(f"a point of dimension {d} led to no component")
     return slices, counts, notes
-
-
-def _with_orbit(
-    component: WitnessSet,
-    fibres: Sequence[Fibre],
-    reduction: Reduction,
-    symmetries: Sequence[SignedPermutation],
-    rng: np.random.Generator,
-    run: Run,
-) -> tuple[WitnessSet | None, PathCounts]:
-    """The component with its orbit, or None if that could not be found."""
-    n, counts = reduction.system.n, PathCounts()
-    plain = all(g.sources == tuple(range(n)) for g in symmetries)
-    kept = reduction.kept
-    generators = [tuple(g.signs[i] for i in kept) for g in symmetries]
-    if plain and len(fibres) == 1 and all(keeps(fibres[0].cut, g) for g in generators):
-        carriers, counts = sign_orbit(fibres[0], generators, rng, run)
-        if carriers is None:
-            return None, counts
-        images = []
-        for carrier in carriers[1:]:
-            way = SignedPermutation.identity(n)
-            for k in carrier:
-                way = symmetries[k].after(way)
-            images.append(way)
-        return replace(component, orbit=len(carriers), images=tuple(images)), counts
-    try:
-        (found,) = in_orbits(
-            reduction.system,
-            [component],
-            symmetries,
-            threads=run.threads,
-            settings=run.settings,
-        )
-    except ValueError:
-        return None, counts
-    return found, counts

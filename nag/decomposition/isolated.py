@@ -21,7 +21,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import Completeness, most_zeros
 from nag.decomposition.final_checks import judged
 from nag.decomposition.method import Task
-from nag.decomposition.symmetric_images import in_orbits
+from nag.decomposition.orbits import in_orbits
 from nag.errors import StartError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import coincident
@@ -182,7 +182,7 @@ def _components(
 ) -> list[WitnessSet]:
     evaluator = Evaluator.of(system.polynomials, system.n)
     points = [_component(s, evaluator, system) for s in found.solutions]
-    return in_orbits(system, points, symmetries) if symmetries else points
+    return in_orbits(system, points, symmetries)[0] if symmetries else points
 
 
 def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSystem) -> WitnessSet:

@@ -1,24 +1,32 @@
 """Orbits: components that symmetries of the system carry into each other.
 
 A symmetry g carries the points on the slice L to points on g(L); moved back to L, they are some of
-the points. One point of each component shows which component that is carried to.
+the points. One point of each component shows which component that is carried to. Where the points
+on L are all known, classes of them are carried (`irreducible_orbits`); else components, which may
+be carried to others that were not known (`in_orbits`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.splitting import Class, split
-from nag.tracking.run import Run
-from nag.witness.frame import Frame
+from nag.numerics.coincidence import coincident
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.witness.frame import Frame, image
+from nag.witness.moving import witness_at
 from nag.witness.points import Points, move_points
 from nag.witness.slices import unit_complex
-from nag.witness.witness import PathCounts
+from nag.witness.witness import PathCounts, Slice, WitnessSet
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,21 +186,101 @@ def _orbits_of_classes(
     labels: np.ndarray, images: Sequence[_Images]
 ) -> list[tuple[int, tuple[SignedPermutation, ...]]]:
     """For each orbit of classes its first class, and what carries it into each of the others."""
-    carried = [
-        (each.symmetry, dict(zip(labels[each.indices], labels[each.places], strict=True)))
-        for each in images
-    ]
-    result, done = [], set()
+    maps = [dict(zip(labels[g.indices], labels[g.places], strict=True)) for g in images]
+
+    def carry(known: Sequence[int], current: int, k: int, _: SignedPermutation) -> int | None:
+        there = int(maps[k][current])
+        return None if there in known else there
+
+    result, done = [], set[int]()
     for first in np.unique(labels).tolist():
-        if first in done:
-            continue
-        done.add(first)
-        orbit: list[tuple[int, SignedPermutation | None]] = [(first, None)]
-        for current, carrier in orbit:
-            for symmetry, there in carried:
-                other = int(there[current])
-                if other not in done:
-                    done.add(other)
-                    orbit.append((other, symmetry.after(carrier) if carrier else symmetry))
-        result.append((first, tuple(carrier for _, carrier in orbit[1:] if carrier)))
+        if first not in done:
+            ways, members = find_orbit(first, [g.symmetry for g in images], carry)
+            done.update(members)
+            result.append((first, ways))
     return result
+
+
+def find_orbit(
+    first: T,
+    generators: Sequence[SignedPermutation],
+    carry: Callable[[Sequence[T], T, int, SignedPermutation], T | None],
+) -> tuple[tuple[SignedPermutation, ...], list[T]]:
+    """The orbit of something under a group, itself first, and what carries it into each other.
+
+    Args:
+        carry: for what is known of the orbit, one of it, the index of a generator, and what carries
+            the first one into that one's image: the image, or None if it is known.
+    """
+    ways, members = list[SignedPermutation](), [first]
+    for i, member in enumerate(members):
+        for k, generator in enumerate(generators):
+            way = generator.after(ways[i - 1]) if i else generator
+            there = carry(members, member, k, way)
+            if there is not None:
+                ways.append(way)
+                members.append(there)
+    return tuple(ways), members
+
+
+@takes_run
+def in_orbits(
+    system: PolynomialSystem,
+    components: Sequence[WitnessSet],
+    symmetries: Sequence[SignedPermutation],
+    *,
+    run: Run = DEFAULT_RUN,
+) -> tuple[list[WitnessSet], PathCounts]:
+    """One component of each orbit, with the symmetries that carry it into the others.
+
+    An image of a component is told from the others by one of its points, moved to the common
+    slice. Images that are in nobody's list are added to the orbit all the same.
+
+    Args:
+        components: complete ones, those of one dimension on a common slice.
+        symmetries: signed permutations that keep the system.
+
+    Raises:
+        nag.witness.moving.SliceError: if points cannot be moved to the common slice.
+    """
+    rest, found, tracked = list(components), [], 0
+
+    def move(component: WitnessSet, target: Slice) -> WitnessSet:
+        nonlocal tracked
+        if component.dimension == 0:
+            return component
+        tracked += component.degree
+        return witness_at(system, component, target, run=run)
+
+    def carry(
+        known: Sequence[WitnessSet], _: WitnessSet, __: int, way: SignedPermutation
+    ) -> WitnessSet | None:
+        first = known[0]
+        there = image(first, way)
+        end = move(_first_point(there), first.slice)
+        if any(_is_among(end, member) for member in known):
+            return None
+        # Components that stand earlier have their whole orbits.
+        for k, other in enumerate(rest):
+            if other.dimension == first.dimension and _is_among(end, other):
+                return rest.pop(k)
+        return move(there, first.slice)
+
+    while rest:
+        first = rest.pop(0)
+        ways, _ = find_orbit(first, symmetries, carry)
+        found.append(replace(first, orbit=1 + len(ways), images=ways))
+    return found, PathCounts(tracked)
+
+
+def _first_point(component: WitnessSet) -> WitnessSet:
+    """A witness set with one of its points only, to be moved."""
+    fibres = tuple(fibre.only(np.arange(len(fibre)) == 0) for fibre in component.fibres[:1])
+    own = {name: getattr(component, name)[:1] for name in ("points", "radii", "digits")}
+    return replace(component, **own, fibres=fibres)
+
+
+def _is_among(end: WitnessSet, component: WitnessSet) -> bool:
+    """Whether the one point of a witness set is among those of another."""
+    error = max(end.accuracy, component.accuracy)
+    return bool(coincident(component.points, end.points[0], error).any())
