@@ -167,3 +167,11 @@ def test_a_rounded_point_is_not_on_two_components_that_do_not_meet_there(exponen
     crossing = nag.decompose(f"(x^2 + y^2 - 4)*(x - y - 1/10^{exponent})")
     both = memberships(crossing, [2**0.5 + 10.0**-exponent / 2, 2**0.5 - 10.0**-exponent / 2])
     assert set(both) == {Membership.MEMBER}
+
+
+def test_a_rounded_point_is_not_on_a_set_whose_equations_hold_nowhere_near_it() -> None:
+    circles = "(x^2 + y^2 - 1)*((x - 10^6)^2 + y^2 - 10^4)*(y - 1 - 1/10^9)"
+    answer = nag.decompose(circles)
+    for seed in range(2):
+        found = memberships(answer, np.array([1e6 + 1e-7, 100.0]), seed=seed)
+        assert found == (Membership.FOREIGN, Membership.FOREIGN, Membership.MEMBER)

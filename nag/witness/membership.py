@@ -16,7 +16,7 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.coincidence import compared
+from nag.numerics.coincidence import BEYOND, MISS, compared
 from nag.numerics.digits import bits_of, doubles, in_bits, number
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.newton import newton_step
@@ -380,6 +380,23 @@ class _Asked:
         far, near = (float(np.linalg.norm(z / sizes)) for z in (far, self.point))
         return self.error * (1 + far / (1 + near))
 
+    def may_be_on(self, cut: Cut) -> bool:
+        """Whether the exact equations of a cut in the system's variables may hold at the point.
+
+        At one in doubles they do not if they hold nowhere so near to it as ends of paths would have
+        to be for a doubt.
+        """
+        plain = [f for f in cut.polynomials if f.exact and max(f.support, default=0) < cut.n]
+        if len(self.exact):
+            return all(is_zero(f((*self.exact, *[Fraction(0)] * cut.aux))) for f in plain)
+        if not plain:
+            return True
+        off = max(MISS, BEYOND * self.accuracy()) * (1 + float(np.linalg.norm(self.point)))
+        near = [flint.acb(flint.arb(z.real, off), flint.arb(z.imag, off)) for z in self.point]
+        near += [flint.acb(0)] * cut.aux
+        values = BallPolynomials.of(plain).values(near, bits_of(DIGITS)).entries()
+        return all(value.contains(0) for value in values)
+
 
 def _by_components(
     decomposition: Decomposition, asked: _Asked, rng: np.random.Generator, run: Run
@@ -391,7 +408,7 @@ def _by_components(
     moving: dict[tuple[object, bytes], dict[int, list[Fibre]]] = {}
     for k, component in enumerate(components):
         # Equations that would be found anew may be those of another set beside it.
-        if exact and not all(_may_be_on(fibre.cut, exact) for fibre in component.fibres):
+        if not all(asked.may_be_on(fibre.cut) for fibre in component.fibres):
             answers[k] = Membership.FOREIGN, False
         elif component.dimension == 0:
             found = _at_isolated(system, component, point, asked.accuracy(), exact)
@@ -427,12 +444,6 @@ def _surely_on_one(decomposition: Decomposition, point: np.ndarray, accuracy: fl
     zero = polish(Evaluator.of(moved, system.n), natural.points(point))
     off = float(np.linalg.norm(natural.inverse.points(zero.x) - point))
     return zero.converged and off <= SPREAD * accuracy * (1 + float(np.linalg.norm(point)))
-
-
-def _may_be_on(cut: Cut, point: Sequence[Number]) -> bool:
-    """Whether an exact point satisfies the exact equations of a cut in the system's variables."""
-    plain = (f for f in cut.polynomials if f.exact and max(f.support, default=0) < cut.n)
-    return all(is_zero(f((*point, *[Fraction(0)] * cut.aux))) for f in plain)
 
 
 def _at_isolated(
