@@ -106,7 +106,7 @@ def ball_box(system: Functions, x: list[flint.acb], bits: int) -> FineBox | None
                     continue
                 image = about.image(outer)
                 if all(a < r for a, r in zip(image, outer, strict=True)):
-                    return FineBox(tuple(x), tuple(outer), _shrunk(about, image))
+                    return FineBox(tuple(x), tuple(outer), about.shrink(image))
                 if not about.may_contract:
                     return None
     return None
@@ -130,8 +130,10 @@ class BallOperator:
     def about(cls, system: Functions, x: list[flint.acb], bits: int) -> BallOperator | None:
         """None where the Jacobian has no inverse."""
         inverse = inverse_of(system.jacobian(x, bits), bits)
-        step = None if inverse is None else newton_step(system, x, bits, inverse)
-        return None if step is None else cls(system, x, bits, inverse, step)
+        if inverse is None:
+            return None
+        step = newton_step(system, x, bits, inverse.mid())
+        return None if step is None else cls(system, x, bits, inverse.mid(), step)
 
     @cached_property
     def far(self) -> list[flint.arb]:
@@ -174,11 +176,10 @@ class BallOperator:
                 found.append(flint.acb(total).abs_upper())
             return found
 
-
-def _shrunk(about: BallOperator, sides: list[flint.arb]) -> tuple[flint.arb, ...]:
-    """Sides of the smallest box that the zero is seen to lie in."""
-    for _ in range(SMALLER):
-        last, sides = sides, about.image(sides)
-        if not any(2 * a < b for a, b in zip(sides, last, strict=True)):
-            break
-    return tuple(sides)
+    def shrink(self, sides: Sequence[flint.arb]) -> tuple[flint.arb, ...]:
+        """Sides of the smallest box about ``x`` that a zero in discs of these radii is seen in."""
+        for _ in range(SMALLER):
+            last, sides = sides, self.image(sides)
+            if not any(2 * a < b for a, b in zip(sides, last, strict=True)):
+                break
+        return tuple(sides)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from fractions import Fraction
-from math import log10
+from math import inf, log10, nextafter
 
 import flint
 import numpy as np
@@ -113,6 +113,11 @@ def log_norm(values: Iterable[flint.acb]) -> float:
 def doubles(x: Sequence[flint.acb]) -> np.ndarray:
     """The point rounded, shape ``(n,)``."""
     return np.array([complex(v) for v in x], dtype=complex)
+
+
+def round_up(value: flint.arb) -> float:
+    """A double that is no less."""
+    return nextafter(float(value.upper()), inf)
 
 
 def rational(z: flint.acb, digits: int) -> Fraction | None:

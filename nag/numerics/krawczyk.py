@@ -24,8 +24,8 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_boxes import FineBox, box_about, holds_conjugate, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import neighbours
+from nag.numerics.digits import round_up
 from nag.numerics.discs import (
-    LEAST,
     UNIT,
     UP,
     DiscPolynomials,
@@ -218,11 +218,6 @@ def enter_box(boxes: Boxes, i: int, fine: FineBox) -> None:
     boxes.inner[i] = [round_up(o + r) for o, r in zip(off, fine.inner, strict=True)]
     room = [r - o for o, r in zip(off, fine.outer, strict=True)]
     boxes.outer[i] = [max(0.0, float(r.lower()) / UP) for r in room]
-
-
-def round_up(value: flint.arb) -> float:
-    """A double that is no less."""
-    return float(value.upper()) * UP + LEAST
 
 
 def find_overlaps(boxes: Boxes) -> tuple[list[tuple[int, int]], list[tuple[int, int]]]:

@@ -1,9 +1,9 @@
 """Newton's method in balls: to so many digits, or until rounding governs what is left.
 
-A step at an exact point x is ``Y F(x)`` for a matrix Y near the inverse Jacobian there: by least
-squares where there are more equations than unknowns, the shortest where there are fewer. Values are
-balls, and so is the step: how wide it is says what rounding may have made of it. Where that governs
-a step, the next one is made in more bits; no other estimate of an error is needed.
+A step at an exact point x is ``Y F(x)`` for the inverse Y of the Jacobian there, or near there: by
+least squares where there are more equations than unknowns, the shortest where there are fewer.
+Values are balls, and so is the step: how wide it is says what rounding may have made of it. Where
+that governs a step, the next one is made in more bits; no other estimate of an error is needed.
 """
 
 from __future__ import annotations
@@ -56,16 +56,16 @@ class Converged:
 
 
 def inverse_of(matrix: flint.acb_mat, bits: int) -> flint.acb_mat | None:
-    """A matrix near the inverse of one by its middles, or its pseudo-inverse; None if singular."""
+    """The inverse of a matrix's middles, or their pseudo-inverse, in balls; None if singular."""
     with in_bits(bits):
         matrix, rows, columns = matrix.mid(), matrix.nrows(), matrix.ncols()
         try:
             if rows == columns:
-                return matrix.inv().mid()
+                return matrix.inv()
             across = matrix.conjugate().transpose()
             if rows > columns:
-                return (across * matrix).solve(across).mid()
-            return (across * (matrix * across).inv().mid()).mid()
+                return (across * matrix).solve(across)
+            return across * (matrix * across).inv()
         except ZeroDivisionError:
             return None
 
@@ -123,7 +123,7 @@ def find_zero(
     bits, last, inverse = FIRST_BITS, inf, None
     for count in range(STEPS):
         if inverse is None:
-            inverse = inverse_of(system.jacobian(x, bits), bits)
+            inverse = _clear_inverse(system, x, bits)
         step = None if inverse is None else newton_step(system, x, bits, inverse)
         length, rounding = (inf, inf) if step is None else _lengths(step)
         error = max(length, rounding)
@@ -148,6 +148,16 @@ def find_zero(
         known = min(4 * (size - length), digits) if length > -inf else digits
         bits = max(bits, UNIT_BITS * -(-(bits_of(known + lost) + MORE_BITS) // UNIT_BITS))
     return None
+
+
+def _clear_inverse(system: Functions, x: Sequence[flint.acb], bits: int) -> flint.acb_mat | None:
+    """The inverse Jacobian, in balls; None where rounding of slopes may have made it."""
+    slopes = system.jacobian(x, bits)
+    inverse = inverse_of(slopes, bits)
+    if inverse is None:
+        return None
+    rounding = log_norm(flint.acb(z.rad()) for z in slopes.entries())
+    return inverse if log_norm(inverse.entries()) + rounding < -GAIN else None
 
 
 def _is_within(x: Sequence[flint.acb], start: Sequence[flint.acb], most: float) -> bool:

@@ -10,6 +10,7 @@ import flint
 import numpy as np
 
 from nag.numerics.ball_boxes import BallOperator
+from nag.numerics.digits import round_up
 from nag.numerics.newton import newton_step, subtract_step
 from nag.tracking.ends.terms import BITS, Terms, number
 
@@ -85,7 +86,9 @@ def _largest_part(step: list[flint.acb], most: np.ndarray) -> float:
 
 
 def _radii_of_box(about: BallOperator, most: np.ndarray, least: float) -> np.ndarray | None:
-    """Half sides of a box that Krawczyk's operator maps into itself.
+    """Half sides of the smallest box that is seen to hold the one zero of another.
+
+    That other one is such that Krawczyk's operator maps it into itself.
 
     Args:
         most: the largest that they may be, shape ``(N,)``; least: the least part of these.
@@ -94,5 +97,7 @@ def _radii_of_box(about: BallOperator, most: np.ndarray, least: float) -> np.nda
     part = min(1.0, STEPS * _largest_part(about.step, most) + least)
     radii = [part * r for r in most.tolist()]
     sides = [flint.arb(r) for r in radii]
-    inside = all(a < r for a, r in zip(about.image(sides), sides, strict=True))
-    return np.array(radii) if inside else None
+    image = about.image(sides)
+    if not all(a < r for a, r in zip(image, sides, strict=True)):
+        return None
+    return np.array([round_up(r) for r in about.shrink(image)])
