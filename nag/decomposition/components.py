@@ -81,9 +81,7 @@ def by_branches(task: Task, others: Others) -> Attempt:
 
 def one_equation(task: Task, _: Others) -> Attempt:
     """The factors over the complex numbers of the one equation that linear algebra leaves."""
-    moving = any(not g.is_identity for g in task.symmetries)
-    answer = decompose_one_equation(task.reduction, task.rng, task.run, task.scheme, one=moving)
-    return Attempt(answer)
+    return Attempt(decompose_one_equation(task))
 
 
 def rational_curve(task: Task, _: Others) -> Attempt:

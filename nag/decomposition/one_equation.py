@@ -25,6 +25,8 @@ from nag.algebra.factoring import factored, most_absolute_factors
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.final_checks import MOST_MULTIDEGREES, Examined, checked_witness_set, judged
 from nag.decomposition.hypersurface import NEARER
+from nag.decomposition.method import Task
+from nag.decomposition.orbits import in_orbits
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.roots import BITS, line, points_in_balls, zeros_on
 from nag.decomposition.splitting import Class
@@ -32,6 +34,7 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import in_bits
 from nag.tracking.run import Run
 from nag.witness.cutting import Cut
+from nag.witness.moving import SliceError
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
@@ -47,20 +50,14 @@ def is_one_equation(reduction: Reduction) -> bool:
     return len(equations) == 1 and equations[0].exact and reduction.n > 1
 
 
-def decompose_one_equation(
-    reduction: Reduction, rng: np.random.Generator, run: Run, scheme: bool, one: bool
-) -> Decomposition | None:
-    """The components of a hypersurface.
-
-    Args:
-        reduction: of the system.
-        scheme: whether multiplicities in the scheme of the equations are wanted.
-        one: whether several components are to be left to others.
+def decompose_one_equation(task: Task) -> Decomposition | None:
+    """The components of a hypersurface; one of each orbit, which paths tell.
 
     Returns:
         None where the equation is none, or factors over the rationals, or its degree is too high
-        for this.
+        for this, or where orbits are not known.
     """
+    reduction, rng, run = task.reduction, task.rng, task.run
     reduced = reduction.reduced
     if not is_one_equation(reduction) or not all(g.exact for g in reduced.nonzero):
         return None
@@ -68,7 +65,7 @@ def decompose_one_equation(
     if [k for _, k in factored(f)] != [1]:
         return None
     count = most_absolute_factors(f, rng)
-    if count is None or (one and count > 1):
+    if count is None:
         return None
     n = reduction.n
     rows = random_rows(rng, n, n, NEARER)[: n - 1]
@@ -76,10 +73,19 @@ def decompose_one_equation(
     classes = None if cut_out is None else cut_out.classes(count)
     if cut_out is None or classes is None:
         return None
-    components = _components(reduction, cut_out, rows, classes, rng, run, scheme)
-    settings = str(run.settings)
-    answer = judged(reduction.system, components, PathCounts(), settings, order=(0,))
-    return replace(answer, seed=run.seed, algebraic=True)
+    components = _components(reduction, cut_out, rows, classes, rng, run, task.scheme)
+    total, counts = len(components), PathCounts()
+    moving = [g for g in task.symmetries if not g.is_identity]
+    if moving and total > 1:
+        try:
+            components, counts = in_orbits(task.system, components, moving, run=run)
+        except SliceError:
+            return None
+        # An image is one of the factors, so that there are no more.
+        if sum(c.orbit for c in components) != total:
+            return None
+    answer = judged(task.system, components, counts, str(run.settings), order=(0,))
+    return replace(answer, seed=run.seed, algebraic=not counts.tracked)
 
 
 def _components(
