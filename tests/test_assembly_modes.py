@@ -14,7 +14,7 @@ from nag.mechanism.assembly_modes import all_modes
 from nag.mechanism.axes import cross, difference, dot
 from nag.mechanism.loops import loop_structure
 from nag.mechanism.mode_classes import carries_modes, flips, mode_classes
-from nag.mechanism.mode_decomposition import apart, decompose_modes
+from nag.mechanism.mode_decomposition import decompose_modes, modes_are_apart
 from nag.mechanism.model import model
 from nag.witness.witness import WitnessSet
 
@@ -66,7 +66,7 @@ def test_modes_of_prismatic_joints_are_four_each():
         ("revolute", (1, 0, 0), (0, 0, 1)),
     )
     assert len(list(all_modes(chain.joints))) == 4 * 2 * 2
-    assert apart(loop_structure(chain))
+    assert modes_are_apart(loop_structure(chain))
 
 
 def folded_modes() -> dict[str, list[tuple[int, ...]]]:

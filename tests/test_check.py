@@ -32,7 +32,7 @@ from nag.cli import main
 from nag.files.cases import read_case
 from nag.mechanism.mobility_at import mobility
 from nag.mechanism.model import model
-from nag.report.statements import settled, summary
+from nag.report.statements import is_as_expected, summary
 
 ROOT = Path(__file__).parent.parent
 CASES = ROOT / "cases"
@@ -47,7 +47,7 @@ def decomposed(system):
 def test_every_statement_of_the_papers_is_decided_exactly(subject: str) -> None:
     for s in SUBJECTS[subject].statements:
         verdict = s.verdict()
-        assert settled(s, verdict), (s.place, s.text, verdict)
+        assert is_as_expected(s, verdict), (s.place, s.text, verdict)
         assert verdict.kind in (Kind.EXACT, Kind.FAILS)
         assert verdict.how
         assert bool(verdict.counterexample) is (verdict.kind is Kind.FAILS)
@@ -92,9 +92,9 @@ def test_a_known_misprint_that_holds_is_not_settled() -> None:
     def one() -> Verdict:
         return Verdict(Kind.EXACT, "counted")
 
-    assert not settled(one, one.verdict())
-    assert settled(replace(one, misprint=False), one.verdict())
-    assert not settled(one, Verdict(Kind.OPEN, "too large"))
+    assert not is_as_expected(one, one.verdict())
+    assert is_as_expected(replace(one, misprint=False), one.verdict())
+    assert not is_as_expected(one, Verdict(Kind.OPEN, "too large"))
     pairs = [(replace(one, misprint=False), Verdict(Kind.FAILS, "", "x = 0"))]
     assert summary(pairs).endswith("1 fail and are not in cases/ERRATA.md")
 

@@ -72,7 +72,7 @@ def test_a_table_closes_as_loops_of_mechanisms_do() -> None:
     made = table("spatial/bennett")
     turns = made.half_angles((0, -150 / 101))
     values = made.charts.at((Fraction(0), Fraction(-150, 101)), lambda x: x)
-    values |= made.closure.recovered(values.__getitem__, lambda x: x)
+    values |= made.closure.recover(values.__getitem__, lambda x: x)
     assert [turn.joint for turn in values] == list(turns) and len(made.closure.lost) == 2
     whole = [*made.closure.kept, *made.closure.eliminated]
     real, *others = (x for part in displacement(whole, values, lambda x: x) for x in part)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from nag.algebra.given import check_listed, check_type, shown
-from nag.algebra.number import Number
+from nag.algebra.number import Number, number_text
 from nag.algebra.polynomial import Polynomial
 from nag.errors import NagError
 from nag.text.table import LINE, counted, html_table, one_line, printable, shortened
@@ -119,6 +119,11 @@ class PolynomialSystem:
         hidden = len(self.polynomials) - MOST_ROWS
         note = f"and {counted(hidden, 'more equation')}" if hidden > 0 else ""
         return html_table(f"PolynomialSystem of {system_line(self)}", rows, note)
+
+
+def values_text(names: Iterable[str], values: Iterable[Number]) -> str:
+    """``x = 1/2, y = 3``."""
+    return ", ".join(f"{n} = {number_text(x)}" for n, x in zip(names, values, strict=True))
 
 
 def system_line(system: PolynomialSystem) -> str:

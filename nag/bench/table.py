@@ -85,7 +85,7 @@ def decomposition_table(rows: list[Decomposed], peers: dict[str, PeerDecomposed]
 
 def models_table(rows: list[Formulated]) -> list[str]:
     """Mechanisms in all formulations as aligned lines, times in seconds of the processor."""
-    from nag.report.model import large
+    from nag.report.model import large_number
 
     head = ["mechanism", "formulation", "variables", "equations", "Bezout", "at most", "paths"]
     lines = [[*head, "seconds", "dimension x degree: count", ""]]
@@ -93,7 +93,7 @@ def models_table(rows: list[Formulated]) -> list[str]:
     for row in rows:
         numbers = [row.variables, row.equations, row.bezout, row.estimate]
         cells = [row.case if row.case != previous else "", row.formulation]
-        cells += [large(number) for number in numbers]
+        cells += [large_number(number) for number in numbers]
         cells.append("-" if row.paths is None else str(row.paths))
         cells.append("-" if row.seconds is None else f"{row.seconds:.3f}")
         cells.append(", ".join(f"{d} x {degree}: {count}" for d, degree, count in row.components))

@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> Answer:
     from nag.files.json_values import read_file
     from nag.text.table import sheet
 
-    found, title, lost = read_file(options.export, _converted)
+    found, title, lost = read_file(options.export, _read_result)
     proved = certify_result(found, options.paths, lost)
     rows = [("system", system_line(found.system)), *proved.rows]
     return Answer(
@@ -152,7 +152,7 @@ def _loops(certificate: DecompositionCertificate) -> Further:
     return proved, rows, all(connected), claims
 
 
-def _converted(value: Any) -> tuple[SolveResult | Decomposition, str, list[Claim]]:
+def _read_result(value: Any) -> tuple[SolveResult | Decomposition, str, list[Claim]]:
     from nag.files import export, solutions_export
     from nag.files.json_values import ExportError, read_differently
 

@@ -30,15 +30,15 @@ def run(options: argparse.Namespace) -> Answer:
         raise UsageError("--set: is for a case file")
     case = None if options.all else read_case_file(options.case, options.set)
     sections = _sections(case, options)
-    decided = [(title, _decided(title, rows, options.progress)) for title, rows in sections]
+    decided = [(title, _decide(title, rows, options.progress)) for title, rows in sections]
 
-    from nag.report.statements import section, settled, summary
+    from nag.report.statements import is_as_expected, section, summary
     from nag.text.table import labelled
 
     lines = [line for title, pairs in decided for line in section(title, pairs)]
     pairs = [pair for _, rows in decided for pair in rows]
     lines += labelled([("answer", summary(pairs)), run_row(options)])
-    return Answer(lines, all(settled(*pair) for pair in pairs))
+    return Answer(lines, all(is_as_expected(*pair) for pair in pairs))
 
 
 def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[Statement, ...]]]:
@@ -62,7 +62,7 @@ def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[S
     ]
 
 
-def _decided(
+def _decide(
     title: str, statements: tuple[Statement, ...], progress: Progress | None
 ) -> list[tuple[Statement, Verdict]]:
     decided = []

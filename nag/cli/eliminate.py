@@ -13,11 +13,11 @@ from nag.cli.witness_input import (
     add_input,
     component_number,
     component_of,
-    doubts,
-    given,
+    doubt_rows,
     is_export,
     numbered_row,
     point_at,
+    read_components,
 )
 
 if TYPE_CHECKING:
@@ -85,13 +85,13 @@ def run(options: argparse.Namespace) -> Answer:
     )
 
     try:
-        case, cloud, top, tail, alike = _cloud(options)
-        onto = _onto(options.onto, cloud.ambient.system.variables)
+        case, cloud, top, tail, alike = _begin(options)
+        onto = _read_names(options.onto, cloud.ambient.system.variables)
         how = options.degree, options.polynomial, options.progress
         try:
             found = image_ideal(cloud, onto, *how)
         except NotRationalError:
-            together = _together(cloud, alike, onto)
+            together = _possible_conjugates(cloud, alike, onto)
             if len(together) < 2:
                 raise
             found = image_ideal(cloud.with_further(list(together.values())[1:]), onto, *how)
@@ -106,7 +106,7 @@ def run(options: argparse.Namespace) -> Answer:
     return answer_of(options, case, blocks, tail, fields, complete, said=said)
 
 
-def _together(
+def _possible_conjugates(
     cloud: Cloud, alike: Mapping[int, WitnessSet], onto: tuple[int, ...] | None
 ) -> dict[int, Source]:
     """What points of components are sampled from, among which are all conjugates of the first one.
@@ -130,7 +130,7 @@ def _together(
     }
 
 
-def _onto(text: str | None, variables: tuple[str, ...]) -> tuple[int, ...] | None:
+def _read_names(text: str | None, variables: tuple[str, ...]) -> tuple[int, ...] | None:
     """Indices of the variables that ``--onto`` names."""
     from nag.algebra.tokens import nearest, quote
 
@@ -152,7 +152,7 @@ Labelled = list[tuple[str, str]]
 Begun = tuple[tuple[str, str], "Cloud", Labelled, Labelled, Mapping[int, "WitnessSet"]]
 
 
-def _cloud(options: argparse.Namespace) -> Begun:
+def _begin(options: argparse.Namespace) -> Begun:
     """What is begun with.
 
     Title and file of the case, the points, what is said of them at the top and below, and the
@@ -170,7 +170,7 @@ def _cloud(options: argparse.Namespace) -> Begun:
     problem, top = None, []
     if not is_export(options.case):
         if options.component is None and options.formulation is None:
-            options.formulation = _euler(options)
+            options.formulation = _default_formulation(options)
         case, problem = read_problem(options)
         top = body_rows(problem)
         assembled = problem.mechanism is not None
@@ -178,7 +178,7 @@ def _cloud(options: argparse.Namespace) -> Begun:
             return _through_point(options, case, problem, rng, run, top)
     elif options.at is not None:
         raise UsageError("--at: is for cases; of an export name a --component")
-    found = given(options)
+    found = read_components(options)
     number = options.component or 1
     component = component_of(found, number, "--component")
     system = found.decomposition.system
@@ -186,7 +186,7 @@ def _cloud(options: argparse.Namespace) -> Begun:
     if component.dimension == 0:
         raise SourceError("the component is a point; there is nothing to eliminate from")
     top = [numbered_row(number, component), *top]
-    tail = [*doubts(found), *([("open", component.note)] if component.note else [])]
+    tail = [*doubt_rows(found), *([("open", component.note)] if component.note else [])]
     cloud = Cloud(source_of_component(system, component), ambient, rng, run)
     others = enumerate(found.decomposition.components, 1)
     alike = {number: component} | {k: c for k, c in others if _kind(c) == _kind(component)}
@@ -197,7 +197,7 @@ def _kind(component: WitnessSet) -> tuple[int, int, int]:
     return component.dimension, component.degree, component.multiplicity
 
 
-def _euler(options: argparse.Namespace) -> str | None:
+def _default_formulation(options: argparse.Namespace) -> str | None:
     """Euler parameters for a mechanism, in which the papers write; nothing for a system."""
     case = read_case_file(options.case, options.set)
     return None if case.mechanism is None else "E"

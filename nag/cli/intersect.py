@@ -9,11 +9,11 @@ from nag.cli.arguments import UsageError, add_running
 from nag.cli.running import Answer, answer_of, as_chosen
 from nag.cli.witness_input import (
     add_input,
+    component_facts,
     component_number,
     component_of,
-    given,
-    like,
     numbered_row,
+    read_components,
 )
 
 FORMAT = "nag-intersection"
@@ -39,7 +39,7 @@ def run(options: argparse.Namespace) -> Answer:
     from nag.files.export import component_document
     from nag.witness.shown import component_table, paths_text, remarks, title_line
 
-    found = given(options)
+    found = read_components(options)
     numbers = options.components
     pair = [component_of(found, number, "--components") for number in numbers]
     system = found.decomposition.system
@@ -55,7 +55,7 @@ def run(options: argparse.Namespace) -> Answer:
     fields = {
         "format": FORMAT,
         "notes": list(result.notes),
-        "of": [{"number": n, **like(c)} for n, c in numbered],
+        "of": [{"number": n, **component_facts(c)} for n, c in numbered],
         "paths": asdict(result.paths),
         "system": {"variables": list(variables), "polynomials": result.system.text()},
         "components": [component_document(c, variables) for c in result.components],

@@ -39,7 +39,7 @@ def run(options: argparse.Namespace) -> Answer:
 
     system = problem.system
     chosen = chosen_points(options, problem)
-    found = {name: judged(system, at, options) for name, at in chosen.items()}
+    found = {name: local_dimension_at(system, at, options) for name, at in chosen.items()}
     zeros = {name: zero_at(system, chosen[name], one) for name, one in found.items()}
     through = _through(problem, zeros, options) if options.check else {}
     complete = all(one.decided for one in found.values())
@@ -82,7 +82,7 @@ def chosen_points(
     return {options.point: named_point(options.case, options.point, points)}
 
 
-def judged(
+def local_dimension_at(
     system: PolynomialSystem, at: tuple[Number, ...], options: argparse.Namespace
 ) -> LocalDimension:
     """The local dimension at a point, which may be a rounded one.
@@ -100,10 +100,9 @@ def judged(
 
 
 def _point_text(name: str, at: tuple[Number, ...], system: PolynomialSystem) -> str:
-    from nag.algebra.number import number_text
+    from nag.algebra.system import values_text
 
-    pairs = zip(system.variables, at, strict=True)
-    values = ", ".join(f"{v} = {number_text(x)}" for v, x in pairs)
+    values = values_text(system.variables, at)
     return f"{name}: {values}" if name else values
 
 

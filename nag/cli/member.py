@@ -12,11 +12,11 @@ from nag.cli.witness_input import (
     Points,
     add_input,
     add_point,
-    doubts,
-    given,
-    like,
+    component_facts,
+    doubt_rows,
     named_point,
     point_at,
+    read_components,
     with_tested_traces,
 )
 
@@ -41,12 +41,13 @@ def run(options: argparse.Namespace) -> Answer:
 
     from nag.algebra.evaluation import Evaluator
     from nag.algebra.number import is_zero, number_text
+    from nag.algebra.system import values_text
     from nag.witness.at_prompt import EXACT, INEXACT, ROUNDED
     from nag.witness.membership import Membership, memberships
 
     if (options.point is None) == (options.at is None):
         raise UsageError("give either the name of a point of the case or --at, and not both")
-    found = with_tested_traces(given(options, lambda *known: _point(options, *known)))
+    found = with_tested_traces(read_components(options, lambda *known: _point(options, *known)))
     system, components = found.decomposition.system, found.decomposition.components
     point = _point(options, system.variables, found.points)
     exact = all(is_zero(value) for value in system(point))
@@ -73,17 +74,16 @@ def run(options: argparse.Namespace) -> Answer:
         "exact": exact,
         "residual": residual,
         "components": [
-            {"number": i, **like(component), "answer": answer.value}
+            {"number": i, **component_facts(component), "answer": answer.value}
             for i, (component, answer) in enumerate(numbered, 1)
         ],
     }
-    spelled = [f"{name} = {value}" for name, value in zip(system.variables, texts, strict=True)]
     top = [
-        ("point", ", ".join(spelled)),
+        ("point", values_text(system.variables, point)),
         ("equations", _equations_text(exact, residual)),
         ("answer", _answer_text(numbered, exact)),
     ]
-    tail = doubts(found)
+    tail = doubt_rows(found)
     if open_:
         tail.append(("open", f"membership could not be decided for component {', '.join(open_)}"))
     complete = found.decomposition.complete and not open_ and not lost

@@ -10,12 +10,12 @@ from nag.cli.arguments import add_running, whole
 from nag.cli.running import Answer, answer_of, as_chosen
 from nag.cli.witness_input import (
     add_input,
+    component_facts,
     component_number,
     component_of,
-    doubts,
-    given,
-    like,
+    doubt_rows,
     numbered_row,
+    read_components,
 )
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> Answer:
     from nag.text.table import magnitude
     from nag.witness.sampling import SamplingError, sample
 
-    found = given(options)
+    found = read_components(options)
     component = component_of(found, options.component, "--component")
     system = found.decomposition.system
     try:
@@ -64,11 +64,11 @@ def run(options: argparse.Namespace) -> Answer:
     more = len(samples.points) - MOST_ROWS
     tail = [("points", f"{len(samples.points)}, the first {MOST_ROWS} are shown")] * (more > 0)
     accuracy = f"{magnitude(samples.residual)}, accuracy {magnitude(samples.accuracy)}"
-    tail += [("residual", accuracy), *([("open", doubt)] if doubt else []), *doubts(found)]
+    tail += [("residual", accuracy), *([("open", doubt)] if doubt else []), *doubt_rows(found)]
     fields = {
         "format": FORMAT,
         "variables": list(system.variables),
-        "component": {"number": options.component, **like(component)},
+        "component": {"number": options.component, **component_facts(component)},
         "residual": samples.residual,
         "accuracy": samples.accuracy,
         "points": pairs(samples.points),

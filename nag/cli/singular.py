@@ -8,12 +8,12 @@ from nag.cli.arguments import UsageError, add_running, read_case_file
 from nag.cli.running import Answer, answer_of, as_chosen, name_case
 from nag.cli.witness_input import (
     add_input,
+    component_facts,
     component_number,
     component_of,
-    doubts,
-    given,
+    doubt_rows,
     is_export,
-    like,
+    read_components,
     with_tested_traces,
 )
 
@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> Answer:
     from nag.report.singular import answer_rows, set_lines
     from nag.witness.shown import paths_text
 
-    found = given(options)
+    found = read_components(options)
     if options.component is not None:
         component_of(found, options.component, "--component")
     found = with_tested_traces(found)
@@ -61,11 +61,13 @@ def run(options: argparse.Namespace) -> Answer:
         "format": FORMAT,
         "notes": list(locus.notes),
         "variables": list(variables),
-        "components": [{"number": i, **like(c)} for i, c in enumerate(whole.components, 1)],
+        "components": [
+            {"number": i, **component_facts(c)} for i, c in enumerate(whole.components, 1)
+        ],
         **locus.document(variables),
     }
     blocks = [answer_rows(locus, whole), *(set_lines(one, variables) for one in locus.sets)]
-    tail = [("open", note) for note in locus.notes] + doubts(found)
+    tail = [("open", note) for note in locus.notes] + doubt_rows(found)
     tail.append(("paths", paths_text(locus.paths)))
     return answer_of(options, found.case, blocks, tail, fields, locus.complete and whole.complete)
 

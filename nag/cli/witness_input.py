@@ -25,7 +25,7 @@ Check = Callable[[Sequence[str], Points], object]
 
 
 @dataclass(frozen=True)
-class Given:
+class ReadComponents:
     """A decomposition, with every component of each orbit, and where it came from.
 
     Attributes:
@@ -65,7 +65,7 @@ def is_export(path: str) -> bool:
         return False
 
 
-def given(options: argparse.Namespace, check: Check | None = None) -> Given:
+def read_components(options: argparse.Namespace, check: Check | None = None) -> ReadComponents:
     """The decomposition to work with; a case is decomposed now.
 
     Args:
@@ -89,7 +89,7 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
         origin = export.origin
         title = origin.title if origin else "a system built in memory"
         file = origin.file if origin else Path(options.case).name
-        return Given(expanded(export.decomposition), title, file, {}, options.case)
+        return ReadComponents(expanded(export.decomposition), title, file, {}, options.case)
 
     case, problem = read_problem(options)
     points = {point.name: point.at for point in problem.points}
@@ -98,7 +98,7 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
     decomposition = problem.decompose(**as_chosen(options), progress=options.progress)
     if options.progress is not None:
         options.progress.erase()
-    return Given(expanded(decomposition), case.title, Path(case.path).name, points)
+    return ReadComponents(expanded(decomposition), case.title, Path(case.path).name, points)
 
 
 def component_number(text: str) -> int:
@@ -109,7 +109,7 @@ def component_number(text: str) -> int:
     return int(digits)
 
 
-def component_of(found: Given, number: int, option: str) -> WitnessSet:
+def component_of(found: ReadComponents, number: int, option: str) -> WitnessSet:
     """The component with a number; undecided, if its trace cannot be tested that was read.
 
     Raises:
@@ -124,7 +124,7 @@ def component_of(found: Given, number: int, option: str) -> WitnessSet:
     return _with_tested_trace(found, number - 1)
 
 
-def with_tested_traces(found: Given) -> Given:
+def with_tested_traces(found: ReadComponents) -> ReadComponents:
     """What was given with each component as `component_of` has it.
 
     Raises:
@@ -148,7 +148,7 @@ def with_tested_traces(found: Given) -> Given:
     return replace(found, decomposition=tested)
 
 
-def _with_tested_trace(found: Given, index: int) -> WitnessSet:
+def _with_tested_trace(found: ReadComponents, index: int) -> WitnessSet:
     from nag.decomposition.trace import linear_trace
     from nag.witness.witness import Status
 
@@ -234,7 +234,7 @@ def numbered_row(number: int, component: WitnessSet) -> tuple[str, str]:
     return "component", f"{kind}, {component.status}"
 
 
-def like(component: WitnessSet) -> dict[str, Any]:
+def component_facts(component: WitnessSet) -> dict[str, Any]:
     """What a document says of a component that it refers to."""
     return {
         "dimension": component.dimension,
@@ -244,7 +244,7 @@ def like(component: WitnessSet) -> dict[str, Any]:
     }
 
 
-def doubts(found: Given) -> list[tuple[str, str]]:
+def doubt_rows(found: ReadComponents) -> list[tuple[str, str]]:
     """What makes the decomposition itself incomplete, as labelled lines."""
     if found.decomposition.complete:
         return []

@@ -11,7 +11,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapError, MapGroup, RationalMap
 from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.tokens import is_name, nearest, quote
-from nag.files.case_table import Table, kind_of, shown
+from nag.files.case_table import Table, key_text, kind_of
 
 Parse = Callable[[str, Sequence[str]], Polynomial]
 
@@ -62,7 +62,7 @@ def _pairs(plane: Table, names: list[str]) -> list[tuple[int, int]]:
     pairs = []
     for name in plane.values:
         if not is_name(name):
-            plane.fail(shown(name), "cannot name a vector; use letters, digits and _")
+            plane.fail(key_text(name), "cannot name a vector; use letters, digits and _")
         both = plane.texts(name, "names of its two coordinates", 2)
         for coordinate in both:
             if coordinate not in names:

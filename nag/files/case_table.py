@@ -75,7 +75,7 @@ class Table:
         for key in self.values:
             if key not in keys:
                 self.fail(
-                    shown(key),
+                    key_text(key),
                     f"unknown key{nearest(key, keys)}; the keys here are {', '.join(keys)}",
                 )
 
@@ -160,7 +160,7 @@ class Table:
         return Table(self.file, f"{self.place} {quote(name)}", self.values)
 
 
-def shown(key: str) -> str:
+def key_text(key: str) -> str:
     """A key as messages show it."""
     return key if is_name(key) else quote(key)
 
@@ -221,7 +221,7 @@ def read_parameters(table: Table, budget: Budget) -> Mapping[str, Number]:
     for name, value in table.values.items():
         if not is_name(name):
             table.fail(
-                shown(name), "cannot name a parameter; use letters, digits and _, not a function"
+                key_text(name), "cannot name a parameter; use letters, digits and _, not a function"
             )
         if not isinstance(value, str | int | Decimal | Fraction) or isinstance(value, bool):
             table.fail(name, f'is {kind_of(value)}; write a number or an expression like "5/6"')
@@ -254,6 +254,6 @@ def with_values(table: Table, values: Mapping[str, str | Number]) -> Table:
                 f"the parameters are {', '.join(table.values)}" if table.values else "it has none"
             )
             table.fail(
-                shown(name), f"is no parameter of the case{nearest(name, table.values)}; {known}"
+                key_text(name), f"is no parameter of the case{nearest(name, table.values)}; {known}"
             )
     return replace(table, values={**table.values, **values})

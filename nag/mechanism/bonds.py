@@ -184,7 +184,7 @@ def bonds(
     found: dict[_Kind, set[Fraction]] = {}
     degrees: dict[str, int] = {}
     for i, joint in enumerate(loop.kept):
-        ends, degrees[joint] = search.over(i)
+        ends, degrees[joint] = search.bonds_over(i)
         for kind, paths in ends.items():
             # So many paths as the order come together at each of two conjugate ends.
             found.setdefault(kind, set()).add(Fraction(paths, 2 * dict(kind)[joint]))
@@ -224,13 +224,13 @@ class _Ends:
         self.n = loop.system.n
         self.fibres = component_fibres(loop.system, component)
 
-    def over(self, i: int) -> tuple[Counter[_Kind], int]:
+    def bonds_over(self, i: int) -> tuple[Counter[_Kind], int]:
         """How many paths to ends over kept joint ``i`` there are of each kind, and its degree."""
         coefficients = [complex(float(self._coefficient(i, k))) for k in (2, 1, 0)]
         ends: Counter[_Kind] = Counter()
         degree = -1
         for root in np.roots(coefficients):
-            names = self._at(i, complex(root))
+            names = self._kinds_at(i, complex(root))
             if degree not in (-1, len(names)):
                 raise BondError("the degrees over conjugate half-angles differ")
             degree = len(names)
@@ -242,7 +242,7 @@ class _Ends:
             tuple(k * int(j == i) for j in range(self.n)), 0
         )
 
-    def _at(self, i: int, root: complex) -> list[_Kind]:
+    def _kinds_at(self, i: int, root: complex) -> list[_Kind]:
         """The joints whose norms vanish, for each end over a root."""
         size, turn = abs(root) + LEAST_SIZE, complex(unit_complex(self.rng))
         result = []
@@ -260,11 +260,13 @@ class _Ends:
             if not second.regular.all():
                 raise BondError("paths to the ends of the curve failed")
             for x, y in zip(near.points, second.points, strict=True):
-                norms = self._norms(self._precise(fibre, start, x))
-                result.append(self._vanishing(norms, self._norms(self._precise(fibre, goal, y))))
+                norms = self._norms(self._sharpen(fibre, start, x))
+                result.append(
+                    self._vanishing_orders(norms, self._norms(self._sharpen(fibre, goal, y)))
+                )
         return result
 
-    def _precise(self, fibre: Fibre, rows: np.ndarray, z: np.ndarray) -> list[flint.acb]:
+    def _sharpen(self, fibre: Fibre, rows: np.ndarray, z: np.ndarray) -> list[flint.acb]:
         """A point near an end in many digits: eliminated joints lose most of them there."""
         zero = zero_in_digits(fibre.cut, rows, z)
         if zero is None:
@@ -276,7 +278,7 @@ class _Ends:
         row[0, 0], row[0, 1 + i] = -value, 1
         return row
 
-    def _vanishing(self, first: Mapping[str, float], second: Mapping[str, float]) -> _Kind:
+    def _vanishing_orders(self, first: Mapping[str, float], second: Mapping[str, float]) -> _Kind:
         """The joints whose norms vanish at the end that two points lead to, with the orders."""
         powers: dict[str, Fraction] = {}
         for name in self.loop.joints:

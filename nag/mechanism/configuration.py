@@ -118,7 +118,7 @@ def configuration(
     zero = convert(Fraction(0))
     position: dict[str, tuple[Any, ...]] = {structure.base: (zero, zero, zero)}
 
-    def carried(body: str, vector: Sequence[Any]) -> Sequence[Any]:
+    def carry(body: str, vector: Sequence[Any]) -> Sequence[Any]:
         return rotate(placed[body], rotate(conjugate(reference[body]), vector))
 
     for parent, child, joint in structure.spanning_tree():
@@ -127,8 +127,8 @@ def configuration(
         else:
             placed[child] = _carry_orientation(placed[parent], reference[parent], reference[child])
         point = tuple(convert(x) for x in joint.point)
-        at = [carried(b, point) for b in (parent, child)]
-        gap = carried(joint.bodies[0], slides.get(joint.name, (zero, zero, zero)))
+        at = [carry(b, point) for b in (parent, child)]
+        gap = carry(joint.bodies[0], slides.get(joint.name, (zero, zero, zero)))
         sign = 1 if joint.bodies[0] == parent else -1
         position[child] = tuple(
             r + x - y + sign * g

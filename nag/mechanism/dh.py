@@ -30,6 +30,7 @@ from nag.mechanism.quaternion import (
     rotate,
     translation,
 )
+from nag.text.table import counted
 
 HalfAngle = tuple[Number, Number]
 
@@ -159,7 +160,7 @@ class DHModel(TableModel):
         names = " and ".join(turn.joint for turn in self.closure.lost)
         return (
             f"{text}; {open_joints} open angles, half-angles with {names} eliminated leave "
-            f"{self.system.n} unknown{'' if self.system.n == 1 else 's'}"
+            f"{counted(self.system.n, 'unknown')}"
         )
 
     @property
@@ -187,7 +188,7 @@ class DHModel(TableModel):
     ) -> dict[str, tuple[Any, Any]]:
         """(c, s) of every open joint in some arithmetic, into which ``convert`` takes numbers."""
         values = self.charts.at(point, convert)
-        values |= self.closure.recovered(values.__getitem__, convert)
+        values |= self.closure.recover(values.__getitem__, convert)
         return {turn.joint: (c, s) for turn, (c, s) in values.items()}
 
 

@@ -19,7 +19,7 @@ from nag.mechanism.loops import LoopStructure
 from nag.mechanism.path_estimates import PathNumbers
 from nag.mechanism.planar import PlanarModel, planar_model
 from nag.mechanism.rods import RodModel, rod_model
-from nag.text.table import counted
+from nag.text.table import counted, join_words
 
 Form = EulerModel | HalfAngleModel | PlanarModel | RodModel
 
@@ -74,7 +74,9 @@ def alternatives(
     return tuple(sorted(found, key=lambda a: (a.form is None, a.paths if a.form else 0)))
 
 
-def smallest(structure: LoopStructure, space: Space, modes: Modes = REFERENCE) -> Alternative:
+def smallest_alternative(
+    structure: LoopStructure, space: Space, modes: Modes = REFERENCE
+) -> Alternative:
     """The formulation with the fewest estimated paths.
 
     What cannot be it is not worked out: half-angles have four equations for each loop; Euler
@@ -139,5 +141,4 @@ def description(alternative: Alternative, space: Space) -> str:
 def joints_text(joints: Sequence[Joint]) -> str:
     """ "2 revolute joints and 1 spherical joint"."""
     kinds = Counter(j.type for j in joints)
-    parts = [counted(number, f"{kind} joint") for kind, number in kinds.items()]
-    return " and ".join(filter(None, [", ".join(parts[:-1]), parts[-1]]))
+    return join_words([counted(number, f"{kind} joint") for kind, number in kinds.items()])

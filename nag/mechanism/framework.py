@@ -84,7 +84,7 @@ class Framework:
                     "point",
                     "bars",
                 )
-        stray = sorted(set(self.points) - self._reached())
+        stray = sorted(set(self.points) - self._reach_points())
         if stray:
             raise FrameworkError(
                 f"no bars connect {', '.join(stray)} with {self.points[0]!r}; parts that are not "
@@ -92,7 +92,7 @@ class Framework:
                 "bars",
             )
 
-    def _reached(self) -> set[str]:
+    def _reach_points(self) -> set[str]:
         reached, frontier = {self.points[0]}, [self.points[0]]
         while frontier:
             point = frontier.pop()

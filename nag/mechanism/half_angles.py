@@ -91,7 +91,7 @@ class HalfAngleModel:
         convert = arithmetic.convert
         values = self.charts.at(point, convert)
         for closure in self.closures:
-            values |= closure.recovered(values.__getitem__, convert)
+            values |= closure.recover(values.__getitem__, convert)
         return values
 
     def lift(self, point: Sequence[Any]) -> Configuration:

@@ -48,11 +48,11 @@ def isotropic_system(framework: Framework) -> PolynomialSystem | None:
             assert squared is not None
             above, below = above * z + below * (squared / unit), below * z
         equations.append(above)
-    nonzero = (places[b] - places[a] for a, b in _excluding(framework, loops))
+    nonzero = (places[b] - places[a] for a, b in _bars_to_exclude(framework, loops))
     return PolynomialSystem(tuple(f"z_{p}" for p in free), tuple(equations), tuple(nonzero))
 
 
-def _excluding(framework: Framework, loops: Sequence[Sequence[str]]) -> list[tuple[str, str]]:
+def _bars_to_exclude(framework: Framework, loops: Sequence[Sequence[str]]) -> list[tuple[str, str]]:
     """Bars enough: where z is not zero for them, it is for none.
 
     Where one bar of a loop has z = 0 and the equation holds, another one of it has.

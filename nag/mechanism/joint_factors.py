@@ -81,7 +81,7 @@ class Factor:
         letters = _LETTERS[self.kind]
         return (letters[self.number],) if self.dimension == 1 else tuple(letters)
 
-    def charted(self, first: int) -> Factor:
+    def with_chart(self, first: int) -> Factor:
         """The same with chart constants, those of a model being numbered from ``first``."""
         count = _TURNING[self.kind]
         return replace(self, charts=tuple(_chart(first + i) for i in range(count)))
@@ -187,7 +187,7 @@ class Charts:
         count, n = 0, 0
         charted, groups = [], []
         for factor in factors:
-            charted.append(factor.charted(count))
+            charted.append(factor.with_chart(count))
             count += len(charted[-1].charts)
             groups.append(tuple(range(n, n + factor.dimension)))
             n += factor.dimension

@@ -26,6 +26,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.loops import minimum_cycles
+from nag.text.table import counted
 
 Place = tuple[Number, Number]
 
@@ -148,10 +149,10 @@ class LinkageModel(AssemblyModel):
     @property
     def reason(self) -> str:
         """One sentence: what was made of the linkage."""
-        loops = f"{self.loops} loop{'' if self.loops == 1 else 's'}"
         text = (
-            f"planar linkage of {len(self.linkage.links)} links and {loops}, given by its links' "
-            "shapes; one pair (c, s) for each moving link: plates are rational in these"
+            f"planar linkage of {len(self.linkage.links)} links and {counted(self.loops, 'loop')}, "
+            "given by its links' shapes; one pair (c, s) for each moving link: plates are rational "
+            "in these"
         )
         if self.free:
             text += f"; cut off, turning freely: links {', '.join(self.free)}"

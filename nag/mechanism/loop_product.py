@@ -96,7 +96,7 @@ class Closure:
         flat = conjugate_product(self.kept, coordinates)
         return closing_equations(flat, self.annihilator, self.coordinates if self.quadric else ())
 
-    def recovered(
+    def recover(
         self, coordinates: Callable[[Factor], Sequence[Any]], convert: Callable[[Number], Any]
     ) -> dict[Factor, tuple[Any, ...]]:
         """Homogeneous coordinates of the eliminated factors, in the arithmetic of the kept ones."""

@@ -87,7 +87,7 @@ class Loop:
     bodies: tuple[str, ...]
     joints: tuple[Joint, ...]
 
-    def rotated(self, start: int) -> Loop:
+    def start_at(self, start: int) -> Loop:
         """The same loop, read from ``bodies[start]`` on."""
         return Loop(
             self.bodies[start:] + self.bodies[:start], self.joints[start:] + self.joints[:start]
@@ -137,7 +137,7 @@ class LoopStructure:
         """The loop, if there is only one, read from the base on and to its first neighbour."""
         if len(self.loops) != 1:
             return None
-        loop = self.loops[0].rotated(self.loops[0].bodies.index(self.base))
+        loop = self.loops[0].start_at(self.loops[0].bodies.index(self.base))
         if self.moving.index(loop.bodies[1]) > self.moving.index(loop.bodies[-1]):
             return Loop(loop.bodies[:1] + loop.bodies[:0:-1], loop.joints[::-1])
         return loop

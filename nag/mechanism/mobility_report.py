@@ -15,7 +15,7 @@ from typing import Any, Literal
 
 from nag.mechanism.bonds import Bonds
 from nag.numerics.local_dimension import LocalDimension
-from nag.text.table import LINE, html_table, shortened
+from nag.text.table import LINE, counted, html_table, shortened
 from nag.witness.witness import WitnessSet
 
 # What must be the same of components in two formulations.
@@ -188,7 +188,7 @@ class MobilityReport:
         model_text = "no loop, no equations"
         if self.formulation:
             model_text = (
-                f"{_count(self.equations, 'equation')} in {_count(self.variables, 'unknown')}, "
+                f"{counted(self.equations, 'equation')} in {counted(self.variables, 'unknown')}, "
                 f"{self.formulation}"
             )
         return [
@@ -232,8 +232,8 @@ class MobilityReport:
 def _kinds(components: Iterable[tuple[int, int]], alike: Alike) -> object:
     if alike == "degrees":
         return Counter(components)
-    counted = Counter(d for d, _ in components)
-    return counted if alike == "counts" else set(counted)
+    dimensions = Counter(d for d, _ in components)
+    return dimensions if alike == "counts" else set(dimensions)
 
 
 def _local_text(report: MobilityReport) -> str:
@@ -288,10 +288,11 @@ def _meaning(report: MobilityReport) -> str:
         return "it does not move, not even infinitesimally"
     if status is MobilityStatus.SHAKY:
         return (
-            f"it does not move, but infinitesimally it does, with {_freedoms(tangent)}: an "
-            f"isolated solution of multiplicity {report.multiplicity}"
+            "it does not move, but infinitesimally it does, with "
+            f"{counted(tangent or 0, 'freedom')}: an isolated solution of multiplicity "
+            f"{report.multiplicity}"
         )
-    text = f"it moves with {_freedoms(mobility)}"
+    text = f"it moves with {counted(mobility or 0, 'freedom')}"
     if report.overconstrained:
         text += f", though counting predicts {report.gruebler_kutzbach}"
     if status is MobilityStatus.KINEMATOTROPIC:
@@ -300,13 +301,6 @@ def _meaning(report: MobilityReport) -> str:
     elif status is MobilityStatus.CROSSING:
         text += f"; {len(report.components or ())} motions meet here"
     elif tangent is not None and mobility is not None and tangent > mobility:
-        text += f"; the configuration is singular, infinitesimally it has {_freedoms(tangent)}"
+        text += "; the configuration is singular, infinitesimally it has "
+        text += counted(tangent, "freedom")
     return text
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
-
-
-def _freedoms(number: int | None) -> str:
-    return _count(number or 0, "freedom")

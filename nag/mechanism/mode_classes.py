@@ -157,14 +157,14 @@ def carries_modes(structure: LoopStructure, flip: Flip) -> bool:
     images, moved = flip_images(structure, flip, n)
     squared = dot(flip.normal, flip.normal)
 
-    def carried(source: Sequence[Polynomial], target: Sequence[Polynomial]) -> bool:
+    def carries(source: Sequence[Polynomial], target: Sequence[Polynomial]) -> bool:
         return all(in_span(unit_image(f, images, moved, squared), target) for f in source)
 
     # Equations of different groups do not help each other: each is carried within its own.
     return (
-        carried(common, common)
-        and carried(changed[0], changed[1])
-        and carried(changed[1], changed[0])
+        carries(common, common)
+        and carries(changed[0], changed[1])
+        and carries(changed[1], changed[0])
     )
 
 

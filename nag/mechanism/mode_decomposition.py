@@ -97,12 +97,12 @@ def decompose_modes(
     return ModesAnswer(
         structure,
         tuple(answers),
-        apart(structure),
+        modes_are_apart(structure),
         tuple(_meetings(answers, run)),
     )
 
 
-def apart(structure: LoopStructure) -> bool:
+def modes_are_apart(structure: LoopStructure) -> bool:
     """Whether no configuration belongs to two modes of a joint.
 
     The equations of both modes together, linear in the relative orientation r, have full rank 4 for

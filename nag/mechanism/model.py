@@ -25,7 +25,7 @@ from nag.mechanism.formulations import (
     alternatives,
     description,
     joints_text,
-    smallest,
+    smallest_alternative,
 )
 from nag.mechanism.graph import Joint, Mechanism, check_mechanism
 from nag.mechanism.half_angles import HalfAngleModel
@@ -202,7 +202,7 @@ def model(
     structure = with_loops(mechanism)
     if space is None:
         space = "spatial" if modes else space_of(structure.joints)
-    chosen = _chosen(structure, space, formulation, modes)
+    chosen = _choose(structure, space, formulation, modes)
     form = chosen.form
     symmetries = form.symmetries if isinstance(form, EulerModel) else ()
     return Model(
@@ -221,9 +221,9 @@ def model(
     )
 
 
-def _chosen(structure: LoopStructure, space: Space, formulation: str, modes: Modes) -> Alternative:
+def _choose(structure: LoopStructure, space: Space, formulation: str, modes: Modes) -> Alternative:
     if formulation == "auto":
-        return smallest(structure, space, modes)
+        return smallest_alternative(structure, space, modes)
     if formulation not in FORMULATIONS:
         names = ", ".join(f'"{name}"' for name in ("auto", *FORMULATIONS))
         raise ModelError(f"formulation {formulation!r} is unknown; use one of {names}")

@@ -91,7 +91,7 @@ class PlanarModel:
             euler[body] = multiply(half, [convert(x) for x in mechanism.orientation(body)])
         slides = {}
         distances = values[2 * len(self.structure.moving) :]
-        for joint, distance in zip(_sliding(self.structure), distances, strict=True):
+        for joint, distance in zip(_sliding_joints(self.structure), distances, strict=True):
             # Turning is the same for both bodies, so either may carry the slide.
             sign = 1 if slide_carrier(self.structure, joint) == joint.bodies[0] else -1
             slides[joint.name] = tuple(convert(x) * distance * sign for x in direction(joint.axis))
@@ -135,27 +135,29 @@ def planar_model(structure: LoopStructure) -> PlanarModel:
         body: (variables[2 * i], variables[2 * i + 1]) for i, body in enumerate(structure.moving)
     }
     turns[structure.base] = tuple(Polynomial.constant(n, x) for x in offsets[structure.base])
-    slides = dict(zip((j.name for j in _sliding(structure)), variables[parameters:], strict=True))
+    slides = dict(
+        zip((j.name for j in _sliding_joints(structure)), variables[parameters:], strict=True)
+    )
     polynomials = [turns[b][0] ** 2 + turns[b][1] ** 2 * squared - 1 for b in structure.moving]
 
-    def carried(body: str, vector: Vector) -> Turn:
+    def carry(body: str, vector: Vector) -> Turn:
         place = (dot(vector, frame[0]), dot(vector, frame[1]) / squared)
         offset = offsets[body]
         return _apply(turns[body], _apply(_inverse(offset), place, squared), squared)
 
-    for joint in _sliding(structure):
+    for joint in _sliding_joints(structure):
         first, second = (_compose(turns[b], _inverse(offsets[b]), squared) for b in joint.bodies)
         polynomials += [first[0] - second[0], first[1] - second[1]]
     for loop in structure.loops:
         total = (Polynomial(n, {}), Polynomial(n, {}))
         for i, body in enumerate(loop.bodies):
             joint = loop.joints[i]
-            moved = carried(body, difference(joint.point, loop.joints[i - 1].point))
+            moved = carry(body, difference(joint.point, loop.joints[i - 1].point))
             total = (total[0] + moved[0], total[1] + moved[1])
             if joint.name in slides:
                 carrier = slide_carrier(structure, joint)
                 sign = 1 if carrier == body else -1
-                moved = carried(carrier, direction(joint.axis))
+                moved = carry(carrier, direction(joint.axis))
                 total = tuple(
                     x + slides[joint.name] * y * sign for x, y in zip(total, moved, strict=True)
                 )
@@ -175,7 +177,7 @@ def planar_model(structure: LoopStructure) -> PlanarModel:
     )
 
 
-def _sliding(structure: LoopStructure) -> list[Joint]:
+def _sliding_joints(structure: LoopStructure) -> list[Joint]:
     return [j for j in structure.joints if j.of_type.slides_only]
 
 

@@ -19,6 +19,7 @@ from nag.algebra.number import Number, square_root
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel, cartesian_model
 from nag.mechanism.linkage import LinkageModel
+from nag.text.table import join_words
 from nag.witness.gauss_newton import Zero, descend, polish
 
 STARTS = 24
@@ -58,9 +59,8 @@ def obstacle(parts: AssemblyModel) -> str:
         along = [others.edges[pair]["side"] for pair in pairwise(way)]
         reach: Number = sum((square_root(s.squared) for s in along), square_root(0))
         if square_root(side.squared) > reach:
-            names = list(dict.fromkeys(s.name for s in along))
-            others = " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
-            return f"{side.name} is longer than {others} together"
+            names = join_words(list(dict.fromkeys(s.name for s in along)))
+            return f"{side.name} is longer than {names} together"
     return ""
 
 

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.number import Irrational, Number, number_text
-from nag.algebra.system import system_line
+from nag.algebra.system import system_line, values_text
 from nag.mechanism.graph import Joint
 from nag.text.table import align, counted, html_table, lines_of, printable, shortened
 from nag.text.table import number_text as rounded_text
@@ -99,12 +99,7 @@ def configuration_html(found: Configuration) -> str:
 def model_text(model: Model) -> str:
     """A model in five lines."""
     # Other assembly modes have no reference configuration.
-    at = ", ".join(
-        f"{name} = {number_text(value)}"
-        for name, value in zip(
-            model.system.variables, model.reference, strict=bool(model.reference)
-        )
-    )
+    at = values_text(model.system.variables, model.reference) if model.reference else ""
     signs = counted(model.sign_group, "sign change") if model.sign_group > 1 else "none"
     return lines_of(
         f"Model in formulation {model.formulation}: {model.reason}",

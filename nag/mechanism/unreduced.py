@@ -34,30 +34,30 @@ class Placement:
     position: Sequence[Any]
     reference: Sequence[Number]
 
-    def turned(self, vector: Sequence[Number]) -> Vector:
+    def turn_vector(self, vector: Sequence[Number]) -> Vector:
         """R chi, for a vector given in the reference configuration."""
         return rotate(self.euler, rotate(conjugate(self.reference), vector))
 
-    def moved(self, point: Sequence[Number]) -> Vector:
+    def move_point(self, point: Sequence[Number]) -> Vector:
         """r + R chi, for a point given in the reference configuration."""
-        return tuple(r + x for r, x in zip(self.position, self.turned(point), strict=True))
+        return tuple(r + x for r, x in zip(self.position, self.turn_vector(point), strict=True))
 
 
 def coincidence(first: Placement, second: Placement, point: Sequence[Number]) -> list[Any]:
     """The C constraint: one point of both bodies (PT13 eq. 4)."""
-    return list(difference(second.moved(point), first.moved(point)))
+    return list(difference(second.move_point(point), first.move_point(point)))
 
 
 def orthogonality(
     first: Placement, second: Placement, u: Sequence[Number], v: Sequence[Number]
 ) -> Any:
     """The SO constraint <R_a u, R_b v> = <u, v>, zero for orthogonal vectors (PT13 eq. 5)."""
-    return dot(first.turned(u), second.turned(v)) - dot(u, v)
+    return dot(first.turn_vector(u), second.turn_vector(v)) - dot(u, v)
 
 
 def gap(first: Placement, second: Placement, u: Sequence[Number], point: Sequence[Number]) -> Any:
     """The O constraint: no gap along a vector of the first body (PT13 eq. 6)."""
-    return dot(first.turned(u), difference(second.moved(point), first.moved(point)))
+    return dot(first.turn_vector(u), difference(second.move_point(point), first.move_point(point)))
 
 
 def joint_constraints(joint: Joint, first: Placement, second: Placement) -> list[Any]:

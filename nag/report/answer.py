@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from nag.algebra.number import number_text
-from nag.algebra.system import system_line
+from nag.algebra.system import system_line, values_text
 from nag.decomposition.components import METHODS, ONE_EQUATION
 from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
@@ -109,6 +108,5 @@ def model_lines(case: Case, problem: Problem) -> list[str]:
         lines += ["groups", "  " + ", ".join(groups)]
     lines += eliminated_lines(problem)
     for name, point in problem.named:
-        values = zip(system.variables, point, strict=True)
-        lines += [printable(name), "  " + ", ".join(f"{v} = {number_text(x)}" for v, x in values)]
+        lines += [printable(name), f"  {values_text(system.variables, point)}"]
     return sheet(case.title, head, lines + formulation_lines(problem))

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from nag.report.model import Rows
+from nag.text.table import counted
 from nag.witness.witness import Decomposition, WitnessSet
 
 if TYPE_CHECKING:
@@ -23,16 +24,15 @@ def assembly_rows(problem: Problem, decomposition: Decomposition) -> Rows:
     texts = []
     if moving:
         largest = max(c.dimension for c in moving) + problem.free
-        count = sum(c.orbit for c in moving)
-        on = f"{count} component{'' if count == 1 else 's'}"
+        on = counted(sum(c.orbit for c in moving), "component")
         texts.append(f"mobile, mobility {largest} at most, on {on}{_reality(parts, moving)}")
     if isolated:
         each = parts.points_of_each
         count = sum(c.orbit * len(c.points) for c in isolated) // each
         real = sum(c.orbit * sum(parts.is_real(x) for x in c.points) for c in isolated) // each
-        counted = parts.solution if count == 1 else _plural(parts)
         texts.append(
-            f"{count} {counted}{parts.counted_up_to}, {real} of them real"
+            f"{counted(count, parts.solution, _plural(parts))}{parts.counted_up_to}, "
+            f"{real} of them real"
             + (", that cannot move" if moving else "; rigid in each of them")
             + (", but for the links that turn freely" if problem.free else "")
         )

@@ -9,7 +9,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.interpolation.essential import VariableMap
 from nag.interpolation.image_ideal import ImageIdeal
 from nag.interpolation.vanishing import primitive
-from nag.text.table import labelled
+from nag.text.table import join_words, labelled
 
 PROOFS = {
     "substitution": (
@@ -117,8 +117,7 @@ def image_text(found: ImageIdeal) -> str:
         return f"{text}, degree {found.zeros[1]}: {NO_OTHERS}"
     whole = f", of degree {found.zeros[1]} together: {NO_OTHERS}" if found.defines_union else ""
     if found.together:
-        numbers = [str(number) for number in found.together]
-        names = f"{', '.join(numbers[:-1])} and {numbers[-1]}"
+        names = join_words([str(number) for number in found.together])
         return (
             f"{text}, without rational equations of its own: those of components "
             f"{names} hold, among which are its conjugates{whole}"

@@ -7,7 +7,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from nag.mechanism.joint_types import JOINT_TYPES
-from nag.text.table import align, printable
+from nag.text.table import align, counted, printable
 
 if TYPE_CHECKING:
     from nag.mechanism.assembly import AssemblyModel
@@ -59,10 +59,10 @@ def _counting_rows(parts: AssemblyModel) -> Rows:
 
 def _framework_rows(framework: Framework) -> Rows:
     generic, count = framework.generic_motions(), framework.freedoms
-    text = "rigid" if generic == 0 else f"mobile with {_freedoms(generic)}"
+    text = "rigid" if generic == 0 else f"mobile with {counted(generic, 'freedom')}"
     if generic > count:
         dependent = generic - count
-        text += f", {dependent} bar{'' if dependent == 1 else 's'} more than are independent"
+        text += f", {counted(dependent, 'bar')} more than are independent"
     rows = [("graph", f"counting gives {count}; for almost all lengths {text}")]
     here = framework.infinitesimal_motions()
     if here is not None:
@@ -73,16 +73,12 @@ def _framework_rows(framework: Framework) -> Rows:
                 (
                     "infinitesimally rigid"
                     if here == 0
-                    else f"infinitesimally mobile with {_freedoms(here)}"
+                    else f"infinitesimally mobile with {counted(here, 'freedom')}"
                 )
                 + f", self-stresses {stresses}",
             )
         )
     return rows
-
-
-def _freedoms(count: int) -> str:
-    return f"{count} freedom" if count == 1 else f"{count} freedoms"
 
 
 def formulation_lines(problem: Problem) -> list[str]:
@@ -162,9 +158,10 @@ def _at_once_lines(each: Alternative | PartsCoordinates) -> list[str]:
     if each.at_once is None:
         return []
     return [
-        f"  {each.formulation}: {large(each.at_once)} paths to a slice at once, in z = c + is and "
-        "w = c - is, as many as it may",
-        f"  have zeros; if not all end at zeros, equation by equation, at most {large(each.most)}",
+        f"  {each.formulation}: {large_number(each.at_once)} paths to a slice at once, in "
+        "z = c + is and w = c - is, as many as it may",
+        "  have zeros; if not all end at zeros, equation by equation, at most "
+        f"{large_number(each.most)}",
     ]
 
 
@@ -172,7 +169,7 @@ def alternative_row(each: Alternative | PartsCoordinates) -> list[str]:
     """Formulation, variables, equations, Bezout's number, the groups' bound, paths."""
     system = each.system
     numbers = (system.n, len(system.polynomials), each.bezout, each.bound, each.paths)
-    return [each.formulation, *map(large, numbers)]
+    return [each.formulation, *map(large_number, numbers)]
 
 
 def unreduced_row(model: Model) -> list[str]:
@@ -180,10 +177,10 @@ def unreduced_row(model: Model) -> list[str]:
     system = model.unreduced
     degrees = sorted(f.degree for f in system.polynomials)[: system.n]
     numbers = (system.n, len(system.polynomials), prod(degrees))
-    return ["unreduced", *map(large, numbers), "", "", ""]
+    return ["unreduced", *map(large_number, numbers), "", "", ""]
 
 
-def large(number: int) -> str:
+def large_number(number: int) -> str:
     """A whole number, in powers of ten where it is long."""
     return str(number) if number < 10**7 else f"{float(number):.1e}"
 
@@ -249,9 +246,8 @@ def rank_rows(rank: tuple[int, int], variables: int, assembled: bool) -> Rows:
     free = variables - independent
     if free <= 0:
         return [("rank", f"{text}, by exact linear algebra")]
-    unknowns = f"{variables} unknown" + ("s" if variables > 1 else "")
     text = (
-        f"{text} in {unknowns}, by exact linear algebra: every component has dimension {free} or "
-        f"more{', so it moves' if assembled else ''}"
+        f"{text} in {counted(variables, 'unknown')}, by exact linear algebra: every "
+        f"component has dimension {free} or more{', so it moves' if assembled else ''}"
     )
     return [("rank", text)]

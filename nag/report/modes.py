@@ -30,7 +30,7 @@ def modes_lines(answer: ModesAnswer, title: str, run: Row) -> list[str]:
         head.append(("", "INCOMPLETE, see below"))
     rows = [["class", "modes", "changed joints", "components in each mode"]]
     for k, each in enumerate(answer.classes, 1):
-        changed = ", ".join(_changed(name, m, answer) for name, m in each.modes.representative)
+        changed = ", ".join(_mode_text(name, m, answer) for name, m in each.modes.representative)
         text = in_words(kinds(each.decomposition.components))
         rows.append([str(k), str(len(each.modes.members)), printable(changed or "none"), text])
     paths = sum((c.decomposition.paths for c in answer.classes), PathCounts())
@@ -52,7 +52,7 @@ def _modes_text(answer: ModesAnswer, members: int) -> str:
     )
 
 
-def _changed(name: str, mode: int, answer: ModesAnswer) -> str:
+def _mode_text(name: str, mode: int, answer: ModesAnswer) -> str:
     joint = next(j for j in answer.structure.joints if j.name == name)
     return name if joint.of_type.modes == 2 else f"{name}:{mode}"
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from nag.text.table import counted
+
 if TYPE_CHECKING:
     from nag.decomposition.singular_members import SingularParameters
     from nag.decomposition.singular_points import SingularLocus, SingularSet
@@ -47,10 +49,6 @@ def parameter_rows(found: SingularParameters) -> list[tuple[str, str]]:
     return [*rows, *(("open", note) for note in found.notes)]
 
 
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}{'' if number == 1 else 's'}"
-
-
 def _numbers(indices: Sequence[int]) -> str:
     return ", ".join(str(i + 1) for i in indices)
 
@@ -59,9 +57,9 @@ def answer_rows(locus: SingularLocus, decomposition: Decomposition) -> list[tupl
     """How many singular points and sets there are, and which components are smooth."""
     points = [one for one in locus.sets if one.dimension == 0]
     larger = len(locus.sets) - len(points)
-    parts = [_count(len(points), "isolated singular point")] if points else []
+    parts = [counted(len(points), "isolated singular point")] if points else []
     if larger:
-        parts.append(_count(larger, "set") + " of singular points of positive dimension")
+        parts.append(counted(larger, "set") + " of singular points of positive dimension")
     none = "no singular points" if locus.complete else "undecided: no singular point is certain"
     rows = [("answer", ", ".join(parts) or none)]
     essential = sum(bool(one.essential) for one in locus.sets)

@@ -31,7 +31,7 @@ def statement_rows(decided: Sequence[Decided]) -> list[tuple[str, str]]:
     return rows
 
 
-def settled(statement: Statement, verdict: Verdict) -> bool:
+def is_as_expected(statement: Statement, verdict: Verdict) -> bool:
     """Whether a statement is decided, and a failure is one of the known misprints."""
     if verdict.kind is Kind.OPEN:
         return False

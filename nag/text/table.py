@@ -24,6 +24,11 @@ def counted(number: int, noun: str, plural: str = "") -> str:
     return f"{number} {noun}" if number == 1 else f"{number} {plural or noun + 's'}"
 
 
+def join_words(words: Sequence[str]) -> str:
+    """``A``, ``A and B``, ``A, B and C``."""
+    return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
+
+
 def magnitude(value: float) -> str:
     """A small positive number to two digits: ``3.1e-16``; ``?`` if it is not known."""
     return f"{value:.1e}" if math.isfinite(value) else "?"
