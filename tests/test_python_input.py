@@ -166,7 +166,9 @@ def test_nothing_that_is_given_loads_sympy_or_networkx() -> None:
         (["x^2 + I", "y - x"], r"equations\[0\]: 'I' looks like the imaginary unit"),
         (["y - x", "x^2 + 1+2*i"], r"equations\[1\]: 'i' looks like .* list all of them"),
         (["x^2 - 2i"], "'i' looks like"),
-        (["x^2 - 2j"], "'2j' looks like"),
+        (["x^2 + j", "y - x"], r"equations\[0\]: 'j' looks like the imaginary unit"),
+        (["x^2 + J", "y - x"], r"equations\[0\]: 'J' looks like the imaginary unit"),
+        (["x^2 - 2j"], "'j' looks like"),
         (["x^2 - 1", 1j], r"equations\[1\]: 1j is complex; only real numbers are read"),
         (["x^2 - 1", np.complex64(2)], r"equations\[1\]: \(2\+0j\) is complex"),
     ],
@@ -194,3 +196,10 @@ def test_a_variable_that_is_listed_may_have_any_letter() -> None:
     assert nag.system(["i^2 + j"], "i j").variables == ("i", "j")
     known = nag.system(["x^2 + I"], parameters={"I": 3})
     assert str(known.polynomials[0]) == str(nag.system(["x^2 + 3"]).polynomials[0])
+
+
+def test_one_end_point_lies_on_a_set_and_several_do() -> None:
+    (one,) = nag.solve(["x^2 + t", "y - x"]).notes
+    assert one.endswith("1 end point lies on it and is no isolated solution")
+    (two,) = nag.solve(["(x^2 + t)*(x - 3*t)", "y - x"]).notes
+    assert "end points lie on it and are no" in two

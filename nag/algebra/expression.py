@@ -180,7 +180,7 @@ class _Parser:
                 f"{quote(before.text)} is not a function"
                 f"{nearest(before.text, _FUNCTIONS)}; write '*' for a product",
             )
-        if before.kind == "number" and token.text.lower() in ("i", "j"):
+        if before.kind == "number" and token.text in IMAGINARY_UNITS:
             text = before.text + token.text
             self._fail(before, imaginary_text(text, "write '*' for a product with a variable"))
         self._fail(

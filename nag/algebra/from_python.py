@@ -98,8 +98,8 @@ def system(
             expression is zero), sympy's expressions, ``Eq`` or ``Poly``, or `Polynomial`.
         variables: their names, or sympy's symbols, in order; a text of names will do. By default
             all names that occur and are no parameters, in alphabetical order (x2 before x10). A
-            variable that is called ``I`` or ``i`` in a text has to be given: coefficients are
-            real, and it might be meant as the imaginary unit.
+            variable that is called ``I``, ``i``, ``J`` or ``j`` in a text has to be given:
+            coefficients are real, and it might be meant as the imaginary unit.
         parameters: values of further names.
         nonzero: expressions that must not vanish; written like ``equations``.
         groups: groups of variables in which multidegrees are counted, by name or index.

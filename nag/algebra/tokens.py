@@ -14,7 +14,7 @@ MAX_LENGTH = 100_000
 FUNCTION_NAMES = ("sqrt", "sin", "cos")
 RESERVED = frozenset(FUNCTION_NAMES) | {"pi"}
 # Names that mostly stand for the imaginary unit: taken for variables only where they are listed.
-IMAGINARY_UNITS = ("I", "i")
+IMAGINARY_UNITS = ("I", "i", "J", "j")
 ONLY_REAL = "only real numbers are read here"
 
 _TOKEN = re.compile(

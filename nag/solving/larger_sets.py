@@ -15,6 +15,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.read_only import fixed_array
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import vanishes, vanishes_at
+from nag.text.table import counted
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,15 +61,17 @@ class LargerSets:
     def notes(self) -> list[str]:
         """What a reader must know of them."""
         notes = []
-        if len(self.counting):
+        if count := len(self.counting):
+            lie = "lies on it and is no isolated solution"
+            if count > 1:
+                lie = "lie on it and are no isolated solutions"
+            ends = counted(count, "end point")
+            notes.append(f"the solution set has positive dimension; {ends} {lie}")
+        if count := len(self.doubtful):
+            lie = "lies on a solution set" if count == 1 else "lie on solution sets"
             notes.append(
-                f"the solution set has positive dimension; {len(self.counting)} end points lie on "
-                "it and are no isolated solutions"
-            )
-        if len(self.doubtful):
-            notes.append(
-                f"{len(self.doubtful)} end points lie on solution sets of positive dimension; "
-                "whether something that must not vanish does so on all of each was not decided"
+                f"{counted(count, 'end point')} {lie} of positive dimension; whether something "
+                "that must not vanish does so on all of it was not decided"
             )
         return notes
 

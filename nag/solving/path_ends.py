@@ -18,6 +18,7 @@ from nag.solving.larger_sets import LargerSets, is_set_excluded
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
+from nag.text.table import counted
 from nag.tracking.paths import Paths, PathStatus
 
 # End points with larger values than this are no zeros, however badly they are known.
@@ -115,7 +116,9 @@ def sort_ends(
     n = problem.system.n
     evaluator = Evaluator.of(problem.equations, n)
     zeros, lost = _select_zeros(problem, begin, paths, evaluator)
-    unclear = [f"{lost} end points are zeros of the equations only roughly"] if lost else []
+    roughly = "is a zero" if lost == 1 else "are zeros"
+    ends = f"{counted(lost, 'end point')} {roughly} of the equations only roughly"
+    unclear = [ends] if lost else []
     undecided: list[np.ndarray] = []
     sets: list[tuple[np.ndarray, bool | None]] = []
     close: list[int] = []
@@ -148,7 +151,9 @@ def sort_ends(
             break
     if undecided:
         may_be = "may or may not be isolated solutions, or several that are close together"
-        unclear.append(f"{len(undecided)} end points {may_be}")
+        if len(undecided) == 1:
+            may_be = "may or may not be an isolated solution, or several that are close together"
+        unclear.append(f"{counted(len(undecided), 'end point')} {may_be}")
     original = problem.target.original
     return PathEnds(
         *_solutions(problem, isolated),
