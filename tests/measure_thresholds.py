@@ -230,8 +230,8 @@ def watched_decomposition(measured: Measured) -> ExitStack:
         measured.add("HIT (over errors)", 1.0, distances / same)
         measured.add("MISS (over errors)", 1.0, distances / other)
 
-    def vanishing(_: Any, cut: Any, f: Any, __: Any, points: np.ndarray, *___: Any) -> None:
-        evaluator, x = Evaluator.of([f], cut.n), points[:, : cut.n]
+    def vanishing(_: Any, fibre: Any, f: Any) -> None:
+        evaluator, x = Evaluator.of([f], fibre.cut.n), fibre.x
         measured.add("ON", zero_values.ON, evaluator.residuals(x))
         terms = np.maximum(evaluator.absolute(x), NONE)
         measured.add("CERTAIN", confirm.CERTAIN, np.abs(evaluator.values(x)) / terms)
@@ -270,7 +270,7 @@ def watched_decomposition(measured: Measured) -> ExitStack:
     everywhere(stack, coincidence.coincident, coincident)
     everywhere(stack, coincidence.clusters, clusters)
     everywhere(stack, coincidence.compared, compared)
-    everywhere(stack, confirm.vanishing, vanishing)
+    everywhere(stack, confirm.find_vanishing, vanishing)
     everywhere(stack, cutting.numerical_corank, corank)
     everywhere(stack, cutting.sharpen, sharpened)
     everywhere(stack, monodromy._two_nearest, nearest)

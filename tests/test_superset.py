@@ -15,8 +15,9 @@ from nag.decomposition.components import decompose
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.tracking.run import Run
 from nag.witness.close_to_sets import Meant
-from nag.witness.confirm import vanishing
+from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut, Equations
+from nag.witness.fibres import Fibre
 from nag.witness.membership import Membership
 from nag.witness.slices import random_rows
 from nag.witness.witness import PathCounts
@@ -44,16 +45,18 @@ def test_a_value_of_one_is_told_from_zero_beside_large_terms(size: int) -> None:
     point = np.array([[size, -size, 2 * size, 0]], dtype=complex)
     rows = np.zeros((0, 5), dtype=complex)
     product, shifted = polynomials("x y z w", "x*y*z*w", "x*y*z*w - 1")
-    assert vanishing(cut, product, rows, point) == [True]
-    assert vanishing(cut, shifted, rows, point) == [False]
+    fibre = Fibre(cut, rows, point)
+    assert find_vanishing(fibre, product) == [True]
+    assert find_vanishing(fibre, shifted) == [False]
 
 
 def test_a_small_coordinate_is_told_from_zero() -> None:
     cut = Cut(2, 0, polynomials("x y", "10^24*x - 1", "y - 10^9"))
     point, rows = np.array([[1e-24, 1e9]], dtype=complex), np.zeros((0, 3), dtype=complex)
     x, zero = polynomials("x y", "x", "10^15*x*y - 1")
-    assert vanishing(cut, x, rows, point) == [False]
-    assert vanishing(cut, zero, rows, point) == [True]
+    fibre = Fibre(cut, rows, point)
+    assert find_vanishing(fibre, x) == [False]
+    assert find_vanishing(fibre, zero) == [True]
 
 
 SADDLE, CONE, DOUBLE = "(x*y - z)", "(x*y - z^2)", "(x*y - z)^2"

@@ -35,7 +35,7 @@ from nag.numerics.zero_values import ON, SINGULAR, WRITTEN, vanishes_at_all, wid
 from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
-from nag.witness.confirm import vanishing
+from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut, numerical_corank
 from nag.witness.exact_points import exact_zeros, framed, sharpened
 from nag.witness.fibres import Fibre
@@ -98,8 +98,7 @@ class BranchComponent(GenericPoint):
         if fibre is None:
             # Doubles do not see that the points are regular, or are of a zero known to 100 digits.
             return vanishes_at_all(self.zeros, f)
-        first = fibre.only(np.arange(len(fibre)) == 0)
-        (answer,) = vanishing(first.cut, f, self.witness.slice.rows, first.points, first.fine)
+        (answer,) = find_vanishing(fibre.only(np.arange(len(fibre)) == 0), f)
         return vanishes_at_all(self.zeros, f) if answer is None else answer
 
     def in_digits(self) -> PointWithError:

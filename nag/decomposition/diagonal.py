@@ -27,9 +27,9 @@ from nag.numerics.coincidence import clusters, coincident, compared
 from nag.numerics.digits import bits_of
 from nag.numerics.zero_values import possible_zeros, vanishes_at, vanishes_at_all
 from nag.tracking.run import Run
-from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, Fine, chosen, in_words
+from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, Fine, in_words
 from nag.witness.close_to_sets import among, meant
-from nag.witness.confirm import vanishing, zero_in_digits
+from nag.witness.confirm import find_vanishing, zero_in_digits
 from nag.witness.cutting import Cut, is_end, regular_on, sharpen
 from nag.witness.cutting_in_digits import admit_zero
 from nag.witness.fibres import STEEPER, Fibre, PathEnds, admit
@@ -198,7 +198,7 @@ def _regular(
     points, lost, fine = [ends.points[places]], 0, {}
     for k, i in enumerate(places.tolist()):
         if i in ends.fine or gaps[i] < CLOSE:
-            there = _in_words(cut, rows, ends.points[i], ends.fine.get(i), probe)
+            there = _in_words(ends.fibre([i]), probe)
             if there is None:
                 lost += 1
             else:
@@ -215,21 +215,21 @@ def _regular(
     return with_fine([Fibre(cut, rows, np.vstack(points), fine)])[0], lost
 
 
-def _in_words(
-    cut: Cut, rows: np.ndarray, z: np.ndarray, known: Fine | None, probe: Polynomial | None
-) -> Fine | None:
-    """A regular zero in digits, as close to others as the zeros of a polynomial are to it at least.
+def _in_words(fibre: Fibre, probe: Polynomial | None) -> Fine | None:
+    """A fibre's one point in digits, as close to others as the zeros of a polynomial at least.
 
     None if it is not found.
     """
-    there = zero_in_digits(cut, rows, z, known)
+    there, known = zero_in_digits(fibre, 0), fibre.fine.get(0)
     if there is None:
         return None
     steep = known.curvature if known else 1.0
     if probe is not None:
         values = BallPolynomials.of((probe,)).values(there.centre[: probe.n], bits_of(2 * DIGITS))
         terms = sum(abs(complex(c)) for c in probe.terms.values())
-        apart = float(abs(values[0, 0]).mid()) / terms / (1 + float(np.linalg.norm(z)))
+        apart = (
+            float(abs(values[0, 0]).mid()) / terms / (1 + float(np.linalg.norm(fibre.points[0])))
+        )
         steep = max(steep, STEEPER / max(apart, 1 / STEEPEST))
     return in_words(there.centre, steep)
 
@@ -292,10 +292,7 @@ class _Diagonal:
             return on_it, doubtful
         cut, rows, near = ends.cut, ends.rows, gaps < CLOSE
         regular = np.flatnonzero(near & ends.regular)
-        fine = chosen(ends.fine, regular)
-        answers = dict(
-            zip(regular, vanishing(cut, probe, rows, ends.points[regular], fine), strict=True)
-        )
+        answers = dict(zip(regular, find_vanishing(ends.fibre(regular), probe), strict=True))
         if close:
             for i in np.flatnonzero(near & ~ends.regular):
                 rng, error = np.random.default_rng(0), max(float(ends.accuracy[i]), ROUNDED)
@@ -314,8 +311,7 @@ class _Diagonal:
         for fibre in fibres:
             near = self.product.gaps(fibre.x) < CLOSE
             if probe is not None:
-                rows, fine = self.flag[:0], chosen(fibre.fine, np.flatnonzero(near))
-                answers = vanishing(fibre.cut, probe, rows, fibre.points[near], fine)
+                answers = find_vanishing(fibre.only(near), probe)
                 if None in answers:
                     self.result.notes.append(f"{answers.count(None)} points may be equal or not")
                 near[near] = [answer is True for answer in answers]

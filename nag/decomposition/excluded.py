@@ -10,7 +10,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import SAFETY
 from nag.numerics.zero_values import ON, possible_zeros, vanishes_at
-from nag.witness.confirm import vanishing
+from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut
 from nag.witness.fibres import PathEnds
 from nag.witness.slices import padded
@@ -40,11 +40,8 @@ def excluded(nonzero: Sequence[Polynomial], ends: PathEnds) -> tuple[np.ndarray,
     result[result] = forbidden(evaluator, ends.x[result], ends.accuracy[result])
     regular = np.flatnonzero(result & ends.regular)
     small = (evaluator.residuals(ends.x[regular]) < ON).any(axis=0)
-    each = [
-        vanishing(cut, g, rows, ends.points[regular])
-        for g, may in zip(nonzero, small, strict=True)
-        if may
-    ]
+    at_regular = ends.fibre(regular)
+    each = [find_vanishing(at_regular, g) for g, may in zip(nonzero, small, strict=True) if may]
     for k, i in enumerate(regular):
         answers = [own[k] for own in each]
         result[i] = True in answers or None in answers

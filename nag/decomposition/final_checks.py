@@ -15,7 +15,7 @@ from nag.decomposition.splitting import Class
 from nag.numerics.zero_values import ON, SINGULAR
 from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, CLOSE_AFAR, close_pairs, follow_slice
-from nag.witness.confirm import confirmed, zero_in_digits
+from nag.witness.confirm import is_confirmed, zero_in_digits
 from nag.witness.cutting import Equations, numerical_corank
 from nag.witness.exact_points import Sharp, framed, in_order, sharpened
 from nag.witness.fibres import Fibre, move
@@ -207,8 +207,7 @@ def _smallest(fibres: Sequence[Fibre]) -> np.ndarray | Sequence[flint.acb]:
     sizes = [np.linalg.norm(fibre.x, axis=1) for fibre in fibres]
     k = int(np.argmin([own.min() for own in sizes]))
     fibre, i = fibres[k], int(sizes[k].argmin())
-    fine, rows = fibre.fine.get(i), fibre.rows
-    digits = zero_in_digits(fibre.cut, rows, fibre.points[i], fine) if fine is not None else None
+    digits = zero_in_digits(fibre, i) if i in fibre.fine else None
     return fibre.x[i] if digits is None else digits.first(fibre.cut.n).centre
 
 
@@ -232,11 +231,10 @@ def checked_witness_set(
     chosen, lifted = [part.sharp.fibre for part in parts], [part.lifted for part in parts]
     residual = float(max(part.residuals.max(initial=0.0) for part in parts))
     coranks = [int(k) for part in parts for k in part.coranks]
-    first = chosen[0].points[0], chosen[0].fine.get(0)
     reasons = [found.reason] if found.reason else []
     if residual > ON:
         reasons.append("a point does not satisfy all equations")
-    if not confirmed(chosen[0].cut, reduced.polynomials, rows, *first):
+    if not is_confirmed(chosen[0], 0, reduced.polynomials):
         reasons.append("a point does not satisfy all equations in 100 digits: zeros too close")
     if len(set(coranks)) > 1:
         reasons.append("the corank of the Jacobian differs between its points")

@@ -19,7 +19,7 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.run import Run
 from nag.tracking.track import track
 from nag.witness.close_points import with_roots
-from nag.witness.confirm import vanishing
+from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut, leading_power
 from nag.witness.fibres import (
     Fibre,
@@ -159,7 +159,7 @@ def hypersurface_section(
     for d in sorted(sets, reverse=True):
         own = [fibre for fibre in sets[d] if len(fibre)]
         for fibre in with_fine(own) if own else ():
-            found = vanishing(fibre.cut, f, fibre.rows, fibre.points, fibre.fine)
+            found = find_vanishing(fibre, f)
             # A point where that is left open is found out by the final checks.
             on = np.array([there is not False for there in found], dtype=bool)
             if on.any():

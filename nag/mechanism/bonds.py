@@ -259,16 +259,14 @@ class _Ends:
             (second,) = move([near], goal, 1.0, self.run)
             if not second.regular.all():
                 raise BondError("paths to the ends of the curve failed")
-            for x, y in zip(near.points, second.points, strict=True):
-                norms = self._norms(self._sharpen(fibre, start, x))
-                result.append(
-                    self._vanishing_orders(norms, self._norms(self._sharpen(fibre, goal, y)))
-                )
+            for k in range(len(near)):
+                norms = (self._norms(self._sharpen(at, k)) for at in (near, second.fibre()))
+                result.append(self._vanishing_orders(*norms))
         return result
 
-    def _sharpen(self, fibre: Fibre, rows: np.ndarray, z: np.ndarray) -> list[flint.acb]:
+    def _sharpen(self, fibre: Fibre, k: int) -> list[flint.acb]:
         """A point near an end in many digits: eliminated joints lose most of them there."""
-        zero = zero_in_digits(fibre.cut, rows, z)
+        zero = zero_in_digits(fibre, k)
         if zero is None:
             raise BondError("points near the ends of the curve are not regular")
         return list(zero.centre[: self.n])

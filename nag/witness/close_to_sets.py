@@ -88,7 +88,7 @@ def among(zero: SingularEnd, fibres: Sequence[Fibre]) -> bool | None:
         return None
     for fibre in fibres:
         for i in np.flatnonzero(coincident(fibre.x, zero.point, CLOSE)).tolist():
-            there = zero_in_digits(fibre.cut, fibre.rows, fibre.points[i], fibre.fine.get(i))
+            there = zero_in_digits(fibre, i)
             if there is not None and are_same(here, there.first(len(here))):
                 return True
             unknown |= there is None

@@ -87,7 +87,7 @@ def precise_point(component: WitnessSet) -> PrecisePoint:
     """A witness point in balls, from the equations that cut it where the component holds them."""
     if component.fibres:
         fibre, n = component.fibres[0], component.points.shape[1]
-        zero = zero_in_digits(fibre.cut, fibre.rows, fibre.points[0], fibre.fine.get(0))
+        zero = zero_in_digits(fibre, 0)
         if zero is not None:
             return zero.first(n)
     return PrecisePoint.of_doubles(component.points[0], component.radii[0])

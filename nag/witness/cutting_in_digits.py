@@ -110,7 +110,7 @@ def is_alone(fibre: Fibre, i: int, equations: Equations) -> bool:
         or rated(cut.polynomials, rows, Fine.of_doubles(z)).curvature < 1 / CLOSE
     ):
         return False
-    digits = zero_in_digits(cut, rows, z)
+    digits = zero_in_digits(fibre, i)
     return digits is not None and vanish(equations.polynomials, digits) is True
 
 

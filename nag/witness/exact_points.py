@@ -297,10 +297,8 @@ def _close_in_digits(component: WitnessSet, index: int) -> PrecisePoint | None:
     """A witness point that is close to others, to 100 digits; None of one that is not known so."""
     for fibre in component.fibres:
         if index < len(fibre):
-            fine, n = fibre.fine.get(index), fibre.cut.n
-            rows, z = component.slice.rows, fibre.points[index]
-            found = None if fine is None else zero_in_digits(fibre.cut, rows, z, fine)
-            return None if found is None else found.first(n)
+            found = zero_in_digits(fibre, index) if index in fibre.fine else None
+            return None if found is None else found.first(fibre.cut.n)
         index -= len(fibre)
     return None
 
