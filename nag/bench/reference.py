@@ -64,9 +64,8 @@ class Reference:
             if box is None:
                 raise ReferenceError(f"no simple solution is proved next to point {i + 1}")
             enter_box(found, i, box)
-            with flint.ctx.workprec(BITS[-1]):
-                rest = zip(box.centre, found.centres[i], strict=True)
-                low[i] = [complex(middle(z - complex(c))) for z, c in rest]
+            rest = zip(box.centre, found.centres[i], strict=True)
+            low[i] = [complex(middle(z - complex(c))) for z, c in rest]
         if find_overlaps(found) != ([], []):
             raise ReferenceError("two points lead to one solution")
         return cls(found.centres, low, tuple(found.fine[i] for i in range(P)))
@@ -83,9 +82,8 @@ class Reference:
     def fine_error(self, point: Sequence[flint.acb], place: int) -> float:
         """The same of one point in balls, to as many digits as it has."""
         centre = self.boxes[place].centre
-        with flint.ctx.workprec(BITS[-1]):
-            off = max(float(abs(a - b).mid()) for a, b in zip(point, centre, strict=True))
-            size = max(float(abs(b).mid()) for b in centre)
+        off = max(float(abs(a - b).mid()) for a, b in zip(point, centre, strict=True))
+        size = max(float(abs(b).mid()) for b in centre)
         return off / max(1.0, size)
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any
 
 import flint
@@ -19,7 +20,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.reference import NEAR, Found, Reference, compared, compared_in_balls
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import bits_of, number
+from nag.numerics.digits import bits_of, change_units
 from nag.numerics.newton import newton_step, subtract_step
 from nag.solving.isolated_zero import affine_point
 from nag.solving.square_problem import SquareProblem
@@ -128,15 +129,10 @@ class WholePaths:
     def _original(self, points: list[list[Any]]) -> list[list[Any]]:
         if not self.target.scales:
             return points
-        with flint.ctx.workdps(FINEST):
-            powers, natural = self.target.scales, self.target.natural
-            factors = [
-                number(s) * flint.arb(2) ** k for s, k in zip(natural.scales, powers, strict=True)
-            ]
-            origins = [number(b) for b in natural.origin]
-            return [
-                [z * f + b for z, f, b in zip(x, factors, origins, strict=True)] for x in points
-            ]
+        powers, natural = self.target.scales, self.target.natural
+        factors = [s * Fraction(2) ** int(k) for s, k in zip(natural.scales, powers, strict=True)]
+        bits = bits_of(FINEST)
+        return [change_units(x, factors, natural.origin, bits) for x in points]
 
 
 def tracked_in(

@@ -55,6 +55,28 @@ def point(x: Iterable[complex | flint.acb]) -> list[flint.acb]:
     return [middle(number(v)) for v in x]
 
 
+def real_of_words(words: np.ndarray) -> flint.arb:
+    """A sum of doubles, exactly."""
+    with in_bits(EXACT):
+        return sum(map(flint.arb, words.tolist()), flint.arb(0))
+
+
+def number_of_words(words: np.ndarray) -> flint.acb:
+    """A complex number from sums of doubles, shape ``(2, words)``, exactly."""
+    return flint.acb(real_of_words(words[0]), real_of_words(words[1]))
+
+
+def words_of_number(z: flint.acb, count: int) -> np.ndarray:
+    """Real and imaginary part as sums of so many doubles, the largest first, ``(2, count)``."""
+    words = np.zeros((2, count))
+    with in_bits(EXACT):
+        for k, rest in enumerate((z.real.mid(), z.imag.mid())):
+            for i in range(count):
+                words[k, i] = float(rest)
+                rest = (rest - words[k, i]).mid()
+    return words
+
+
 def middle(z: flint.acb) -> flint.acb:
     """The midpoint of a ball, as an exact number."""
     return z.mid()

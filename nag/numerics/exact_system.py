@@ -64,15 +64,13 @@ class ExactSystem:
         """The system with one more polynomial in the scaled variables."""
         made = ExactSystem(self.n, (*self.rows, tuple(row)), self.scales, _above=self)
         for digits, rows in self._known.items():
-            with in_bits(bits_of(digits)):
-                made._known[digits] = [*rows, [(e, number(c)) for e, c in row]]
+            made._known[digits] = [*rows, *_in_digits(made.rows[-1:], digits)]
         return made
 
     def at(self, digits: int) -> list[Terms]:
         """The rows with coefficients of so many digits."""
         if digits not in self._known:
-            with in_bits(bits_of(digits)):
-                self._known[digits] = [[(e, number(c)) for e, c in row] for row in self.rows]
+            self._known[digits] = _in_digits(self.rows, digits)
         return self._known[digits]
 
     @cached_property
@@ -175,6 +173,11 @@ class PointValues:
     def jacobian(self, x: Sequence[flint.acb]) -> list[list[flint.acb]]:
         """The derivatives of each row."""
         return list(self.functions.jacobian(x, self.bits).mid().tolist())
+
+
+def _in_digits(rows: Sequence[Terms], digits: int) -> list[Terms]:
+    with in_bits(bits_of(digits)):
+        return [[(e, number(c)) for e, c in row] for row in rows]
 
 
 def _odd_bits(k: int) -> int:

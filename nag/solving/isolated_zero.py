@@ -9,11 +9,10 @@ import flint
 import numpy as np
 
 from nag.numerics.coincidence import SAFETY
-from nag.numerics.digits import bits_of, in_bits
+from nag.numerics.digits import bits_of, in_bits, number_of_words
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import SingularEnd
 from nag.solving.start.target import Start
-from nag.tracking.ends.terms import number
 from nag.tracking.paths import Ball
 
 # Digits in which the quotients of projective coordinates are worked out.
@@ -28,7 +27,7 @@ REAL = 1e-10
 
 def affine_point(begin: Start, ball: Ball) -> PrecisePoint:
     """The affine coordinates of an end that a path reached in more digits."""
-    shift, x = len(begin.groups), [number(c) for c in ball.centre]
+    shift, x = len(begin.groups), [number_of_words(c) for c in ball.centre]
     values: dict[int, flint.acb] = {}
     errors: dict[int, float] = {}
     with in_bits(bits_of(DIGITS)):

@@ -16,7 +16,7 @@ import numpy as np
 
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import neighbours
-from nag.numerics.digits import EXACT, bits_of, in_bits, number
+from nag.numerics.digits import bits_of, in_bits, number, number_of_words, words_of_number
 from nag.numerics.newton import find_zero, inverse_of, newton_step, subtract_step
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.read_only import fixed_array
@@ -89,11 +89,7 @@ class Fine:
 
     def balls(self) -> list[flint.acb]:
         """The coordinates as exact numbers."""
-        with in_bits(EXACT):
-            return [
-                flint.acb(*(sum(map(flint.arb, part.tolist()), flint.arb(0)) for part in parts))
-                for parts in self.words
-            ]
+        return list(map(number_of_words, self.words))
 
     @property
     def homogeneous(self) -> np.ndarray:
@@ -106,14 +102,8 @@ class Fine:
 
 def in_words(values: Sequence[flint.acb], curvature: float) -> Fine:
     """A point from the middles of coordinates."""
-    words = np.zeros((len(values), 2, WORDS))
-    with in_bits(EXACT):
-        for j, z in enumerate(values):
-            for k, rest in enumerate((z.real.mid(), z.imag.mid())):
-                for i in range(WORDS):
-                    words[j, k, i] = float(rest)
-                    rest = (rest - words[j, k, i]).mid()
-    return Fine(words, curvature)
+    words = [words_of_number(z, WORDS) for z in values]
+    return Fine(np.array(words).reshape(len(words), 2, WORDS), curvature)
 
 
 def affine_fine(centre: np.ndarray, curvature: float) -> Fine:

@@ -12,9 +12,9 @@ from collections.abc import Sequence
 import flint
 import numpy as np
 
-from nag.numerics.digits import log_norm, log_size
+from nag.numerics.digits import log_norm, log_size, number_of_words, words_of_number
 from nag.numerics.newton import find_zero
-from nag.tracking.ends.terms import Terms, doubles, number
+from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.projective import ROUNDING
@@ -35,7 +35,7 @@ def at_infinity(terms: Terms, centre: np.ndarray, coordinates: Sequence[int]) ->
         centre: a point near enough for Newton's method, shape ``(N, 2, words)``.
         coordinates: those that are asked for.
     """
-    return _zero_at_infinity(terms, [number(c) for c in centre], coordinates) is not None
+    return _zero_at_infinity(terms, [number_of_words(c) for c in centre], coordinates) is not None
 
 
 def regular_paths(
@@ -51,7 +51,7 @@ def regular_paths(
     for i, point in enumerate(points.tolist()):
         zero = _zero_at_infinity(terms, [flint.acb(z) for z in point], homotopy.infinity)
         if zero is not None:
-            centre = np.array([doubles(z, 2) for z in zero])
+            centre = np.array([words_of_number(z, 2) for z in zero])
             # Numbers as small would leave the range of doubles.
             centre[np.abs(centre[:, :, 0]).max(axis=1) < 10.0**ZERO] = 0.0
             balls[i] = Ball(centre, np.full(len(zero), DOUBLE_DOUBLE))

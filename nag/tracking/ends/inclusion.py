@@ -10,9 +10,9 @@ import flint
 import numpy as np
 
 from nag.numerics.ball_boxes import BallOperator
-from nag.numerics.digits import round_up
+from nag.numerics.digits import number_of_words, round_up
 from nag.numerics.newton import newton_step, subtract_step
-from nag.tracking.ends.terms import BITS, Terms, number
+from nag.tracking.ends.terms import BITS, Terms
 
 # Most that the radii of the box are, in rounding errors of the coordinates, and in Newton's steps.
 WIDER, STEPS = 64.0, 16.0
@@ -48,7 +48,7 @@ def prove_end(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> np.ndarra
     if not most.all():
         # Boxes as small leave the range of doubles.
         return None
-    x = [number(c) for c in centre]
+    x = [number_of_words(c) for c in centre]
     about = BallOperator.about(terms.with_patches(x, bits), x, bits)
     if about is None:
         return None

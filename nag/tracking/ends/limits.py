@@ -16,10 +16,10 @@ import flint
 import numpy as np
 
 from nag.algebra.number import decimal_digits
-from nag.numerics.digits import in_bits
+from nag.numerics.digits import in_bits, number_of_words, real_of_words, words_of_number
 from nag.tracking.ends.initial_forms import FINE, InitialForms
 from nag.tracking.ends.runs import MAX_WINDING
-from nag.tracking.ends.terms import BITS, Terms, doubles, number, real
+from nag.tracking.ends.terms import BITS, Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import NEVER, relative
 
@@ -142,7 +142,7 @@ class Limits:
             return None
         orders = [NEVER] * N
         leading = [flint.acb(0)] * N
-        log_t = real(t).log()
+        log_t = real_of_words(t).log()
         # `extrapolate` leaves out this part of the change, times w v.
         shift = flint.fmpq(0)
         for m in range(1, self.order + 1):
@@ -150,8 +150,8 @@ class Limits:
         for j in np.flatnonzero(known).tolist():
             orders[j] = round(denominator * slopes[j].real)
             order = flint.fmpq(orders[j], denominator)
-            change = number(found[j, 2]) + winding * order * shift - log_t * order
-            leading[j] = number(x[j]) * change.exp()
+            change = number_of_words(found[j, 2]) + winding * order * shift - log_t * order
+            leading[j] = number_of_words(x[j]) * change.exp()
             if not leading[j].is_finite():
                 return None
         bends = found[:, 3, 0].sum(axis=1) + 1j * found[:, 3, 1].sum(axis=1)
@@ -177,7 +177,7 @@ class Limits:
             # A power of two, by which nothing is rounded.
             size = 2 ** round(max(float(abs(leading[j]).log().mid()) for j in first) / LOG_2)
             for j in first:
-                centre[j] = doubles(leading[j] / size, self.words)
+                centre[j] = words_of_number(leading[j] / size, self.words)
         return centre
 
     def _branch(self, orders: list[int], leading: list[Any]) -> np.ndarray:

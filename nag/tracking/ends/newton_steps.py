@@ -10,12 +10,11 @@ import numpy as np
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import splat, store
 from nag.machine_code.records import Reals
-from nag.numerics.digits import bits_of, in_bits
+from nag.numerics.digits import bits_of, in_bits, number_of_words
 from nag.tracking.ends import records
 from nag.tracking.ends.corrector import linearize, weigh
 from nag.tracking.ends.evaluation import factors_at, lay_patches
 from nag.tracking.ends.records import Equations, Room
-from nag.tracking.ends.terms import number as to_ball
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double, quad_double
@@ -87,7 +86,7 @@ def affine_points(points: np.ndarray) -> list[list[flint.acb]]:
     """Coordinates beside the first one, of points as `newton_steps` returns them."""
     found = []
     for point in points:
-        first, *others = map(to_ball, point)
+        first, *others = map(number_of_words, point)
         with in_bits(bits_of(AFFINE_DIGITS)):
             found.append([z / first for z in others])
     return found

@@ -1,4 +1,4 @@
-"""The rows of a homotopy in balls, in as many bits as are asked for, and numbers in words."""
+"""The rows of a homotopy in balls, in as many bits as are asked for."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from nag.algebra.number import Number
 from nag.numerics.ball_polynomials import BallPolynomials, Factors, factors_of, in_ball
-from nag.numerics.digits import EXACT, in_bits
+from nag.numerics.digits import in_bits
 from nag.tracking.homotopy import Homotopy
 
 # Bits of working precision for numbers of as many words.
@@ -91,25 +91,3 @@ def times(c: Number | complex, factor: complex) -> Any:
         x, y = Fraction(z.real), Fraction(z.imag)
         return x * parts[0] - y * parts[1], x * parts[1] + y * parts[0]
     return c * parts[0], c * parts[1]
-
-
-def real(parts: np.ndarray) -> flint.arb:
-    """A sum of doubles, exactly."""
-    with in_bits(EXACT):
-        return sum(map(flint.arb, parts.tolist()), flint.arb(0))
-
-
-def number(parts: np.ndarray) -> flint.acb:
-    """A complex number from sums of doubles, shape ``(2, words)``."""
-    return flint.acb(real(parts[0]), real(parts[1]))
-
-
-def doubles(z: flint.acb, words: int) -> np.ndarray:
-    """Real and imaginary part as sums of so many doubles, shape ``(2, words)``."""
-    parts = np.zeros((2, words))
-    with in_bits(EXACT):
-        for k, rest in enumerate((z.real.mid(), z.imag.mid())):
-            for i in range(words):
-                parts[k, i] = float(rest)
-                rest = (rest - parts[k, i]).mid()
-    return parts
