@@ -21,7 +21,7 @@ from nag.files.json_schema import schema
 from nag.numerics.claims import Standing
 from nag.solving.certificate import certify_solutions
 from nag.solving.solve import solve
-from nag.witness.certificate import certify_decomposition
+from nag.witness.certificate import DecompositionCertificate, certify_decomposition
 from nag.witness.certified_loops import prove_all
 from nag.witness.witness import Slice
 
@@ -69,6 +69,31 @@ def test_a_component_listed_twice_is_found_out(equations) -> None:
     certificate = certify_decomposition(replace(answer, components=(*parts, parts[0])))
     assert (0, len(parts)) in (*certificate.same, *certificate.unknown)
     assert not certificate.all_proved
+
+
+@pytest.mark.parametrize(
+    ("equations", "nonzero", "surfaces"),
+    [
+        ((x**2 - 2 * y**2,), (), 2),
+        (((x - y) ** 2 * (x * y - 1),), (x - y,), 2),
+        (((x - 1) * (y - 2), (x - 1) * (x**2 + y)), (), 1),
+    ],
+)
+def test_a_list_without_a_common_factor_of_the_equations_is_not_complete(
+    equations, nonzero, surfaces
+) -> None:
+    answer = decompose(PolynomialSystem(("x", "y"), equations, nonzero))
+    certificate = certify_decomposition(answer)
+    assert answer.complete and certificate.surfaces == surfaces
+    assert completeness(certificate) in (Standing.PROVED, Standing.UNSEEN)
+    rest = tuple(c for c in answer.components if not c.dimension)
+    fewer = certify_decomposition(replace(answer, components=rest))
+    assert completeness(fewer) is Standing.REFUTED and not fewer.all_proved
+
+
+def completeness(certificate: DecompositionCertificate) -> Standing:
+    (found,) = (claim.standing for claim in certificate.claims if claim.field == "complete")
+    return found
 
 
 @pytest.mark.parametrize("row", [[[0, 0], [0, 0]], [[None, 0], [1, 0]]])

@@ -23,7 +23,7 @@ from math import prod
 
 import numpy as np
 
-from nag.algebra.factoring import factored
+from nag.algebra.factoring import common_factor, factored
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.certified_points import (
@@ -89,6 +89,8 @@ class DecompositionCertificate:
         bounds: by dimension, a number that the sum of the degrees of the components of that
             dimension is proved not to be below.
         most: the sum of the degrees of all components is at most this.
+        surfaces: the sum of the degrees of all components of dimension ``n - 1``; None where it is
+            not known.
     """
 
     decomposition: Decomposition
@@ -97,6 +99,7 @@ class DecompositionCertificate:
     unknown: tuple[tuple[int, int], ...]
     bounds: dict[int, int]
     most: int
+    surfaces: int | None
 
     @property
     def all_proved(self) -> bool:
@@ -152,9 +155,28 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
     for (dimension, signature), slices in apart.items():
         if signature is not None:
             bounds[dimension] += max(map(distinct_simple, slices.values()))
-    most = prod(f.degree for f in equations)
-    repeated = _repeated(certificates)
-    return DecompositionCertificate(decomposition, tuple(certificates), *repeated, bounds, most)
+    most, surfaces = prod(f.degree for f in equations), hypersurface_degree(system)
+    if len(equations) == 1 and surfaces is not None:
+        most = surfaces
+    return DecompositionCertificate(
+        decomposition, tuple(certificates), *_repeated(certificates), bounds, most, surfaces
+    )
+
+
+def hypersurface_degree(system: PolynomialSystem) -> int | None:
+    """The sum of the degrees of all components of dimension ``n - 1``.
+
+    They are the zeros of the common factors of the equations, but for those that are excluded. None
+    where coefficients are irrational, or where all is a zero.
+    """
+    equations = [f for f in system.polynomials if f]
+    if not equations or not all(f.exact for f in (*equations, *system.nonzero)):
+        return None
+    common = common_factor(equations)
+    if common is None or not all(system.nonzero):
+        return 0
+    excluded = {p for g in system.nonzero for p, _ in factored(g)}
+    return sum(p.degree for p, _ in factored(common) if p not in excluded)
 
 
 def _common_slices(decomposition: Decomposition) -> dict[int, Slice]:

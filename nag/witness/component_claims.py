@@ -190,12 +190,18 @@ def _cut_by(component: WitnessSet, name: str) -> Claim:
 
 
 def _completeness(certificate: DecompositionCertificate) -> Claim:
-    """That the components are all, by the bound of their degrees."""
-    if not certificate.decomposition.complete:
+    """That the components are all, by the bound of their degrees, or the common factors'."""
+    found = certificate.decomposition
+    if not found.complete:
         return Claim("complete", "the components are not said to be all", Standing.UNSEEN)
     text = "that there are no more components"
     if certificate.complete:
         return Claim("complete", text, Standing.PROVED)
+    d, surfaces = found.system.n - 1, certificate.surfaces or 0
+    listed = sum(c.degree * c.orbit for c in found.components if c.dimension == d)
+    if listed < surfaces:
+        text += f": in dimension {d} their degrees add up to {surfaces}, not to {listed}"
+        return Claim("complete", text, Standing.REFUTED)
     return _counted(certificate, text) or Claim("complete", text, Standing.UNSEEN)
 
 
