@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_parameters, add_tracking, read_case_file
-from nag.cli.running import Answer, Progress, as_chosen, run_row
+from nag.cli.running import Answer, Progress, chosen_run, run_row
 
 if TYPE_CHECKING:
     from nag.check.statement import Statement, Verdict
@@ -46,7 +46,7 @@ def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[S
     from nag.decomposition.components import decompose
 
     def decomposed(system: Any) -> Any:
-        return decompose(system, **as_chosen(options))
+        return decompose(system, run=chosen_run(options))
 
     if case is None:
         return everything(decomposed)

@@ -15,7 +15,7 @@ from nag.cli.arguments import (
     whole,
 )
 from nag.cli.certify import proof_asked_for
-from nag.cli.running import Answer, as_chosen, run_row
+from nag.cli.running import Answer, chosen_run, run_row
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of
 
@@ -134,14 +134,14 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, problem: Problem)
 
 def _decompose(arguments: argparse.Namespace, problem: Problem) -> tuple[Problem, Decomposition]:
     """The components, and the problem in whose coordinates they are."""
-    options = {**as_chosen(arguments), "progress": arguments.progress}
+    run = chosen_run(arguments)
     if arguments.method == "sampling":
         from nag.decomposition.discovery import discover
 
         starts = {} if arguments.starts is None else {"starts": arguments.starts}
         starts["symmetries"] = problem.symmetries
-        return problem, discover(problem.system, **options, **starts)
-    decomposition = problem.decompose(**options)
+        return problem, discover(problem.system, run=run, **starts)
+    decomposition = problem.decompose(run=run)
     if arguments.coordinates != "euler" or problem.formulation is None:
         return problem, decomposition
     from nag.mechanism.coordinates import carry_to_euler
@@ -151,7 +151,7 @@ def _decompose(arguments: argparse.Namespace, problem: Problem) -> tuple[Problem
 
 def _all_modes(arguments: argparse.Namespace, case: Case) -> Answer:
     """Decompose one combination of modes of each class, as `run` does the one of the reference."""
-    from nag.files.modes_export import document
+    from nag.files.export import modes_document
     from nag.mechanism.mode_decomposition import decompose_modes
     from nag.mechanism.model import ModelError
     from nag.report.modes import modes_lines
@@ -161,10 +161,9 @@ def _all_modes(arguments: argparse.Namespace, case: Case) -> Answer:
             case.mechanism,
             arguments.formulation or "auto",
             arguments.coordinates or ("joint" if arguments.formulation == "H" else "euler"),
-            **as_chosen(arguments),
-            progress=arguments.progress,
+            run=chosen_run(arguments),
         )
     except ModelError as error:
         raise UsageError(f"{arguments.case}: {error}") from None
     lines = modes_lines(answer, case.title, run_row(arguments))
-    return Answer(lines, answer.complete, lambda: document(answer, case))
+    return Answer(lines, answer.complete, lambda: modes_document(answer, case))

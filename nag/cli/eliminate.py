@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_running, read_case_file, read_problem, whole
-from nag.cli.running import Answer, answer_of, name_case
+from nag.cli.arguments import UsageError, read_case_file, read_problem, whole
+from nag.cli.running import Answer, answer_of, chosen_run, name_case
 from nag.cli.witness_input import (
+    add_component,
     add_input,
-    component_number,
     component_of,
     doubt_rows,
     is_export,
@@ -40,17 +40,14 @@ def _degree(text: str) -> int:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag eliminate``."""
     add_input(parser)
-    add_running(parser)
     parser.add_argument(
         "--onto",
         metavar="NAMES",
         help="variables of the equations, with commas: a0,a2,c2 (default: essential ones)",
     )
-    parser.add_argument(
-        "--component",
-        type=component_number,
-        metavar="K",
-        help="number of the component, in the order of `nag decompose` (default: 1, of a "
+    add_component(
+        parser,
+        "number of the component, in the order of `nag decompose` (default: 1, of a "
         "mechanism the one through the reference configuration)",
     )
     parser.add_argument(
@@ -163,10 +160,9 @@ def _begin(options: argparse.Namespace) -> Begun:
     from nag.interpolation.point_cloud import Ambient, Cloud
     from nag.interpolation.precise_samples import SourceError, source_of_component
     from nag.report.model import body_rows
-    from nag.witness.fibres import Run
 
     rng = np.random.default_rng([options.seed, 4])
-    run = Run(options.seed, options.threads, options.settings)
+    run = chosen_run(options)
     problem, top = None, []
     if not is_export(options.case):
         if options.component is None and options.formulation is None:

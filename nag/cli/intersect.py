@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from dataclasses import asdict
 
-from nag.cli.arguments import UsageError, add_running
-from nag.cli.running import Answer, answer_of, as_chosen
+from nag.cli.arguments import UsageError
+from nag.cli.running import Answer, answer_of, chosen_run
 from nag.cli.witness_input import (
     add_input,
     component_facts,
@@ -22,7 +22,6 @@ FORMAT = "nag-intersection"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag intersect`` has besides those of every command that runs a case."""
     add_input(parser)
-    add_running(parser)
     parser.add_argument(
         "--components",
         type=component_number,
@@ -44,9 +43,7 @@ def run(options: argparse.Namespace) -> Answer:
     pair = [component_of(found, number, "--components") for number in numbers]
     system = found.decomposition.system
     try:
-        result = intersect_components(
-            system, *pair, **as_chosen(options), progress=options.progress
-        )
+        result = intersect_components(system, *pair, run=chosen_run(options))
     except IntersectionError as error:
         raise UsageError(f"{options.case}: {error}") from None
     complete = result.complete and not any(component.note for component in pair)

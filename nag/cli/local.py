@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_case, add_running, read_problem
-from nag.cli.running import Answer, answer_of, as_chosen, name_case
-from nag.cli.witness_input import Points, add_point, named_point, point_at
+from nag.cli.running import Answer, answer_of, chosen_run, name_case
+from nag.cli.witness_input import Points, add_point, chosen_point
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
@@ -72,14 +72,10 @@ def chosen_points(
     Raises:
         UsageError: if there are none, or the asked one does not exist.
     """
-    if options.at is not None:
-        if options.point is not None:
-            raise UsageError("give either the name of a point of the case or --at, and not both")
-        return {"": point_at(options.at, problem.system.variables)}
     points: Points = {point.name: point.at for point in problem.points}
-    if options.point is None and points:
+    if options.at is None and options.point is None and points:
         return points
-    return {options.point: named_point(options.case, options.point, points)}
+    return {options.point or "": chosen_point(options, problem.system.variables, points)}
 
 
 def local_dimension_at(
@@ -115,7 +111,7 @@ def _through(
     from nag.decomposition.through import through_points
     from nag.witness.frame import expanded
 
-    decomposition = problem.decompose(**as_chosen(options), progress=options.progress)
+    decomposition = problem.decompose(run=chosen_run(options))
     components = expanded(decomposition).components
     known = through_points(decomposition, list(chosen.items()), options.threads)
 

@@ -6,22 +6,20 @@ import argparse
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from nag.cli.arguments import UsageError, add_running
-from nag.cli.running import Answer, answer_of, as_chosen
+from nag.cli.arguments import UsageError
+from nag.cli.running import Answer, answer_of, chosen_run
 from nag.cli.witness_input import (
-    Points,
+    ONE_POINT,
     add_input,
     add_point,
+    chosen_point,
     component_facts,
     doubt_rows,
-    named_point,
-    point_at,
     read_components,
     with_tested_traces,
 )
 
 if TYPE_CHECKING:
-    from nag.algebra.number import Number
     from nag.witness.membership import Membership
     from nag.witness.witness import WitnessSet
 
@@ -31,7 +29,6 @@ FORMAT = "nag-membership"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag member`` has besides those of every command that runs a case."""
     add_input(parser)
-    add_running(parser)
     add_point(parser)
 
 
@@ -46,10 +43,12 @@ def run(options: argparse.Namespace) -> Answer:
     from nag.witness.membership import Membership, memberships
 
     if (options.point is None) == (options.at is None):
-        raise UsageError("give either the name of a point of the case or --at, and not both")
-    found = with_tested_traces(read_components(options, lambda *known: _point(options, *known)))
+        raise UsageError(ONE_POINT)
+    found = with_tested_traces(
+        read_components(options, lambda *known: chosen_point(options, *known))
+    )
     system, components = found.decomposition.system, found.decomposition.components
-    point = _point(options, system.variables, found.points)
+    point = chosen_point(options, system.variables, found.points)
     exact = all(is_zero(value) for value in system(point))
     at = np.array([complex(float(value)) for value in point])
     evaluator = Evaluator.of(system.polynomials, system.n)
@@ -61,7 +60,7 @@ def run(options: argparse.Namespace) -> Answer:
             at,
             accuracy=EXACT if exact else max(INEXACT, 10 * residual),
             exact=point if exact else (),
-            **as_chosen(options),
+            run=chosen_run(options),
         )
     open_ = [str(i) for i, answer in enumerate(answers, 1) if answer is Membership.UNDECIDED]
     lost = exact and not open_ and Membership.MEMBER not in answers
@@ -88,14 +87,6 @@ def run(options: argparse.Namespace) -> Answer:
         tail.append(("open", f"membership could not be decided for component {', '.join(open_)}"))
     complete = found.decomposition.complete and not open_ and not lost
     return answer_of(options, found.case, (top, _table(numbered)), tail, fields, complete)
-
-
-def _point(
-    options: argparse.Namespace, variables: Sequence[str], points: Points
-) -> tuple[Number, ...]:
-    if options.at is not None:
-        return point_at(options.at, variables)
-    return named_point(options.case, options.point, points)
 
 
 def _equations_text(exact: bool, residual: float) -> str:

@@ -12,7 +12,7 @@ from nag.cli.arguments import (
     read_case_file,
     read_problem,
 )
-from nag.cli.running import Answer, answer_of, as_chosen, name_case
+from nag.cli.running import Answer, answer_of, chosen_run, name_case
 from nag.cli.witness_input import point_at
 
 if TYPE_CHECKING:
@@ -133,7 +133,7 @@ def _report(
 
     detail = "curves" if options.curves else "local" if options.local else "components"
     try:
-        return mobility(given, at, detail=detail, **as_chosen(options))
+        return mobility(given, at, detail=detail, run=chosen_run(options))
     except NoAssembly as reason:
         raise UsageError(f"{options.case}: {reason}") from None
     except NoSolution as reason:

@@ -15,6 +15,7 @@ from nag.cli.arguments import UsageError
 if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.text.table import Block, Row
+    from nag.tracking.run import Run
 
 # What NumPy's linear algebra reads, when it is loaded, of how many threads it is to have.
 LINEAR_ALGEBRA_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
@@ -145,9 +146,11 @@ def show_progress(options: argparse.Namespace) -> Iterator[ProgressLine | None]:
         yield progress
 
 
-def as_chosen(options: argparse.Namespace) -> dict[str, Any]:
-    """The keywords of whatever tracks paths: the seed, the threads and the settings chosen."""
-    return {name: getattr(options, name) for name in ("seed", "threads", "settings")}
+def chosen_run(options: argparse.Namespace) -> Run:
+    """How whatever tracks paths is to be worked out."""
+    from nag.tracking.run import Run
+
+    return Run(options.seed, options.threads, options.settings, options.progress)
 
 
 def run_row(

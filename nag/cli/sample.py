@@ -6,12 +6,12 @@ import argparse
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from nag.cli.arguments import add_running, whole
-from nag.cli.running import Answer, answer_of, as_chosen
+from nag.cli.arguments import whole
+from nag.cli.running import Answer, answer_of, chosen_run
 from nag.cli.witness_input import (
+    add_component,
     add_input,
     component_facts,
-    component_number,
     component_of,
     doubt_rows,
     numbered_row,
@@ -34,13 +34,8 @@ def _count(text: str) -> int:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag sample`` has besides those of every command that runs a case."""
     add_input(parser)
-    add_running(parser)
-    parser.add_argument(
-        "--component",
-        type=component_number,
-        default=1,
-        metavar="K",
-        help="number of the component, in the order of the export (default: 1)",
+    add_component(
+        parser, "number of the component, in the order of the export (default: 1)", default=1
     )
     parser.add_argument(
         "--count", type=_count, default=10, metavar="N", help="number of points (default: 10)"
@@ -57,7 +52,7 @@ def run(options: argparse.Namespace) -> Answer:
     component = component_of(found, options.component, "--component")
     system = found.decomposition.system
     try:
-        samples = sample(system, component, options.count, **as_chosen(options))
+        samples = sample(system, component, options.count, run=chosen_run(options))
         doubt = ""
     except SamplingError as error:
         samples, doubt = error.found, str(error)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 
-from nag.cli.arguments import UsageError, add_running, read_case_file
-from nag.cli.running import Answer, answer_of, as_chosen, name_case
+from nag.cli.arguments import UsageError, read_case_file
+from nag.cli.running import Answer, answer_of, chosen_run, name_case
 from nag.cli.witness_input import (
+    add_component,
     add_input,
     component_facts,
-    component_number,
     component_of,
     doubt_rows,
     is_export,
@@ -24,13 +24,7 @@ PARAMETERS_FORMAT = "nag-singular-parameters"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag singular`` has besides those of every command that runs a case."""
     add_input(parser)
-    add_running(parser)
-    parser.add_argument(
-        "--component",
-        type=component_number,
-        metavar="N",
-        help="only singular points of this component, in the order of the export",
-    )
+    add_component(parser, "only singular points of this component, in the order of the export")
     parser.add_argument(
         "--free",
         metavar="NAMES",
@@ -55,7 +49,7 @@ def run(options: argparse.Namespace) -> Answer:
     locus = singular_locus(
         whole,
         only=None if options.component is None else [options.component - 1],
-        **as_chosen(options),
+        run=chosen_run(options),
     )
     fields = {
         "format": FORMAT,
@@ -90,7 +84,7 @@ def _for_parameters(options: argparse.Namespace) -> Answer:
     case = read_case_file(options.case, options.set)
     system = freed_system(options.case, names, dict(options.set))
     try:
-        found = singular_parameters(system, len(names), **as_chosen(options))
+        found = singular_parameters(system, len(names), run=chosen_run(options))
     except ValueError as reason:
         raise UsageError(f"{options.case}: --free: {reason}") from None
     fields = {

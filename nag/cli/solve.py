@@ -6,7 +6,7 @@ import argparse
 
 from nag.cli.arguments import UsageError, add_case, add_certify, add_running, read_problem
 from nag.cli.certify import proof_asked_for
-from nag.cli.running import Answer, as_chosen, name_case, run_row
+from nag.cli.running import Answer, chosen_run, name_case, run_row
 from nag.solving.start import KINDS
 
 
@@ -32,7 +32,7 @@ def run(options: argparse.Namespace) -> Answer:
 
     case, problem = read_problem(options)
     try:
-        result = problem.solve(start=options.start, **as_chosen(options), progress=options.progress)
+        result = problem.solve(start=options.start, run=chosen_run(options))
     except StartError as error:
         raise UsageError(f"{options.case}: {error}") from None
     return Answer(

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from nag.cli.arguments import UsageError, read_problem
-from nag.cli.running import Answer, as_chosen, run_row
+from nag.cli.running import Answer, chosen_run, run_row
 
 MOST_VALUES = 1000
 _NUMBER = re.compile(r"[+-]?[0-9]{1,15}(\.[0-9]{1,15}|/[0-9]{1,15})?")
@@ -77,6 +77,8 @@ def run(arguments: argparse.Namespace) -> Answer:
     from nag.decomposition.sweep import sweep
     from nag.report.sweep import sweep_lines
 
-    swept = sweep(lambda value: problem_at(value)[1].system, asked.values, **as_chosen(arguments))
+    swept = sweep(
+        lambda value: problem_at(value)[1].system, asked.values, run=chosen_run(arguments)
+    )
     lines = sweep_lines(case.title, asked.name, swept, run_row(arguments, ()))
     return Answer(lines, all(each.decomposition.complete for each in swept))

@@ -11,8 +11,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_formulation, add_parameters, read_problem
-from nag.cli.running import as_chosen
+from nag.cli.arguments import (
+    UsageError,
+    add_formulation,
+    add_parameters,
+    add_running,
+    read_problem,
+)
+from nag.cli.running import chosen_run
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
@@ -20,6 +26,7 @@ if TYPE_CHECKING:
 
 # What is said of a component of an export on which paths fail.
 UNTESTED = "the trace of its points could not be tested"
+ONE_POINT = "give either the name of a point of the case or --at, and not both"
 Points = Mapping[str, tuple["Number", ...]]
 Check = Callable[[Sequence[str], Points], object]
 
@@ -48,12 +55,20 @@ class ReadComponents:
 
 
 def add_input(parser: argparse.ArgumentParser) -> None:
-    """The argument for the export or case, which ``arguments.case`` holds."""
+    """The export or case, which ``arguments.case`` holds, and how paths are tracked from it."""
     parser.add_argument(
         "case", metavar="EXPORT_OR_CASE", help="export of `nag decompose --json`, or case file"
     )
     add_formulation(parser)
     add_parameters(parser)
+    add_running(parser)
+
+
+def add_component(parser: argparse.ArgumentParser, text: str, default: int | None = None) -> None:
+    """The option for a component by its number; ``text`` says which one is meant."""
+    parser.add_argument(
+        "--component", type=component_number, default=default, metavar="K", help=text
+    )
 
 
 def is_export(path: str) -> bool:
@@ -95,7 +110,7 @@ def read_components(options: argparse.Namespace, check: Check | None = None) -> 
     points = {point.name: point.at for point in problem.points}
     if check is not None:
         check(problem.system.variables, points)
-    decomposition = problem.decompose(**as_chosen(options), progress=options.progress)
+    decomposition = problem.decompose(run=chosen_run(options))
     if options.progress is not None:
         options.progress.erase()
     return ReadComponents(expanded(decomposition), case.title, Path(case.path).name, points)
@@ -175,6 +190,21 @@ def add_point(parser: argparse.ArgumentParser, otherwise: str = "") -> None:
     parser.add_argument(
         "--at", metavar="VALUES", help="the point itself: 'x = 1/2, y = sqrt(3)/2', all variables"
     )
+
+
+def chosen_point(
+    options: argparse.Namespace, variables: Sequence[str], points: Points
+) -> tuple[Number, ...]:
+    """The point that the options of `add_point` name or spell.
+
+    Raises:
+        UsageError: if there is none, or both options are given.
+    """
+    if options.at is None:
+        return named_point(options.case, options.point, points)
+    if options.point is not None:
+        raise UsageError(ONE_POINT)
+    return point_at(options.at, variables)
 
 
 def named_point(file: str, name: str, points: Points) -> tuple[Number, ...]:

@@ -49,9 +49,11 @@ from nag.witness.witness import (
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
+    from nag.mechanism.mode_decomposition import ModesAnswer
     from nag.mechanism.problem import Problem
 
 FORMAT = "nag-decomposition"
+MODES_FORMAT = "nag-modes"
 VERSION = 2
 
 # A file is taken into memory whole, several times its size as Python objects.
@@ -169,6 +171,30 @@ def document(decomposition: Decomposition, origin: Origin | None = None) -> dict
         "system": system_document(system),
         "equations": [_equations_document(cut, system.variables) for cut in cuts],
         "components": components,
+    }
+
+
+def modes_document(answer: ModesAnswer, case: Case) -> dict[str, Any]:
+    """The components of all assembly modes as a JSON object: for each class a decomposition."""
+    from nag.mechanism.problem import problem_of
+
+    classes = []
+    for each in answer.classes:
+        classes.append(
+            {
+                "modes": [dict(modes) for modes in each.modes.members],
+                "decomposition": document(
+                    each.decomposition, Origin.of(case, problem_of(each.model))
+                ),
+            }
+        )
+    return {
+        "format": MODES_FORMAT,
+        "version": 1,
+        "complete": answer.complete,
+        "modes_apart": answer.apart,
+        "meetings": [list(meeting) for meeting in answer.meetings],
+        "classes": classes,
     }
 
 

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from nag.algebra.number import Number, is_zero
 from nag.errors import MechanismError
+from nag.mechanism.graph import connected_to
 
 if TYPE_CHECKING:
     import networkx
@@ -84,25 +85,13 @@ class Framework:
                     "point",
                     "bars",
                 )
-        stray = sorted(set(self.points) - self._reach_points())
+        stray = sorted(set(self.points) - connected_to(self.points[0], self.bars))
         if stray:
             raise FrameworkError(
                 f"no bars connect {', '.join(stray)} with {self.points[0]!r}; parts that are not "
                 "connected move freely, take them one by one",
                 "bars",
             )
-
-    def _reach_points(self) -> set[str]:
-        reached, frontier = {self.points[0]}, [self.points[0]]
-        while frontier:
-            point = frontier.pop()
-            for bar in self.bars:
-                if point in bar:
-                    other = bar[1] if bar[0] == point else bar[0]
-                    if other not in reached:
-                        reached.add(other)
-                        frontier.append(other)
-        return reached
 
     @property
     def motions(self) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -154,14 +154,7 @@ class Mechanism:
         self._check_connected(used)
 
     def _check_connected(self, used: set[str]) -> None:
-        reached, frontier = {self.ground}, [self.ground]
-        while frontier:
-            body = frontier.pop()
-            for joint in self.joints:
-                if body in joint.bodies and joint.other(body) not in reached:
-                    reached.add(joint.other(body))
-                    frontier.append(joint.other(body))
-        stray = sorted(used - reached)
+        stray = sorted(used - connected_to(self.ground, (j.bodies for j in self.joints)))
         if stray:
             joint = next(j for j in self.joints if stray[0] in j.bodies)
             raise MechanismError(
@@ -259,6 +252,15 @@ class Mechanism:
             if given.name == body and given.orientation is not None:
                 return given.orientation
         return (Fraction(1), Fraction(0), Fraction(0), Fraction(0))
+
+
+def connected_to(start: str, ties: Iterable[Collection[str]]) -> set[str]:
+    """Everything that is connected with ``start``, where each of ``ties`` connects its members."""
+    reached, left = {start}, list(ties)
+    while touching := [tie for tie in left if not reached.isdisjoint(tie)]:
+        left = [tie for tie in left if reached.isdisjoint(tie)]
+        reached.update(*touching)
+    return reached
 
 
 def _exact(values: Any, key: str, **owner: str) -> tuple[Number, ...]:

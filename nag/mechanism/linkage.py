@@ -25,6 +25,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
 from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.graph import connected_to
 from nag.mechanism.loops import minimum_cycles
 from nag.text.table import counted
 
@@ -97,10 +98,11 @@ class Linkage:
             raise LinkageError(
                 f"{self.ground!r} is no link; the links are {', '.join(names)}", key="ground"
             )
-        reached = {self.ground}
-        for _ in names:
-            pins = {p for link in self.links if link.name in reached for p in link.pins}
-            reached |= {link.name for link in self.links if pins & set(link.pins)}
+        shared: dict[str, list[str]] = {}
+        for link in self.links:
+            for pin in link.pins:
+                shared.setdefault(pin, []).append(link.name)
+        reached = connected_to(self.ground, shared.values())
         stray = [name for name in names if name not in reached]
         if stray:
             raise LinkageError(
