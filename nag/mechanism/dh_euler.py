@@ -11,18 +11,17 @@ global one.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
-from string import ascii_lowercase
 from typing import Any
 
 from nag.algebra.elimination import Elimination, eliminate_linear
-from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.configuration import arithmetic_of, as_entries
 from nag.mechanism.dh import DHError, DHLoop, DHModel, TableModel, dh_model, open_joints
+from nag.mechanism.euler import independent_equations, parameter_names, sign_changes
 from nag.mechanism.formulations import Alternative
 from nag.mechanism.quaternion import (
     DualQuaternion,
@@ -107,8 +106,7 @@ def dh_euler_model(loop: DHLoop) -> DHEulerModel:
     """
     joints, links = open_joints(loop)
     moving = len(links) - 1
-    letters = ascii_lowercase if moving <= 26 else [f"q{i + 1}_" for i in range(moving)]
-    names = tuple(f"{letter}{k}" for letter in letters[:moving] for k in range(4))
+    names = parameter_names(moving)
     n = len(names)
     variables = Polynomial.variables(n)
     bodies = [tuple(variables[4 * i : 4 * i + 4]) for i in range(moving)]
@@ -126,14 +124,9 @@ def dh_euler_model(loop: DHLoop) -> DHEulerModel:
     equations += total
     full = PolynomialSystem(names, tuple(f for f in equations if f))
     elimination = eliminate_linear(full, graphs=False)
-    reduced = elimination.system
-    system = replace(reduced, polynomials=tuple(independent_polynomials(reduced.polynomials)))
-    symmetries = []
-    for i in range(moving):
-        signs = tuple(-1 if k // 4 == i else 1 for k in elimination.kept)
-        if -1 in signs:
-            symmetries.append(SignedPermutation.of_signs(signs))
-    return DHEulerModel(loop, joints, tuple(links), elimination, system, tuple(symmetries))
+    system = independent_equations(elimination)
+    symmetries = tuple(map(SignedPermutation.of_signs, sign_changes(moving, elimination)))
+    return DHEulerModel(loop, joints, tuple(links), elimination, system, symmetries)
 
 
 # The formulations of a table, by rising number of paths.

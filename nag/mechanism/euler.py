@@ -9,8 +9,8 @@ configuration.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from string import ascii_lowercase
 from typing import Any
@@ -92,26 +92,20 @@ def euler_model(
     """
     full = euler_system(structure, spherical, modes)
     elimination = without_slides(full, 4 * len(structure.moving))
-    reduced = elimination.system
-    system = PolynomialSystem(
-        reduced.variables, tuple(independent_polynomials(reduced.polynomials)), reduced.nonzero
-    )
+    system = independent_equations(elimination)
     start = [x for b in structure.moving for x in structure.mechanism.orientation(b)]
     start += [Fraction(0)] * (full.n - len(start))
-    symmetries = []
-    for i in range(len(structure.moving)):
-        signs = tuple(-1 if index // 4 == i else 1 for index in elimination.kept)
-        if -1 in signs and _is_symmetry(system, signs):
-            symmetries.append(signs)
+    changes = sign_changes(len(structure.moving), elimination)
+    symmetries = tuple(signs for signs in changes if _is_symmetry(system, signs))
     reference = () if modes else tuple(elimination.project(start))
-    return EulerModel(structure, elimination, system, reference, tuple(symmetries), modes)
+    return EulerModel(structure, elimination, system, reference, symmetries, modes)
 
 
 def euler_system(
     structure: LoopStructure, spherical: bool = False, modes: Modes = REFERENCE
 ) -> PolynomialSystem:
     """Norms, prime components and loop equations in all Euler parameters and slides."""
-    names = (*variable_names(structure), *slide_names(structure))
+    names = (*parameter_names(len(structure.moving)), *slide_names(structure))
     parameters = euler_parameters(structure, len(names))
     slides = slide_variables(structure, Polynomial.variables(len(names)))
     polynomials = norms(structure, parameters)
@@ -182,9 +176,25 @@ def _slide(
     return tuple(-x for x in turned)
 
 
-def variable_names(structure: LoopStructure) -> tuple[str, ...]:
+def independent_equations(elimination: Elimination) -> PolynomialSystem:
+    """What elimination leaves, without equations that depend linearly on the others."""
+    reduced = elimination.system
+    return replace(reduced, polynomials=tuple(independent_polynomials(reduced.polynomials)))
+
+
+def sign_changes(bodies: int, elimination: Elimination) -> Iterator[tuple[int, ...]]:
+    """The signs of the kept variables where a body's Euler parameters change theirs, body by body.
+
+    None for bodies of which no variable is kept.
+    """
+    for i in range(bodies):
+        signs = tuple(-1 if index // 4 == i else 1 for index in elimination.kept)
+        if -1 in signs:
+            yield signs
+
+
+def parameter_names(bodies: int) -> tuple[str, ...]:
     """a0 to a3 for the first moving body, b0 to b3 for the second, as in T25."""
-    bodies = len(structure.moving)
     letters = ascii_lowercase if bodies <= 26 else [f"q{i + 1}_" for i in range(bodies)]
     return tuple(f"{letter}{k}" for letter in letters[:bodies] for k in range(4))
 

@@ -13,7 +13,6 @@ from fractions import Fraction
 from typing import Any
 
 from nag.algebra.elimination import Elimination
-from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -35,6 +34,7 @@ from nag.mechanism.configuration import (
     configuration,
 )
 from nag.mechanism.euler import (
+    independent_equations,
     project_onto,
     slide_carrier,
     slide_names,
@@ -167,10 +167,7 @@ def planar_model(structure: LoopStructure) -> PlanarModel:
         elimination = without_slides(full, parameters)
     else:
         elimination = Elimination(full, names, tuple(range(n)), variables)
-    reduced = elimination.system
-    system = PolynomialSystem(
-        reduced.variables, tuple(independent_polynomials(reduced.polynomials)), reduced.nonzero
-    )
+    system = independent_equations(elimination)
     start = [x for b in structure.moving for x in offsets[b]] + [Fraction(0)] * (n - parameters)
     return PlanarModel(
         structure, normal, offsets, elimination, system, tuple(elimination.project(start))
