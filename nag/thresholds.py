@@ -18,10 +18,10 @@ numerics.zero_values.ON *                   1e-9    Values in doubles, beside th
 numerics.zero_values.NONZERO                1e-6    The same at other points that are certainly not
                                                     zero; smaller ones are computed to 100 digits,
                                                     or leave the answer to another way.
-numerics.zero_values.SINGULAR               1e-9    Singular values of a balanced Jacobian at a
+numerics.double_ranks.SINGULAR              1e-9    Singular values of a balanced Jacobian at a
                                                     point of a component below which the gap is
                                                     looked for where a rank is read
-                                                    (witness.cutting.GAP).
+                                                    (numerics.double_ranks.GAP).
 numerics.zero_values.VANISHES *             1e-80   Values, beside their terms, that are zero at
                                                     zeros of 100 digits: all lay below 5e-87.
 numerics.precise_point.NEAR                 -9      Decimal logarithm of what Newton's method may
@@ -67,9 +67,9 @@ numerics.local_structure.SOMETHING *        -45     The same of such as are not:
                                                     falls between is undecided.
 numerics.local_structure.REPEATED           20      Digits, of a hundred, in which two points may
                                                     differ that are one.
-numerics.null_space.WELL                    1e-8    Pivots, over the largest, of a block that
+numerics.ball_ranks.WELL                    1e-8    Pivots, over the largest, of a block that
                                                     doubles solve for; the rest is for all digits.
-numerics.pivots.CLEAR                       0.5     Decimal logarithm of a pivot over its error that
+numerics.ball_ranks.CLEAR                   0.5     Decimal logarithm of a pivot over its error that
                                                     makes it no zero.
 numerics.curves.OFF                         1e3     Zeros of truncated series over their scale,
                                                     beyond which they are none of the system's.
@@ -279,10 +279,10 @@ witness.confirm.CERTAIN *                   1e-14   Values that are rounding whe
                                                     computed to 100 digits.
 witness.confirm.REGULAR                     1e-5    Singular value above which a zero of as many
                                                     equations as unknowns needs no confirmation.
-witness.cutting.GAP *                       1e3     Quotient of neighbouring singular values at
+numerics.double_ranks.GAP *                 1e3     Quotient of neighbouring singular values at
                                                     which a rank is read: others lay below 130,
                                                     ranks above 1e13.
-witness.cutting.NEARLY_SINGULAR             1e-5    Singular values at a point that is known to be
+numerics.double_ranks.NEARLY_SINGULAR        1e-5    Singular values at a point that is known to be
                                                     singular, perhaps not well, below which the gap
                                                     is looked for.
 witness.cutting.NEAR                        1e-7    Distance, relative to its size, of a zero from
@@ -376,8 +376,10 @@ algebra.evaluation: HUGE; algebra.number: LARGEST_ANGLE; numerics.certified_poin
 numerics.ball_boxes: EXPANDING; numerics.close_zeros: ROUNDING; numerics.curves: CLOSE, CLOSER,
 PATIENCE;
 numerics.deflated_system: MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK;
-numerics.digits: LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION,
-ROUNDING, FIRST, LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function:
+numerics.digits: LOG10_2, SMALLEST, LARGEST; numerics.double_ranks: NOTHING;
+numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST, LEAST, GOOD;
+numerics.discs: UNIT, PRODUCT, UP, LEAST;
+numerics.implicit_function:
 ROUNDING; numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR, LEAST,
 REACHES, ROUNDED; numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
 numerics.rounds_in_doubles: APART; numerics.natural_coordinates: FAR, SEVERAL_SIZES;
@@ -404,7 +406,7 @@ solving.solution_classes: STEP; solving.start.choice: WORK; solving.start.family
 ARRIVED; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
 solving.start.target: HALF_UNIT; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt: EXACT,
 INEXACT; witness.close_points: STEEPEST; witness.close_to_sets: ROUNDED; witness.cutting: FLAT,
-ROUNDED, ROUNDING, LOSS, NOTHING; witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP,
+ROUNDED, ROUNDING, LOSS; witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP,
 BITS_PER_DIGIT, SPLITTER; witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE,
 FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, ARRIVED, NEARLY; witness.real_points: SPREAD,
 SHORTEST, STILL; decomposition.curve_genus: NEAR, OUTSIDE,

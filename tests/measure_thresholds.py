@@ -33,8 +33,8 @@ from nag.decomposition import (  # noqa: F401
 from nag.decomposition.components import decompose
 from nag.files.cases import read_case
 from nag.mechanism.problem import problem_of
-from nag.numerics import coincidence, local_structure, zero_values
-from nag.numerics.null_space import Digits
+from nag.numerics import coincidence, double_ranks, local_structure, zero_values
+from nag.numerics.ball_ranks import Digits
 from nag.solving import isolated_zero, path_ends
 from nag.solving import solve as solving
 from nag.tracking import jumps, projective
@@ -241,7 +241,7 @@ def watched_decomposition(measured: Measured) -> ExitStack:
         values[: len(singular)] = singular[:columns]
         values = np.maximum(values / max(1.0, values.max(initial=0.0)), 1e-17)
         gaps = np.concatenate([[1.0], values[:-1]]) / values
-        measured.add("GAP", cutting.GAP, gaps[values < small])
+        measured.add("GAP", double_ranks.GAP, gaps[values < small])
 
     def sharpened(found: Any, evaluator: Any, *_: Any) -> None:
         if np.isfinite(found.step):
@@ -271,7 +271,7 @@ def watched_decomposition(measured: Measured) -> ExitStack:
     everywhere(stack, coincidence.clusters, clusters)
     everywhere(stack, coincidence.compared, compared)
     everywhere(stack, confirm.find_vanishing, vanishing)
-    everywhere(stack, cutting.numerical_corank, corank)
+    everywhere(stack, double_ranks.numerical_corank, corank)
     everywhere(stack, cutting.sharpen, sharpened)
     everywhere(stack, monodromy._two_nearest, nearest)
     stack.enter_context(

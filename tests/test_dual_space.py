@@ -7,9 +7,9 @@ import pytest
 from singular_zeros import polynomials
 
 from nag.algebra.exact_ranks import PrimeField
+from nag.numerics.ball_ranks import Digits, Field, UnclearRank
 from nag.numerics.dual_space import DualSpace, dual_space
 from nag.numerics.implicit_function import eliminate
-from nag.numerics.null_space import Digits, Field, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing, compose_series, derivatives, evaluate
 
 PRIME = 4611686018427387847

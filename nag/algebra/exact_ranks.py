@@ -45,7 +45,7 @@ def primes_below(bound: int) -> Iterator[int]:
 class PrimeField:
     """Arithmetic modulo a prime below 2^64; numbers are integers, of any size where they are taken.
 
-    A `nag.numerics.null_space.Field`.
+    A `nag.numerics.ball_ranks.Field`.
     """
 
     modulus: int

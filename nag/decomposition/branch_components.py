@@ -29,14 +29,15 @@ from nag.numerics.branch_union import (
     find_repeats,
     multiplicities_in_scheme,
 )
+from nag.numerics.double_ranks import matrix_corank
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.numerics.zero_values import ON, SINGULAR, WRITTEN, vanishes_at_all, widen_error
+from nag.numerics.zero_values import ON, WRITTEN, vanishes_at_all, widen_error
 from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.confirm import find_vanishing
-from nag.witness.cutting import Cut, numerical_corank
+from nag.witness.cutting import Cut
 from nag.witness.exact_points import exact_zeros, framed, sharpened
 from nag.witness.fibres import Fibre
 from nag.witness.frame import Frame
@@ -261,7 +262,7 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Par
             residual=float(evaluator.residuals(x[None]).max(initial=0.0)),
             radii=np.finfo(float).eps * np.abs(x)[None],
             digits=[zero.digits],
-            corank=_corank(evaluator, x),
+            corank=matrix_corank(evaluator.balanced_jacobian(x)),
             multidegree=np.array(1) if system.groups else None,
         )
         if square and zero.multiplicity == 1:
@@ -302,11 +303,6 @@ def _vanishes_at(f: Polynomial, zero: AlgebraicZero) -> bool:
     if f.exact:
         return zero.vanishes(f)
     return bool(Evaluator.of([f], f.n).residuals(zero.point[None])[0, 0] < ON)
-
-
-def _corank(evaluator: Evaluator, x: np.ndarray) -> int:
-    s = np.linalg.svd(evaluator.balanced_jacobian(x), compute_uv=False)
-    return numerical_corank(s, len(x), SINGULAR)
 
 
 @dataclass
@@ -381,7 +377,9 @@ def _in_scheme(system: PolynomialSystem, components: Sequence[BranchComponent]) 
             witness,
             multiplicity=multiple,
             residual=residual,
-            corank=witness.dimension if multiple == 1 else _corank(original, witness.points[0]),
+            corank=witness.dimension
+            if multiple == 1
+            else matrix_corank(original.balanced_jacobian(witness.points[0])),
             status=Status.UNDECIDED if reasons else witness.status,
             note="; ".join(reasons),
         )

@@ -20,7 +20,8 @@ import numpy as np
 
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import bits_of, doubles, in_bits, log_size, middle, number
+from nag.numerics.ball_ranks import regular_block
+from nag.numerics.digits import bits_of, doubles, in_bits, middle, number
 from nag.numerics.newton import find_zero, inverse_of
 from nag.tracking.run import Run
 from nag.witness.fibres import Fibre, move
@@ -86,7 +87,7 @@ def branch_points(sheets: Sheets, rng: np.random.Generator, run: Run) -> list[co
             values.append(_sum_of_squares(sheets, t, weights, rng, run))
             at.append(t)
         with in_bits(BITS):
-            rank = _rank(_loewner(at, values))
+            rank = regular_block(_loewner(at, values), len(at) // 2, NOTHING).rank
             if rank < len(at) // 2 - 1:
                 return _poles(at[: 2 * rank + 1], values[: 2 * rank + 1])
         if len(at) > 2 * most + 2 * BATCH:
@@ -131,25 +132,6 @@ def _loewner(at: Sequence[complex], values: Sequence[flint.acb]) -> list[list[fl
         ]
         for i in range(half)
     ]
-
-
-def _rank(matrix: list[list[flint.acb]]) -> int:
-    """Number of pivots that are no zeros, the largest chosen each time."""
-    rank = 0
-    while matrix and matrix[0]:
-        sizes = [[log_size(c) for c in row] for row in matrix]
-        i = max(range(len(matrix)), key=lambda k: max(sizes[k]))
-        j = max(range(len(matrix[i])), key=sizes[i].__getitem__)
-        if sizes[i][j] < NOTHING:
-            break
-        pivot = matrix.pop(i)
-        rest = []
-        for row in matrix:
-            factor = row[j] / pivot[j]
-            reduced = [middle(a - factor * b) for a, b in zip(row, pivot, strict=True)]
-            rest.append(reduced[:j] + reduced[j + 1 :])
-        matrix, rank = rest, rank + 1
-    return rank
 
 
 def _poles(at: Sequence[complex], values: Sequence[flint.acb]) -> list[complex]:

@@ -23,9 +23,10 @@ from nag.decomposition.final_checks import judged
 from nag.decomposition.given_points import CommonSlices, Start
 from nag.decomposition.orbits import in_orbits
 from nag.decomposition.reduction import Reduction
+from nag.numerics.double_ranks import NEARLY_SINGULAR
 from nag.numerics.zero_values import LEAST
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
-from nag.witness.cutting import NEARLY_SINGULAR, Cut
+from nag.witness.cutting import Cut
 from nag.witness.gauss_newton import CLOSE, descend, polish
 from nag.witness.given_component import check_system
 from nag.witness.slices import complex_normal

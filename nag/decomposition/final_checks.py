@@ -12,11 +12,12 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
-from nag.numerics.zero_values import ON, SINGULAR
+from nag.numerics.double_ranks import SINGULAR, numerical_corank
+from nag.numerics.zero_values import ON
 from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, CLOSE_AFAR, close_pairs, follow_slice
 from nag.witness.confirm import is_confirmed, zero_in_digits
-from nag.witness.cutting import Equations, numerical_corank
+from nag.witness.cutting import Equations
 from nag.witness.exact_points import Sharp, framed, in_order, sharpened
 from nag.witness.fibres import Fibre, move
 from nag.witness.frame import Frame

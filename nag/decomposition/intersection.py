@@ -23,12 +23,13 @@ from nag.decomposition.superset import (
     intersection_order,
     witness_superset,
 )
+from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.zero_values import LEAST, ON
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_system
-from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
+from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre, admit
 from nag.witness.given_component import check_component, check_system
 from nag.witness.moving import orthonormal_rows
@@ -268,7 +269,7 @@ def _bare_point(x: np.ndarray, accuracy: float, common: Reduction) -> WitnessSet
     """An isolated point as a path's end left it, no system being known that sharpens it."""
     point = common.frame.points(x[None])
     residual = float(common.original.residuals(point).max(initial=0.0))
-    s = np.linalg.svd(common.equations.evaluator.balanced_jacobian(x), compute_uv=False)
+    jacobian = common.equations.evaluator.balanced_jacobian(x)
     note = "" if residual < max(ON, accuracy) else "the point does not satisfy all equations"
     return WitnessSet(
         slice=common.frame.slice(np.zeros((0, 1 + len(x)))),
@@ -278,7 +279,7 @@ def _bare_point(x: np.ndarray, accuracy: float, common: Reduction) -> WitnessSet
         residual=residual,
         radii=even_radii(point, common.frame.error(x[None], accuracy)),
         digits=[DOUBLE],
-        corank=numerical_corank(s, len(x), NEARLY_SINGULAR),
+        corank=matrix_corank(jacobian, NEARLY_SINGULAR),
         note=note,
     )
 

@@ -25,13 +25,14 @@ from nag.decomposition.orbits import in_orbits
 from nag.errors import StartError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import coincident
+from nag.numerics.double_ranks import matrix_corank
 from nag.numerics.precise_point import precise_zero
 from nag.numerics.system_facts import SystemFacts
-from nag.numerics.zero_values import NONZERO, SINGULAR, vanishes
+from nag.numerics.zero_values import NONZERO, vanishes
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.solve import solve
 from nag.tracking.run import Run
-from nag.witness.cutting import dyadic, numerical_corank
+from nag.witness.cutting import dyadic
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet, even_radii
 
 # A set whose points would take more paths is not asked first whether it is finite.
@@ -189,8 +190,7 @@ def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSyste
     n, corank, radii = system.n, 0, solution.radii
     x = solution.point[None]
     if solution.multiplicity > 1:
-        s = np.linalg.svd(evaluator.balanced_jacobian(solution.point), compute_uv=False)
-        corank = max(numerical_corank(s, n, SINGULAR), 1)
+        corank = max(matrix_corank(evaluator.balanced_jacobian(solution.point)), 1)
     return WitnessSet(
         slice=Slice(np.zeros((0, n)), np.zeros(0)),
         points=x,

@@ -32,8 +32,8 @@ from nag.interpolation.vanishing import (
     primitive,
     start,
 )
+from nag.numerics.double_ranks import matrix_corank
 from nag.numerics.rational_relations import rank_of_columns
-from nag.witness.cutting import numerical_corank
 
 # Where no degree is asked for, no higher one is looked at.
 MOST_DEGREE = 12
@@ -208,8 +208,7 @@ def _cuts(cloud: Cloud, known: Interpolated, dimension: int) -> bool:
     base = [cloud.ambient.images[i](list(point), complex) for i in known.coordinates]
     rows = [[f.derivative(i)(base, complex) for i in range(k)] for f in known.generators]
     gradients = np.array([np.array(row) / max(1e-300, np.linalg.norm(row)) for row in rows])
-    singular = np.linalg.svd(gradients.reshape(len(rows), k), compute_uv=False)
-    return numerical_corank(singular, k, SMALL) == dimension
+    return matrix_corank(gradients.reshape(len(rows), k), SMALL) == dimension
 
 
 def common_zeros(known: Interpolated) -> tuple[int, int]:

@@ -14,8 +14,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.interpolation.precise_samples import SPARE, Sample, Source, samples
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import bits_of, in_bits
+from nag.numerics.double_ranks import matrix_corank
 from nag.tracking.run import Run
-from nag.witness.cutting import numerical_corank
 from nag.witness.slices import padded
 
 # Points beyond those that make the columns as long as they are many.
@@ -155,9 +155,9 @@ class Cloud:
             for j in image.support:
                 derivatives[row, j] = image.derivative(j)(list(sample.x), complex)
         derivatives *= _sizes(sample)[: len(sample.x)]
-        singular = np.linalg.svd(_with_rows_of_norm_one(derivatives) @ tangent, compute_uv=False)
-        d = tangent.shape[1]
-        return d - numerical_corank(singular, d, SMALL)
+        return tangent.shape[1] - matrix_corank(
+            _with_rows_of_norm_one(derivatives) @ tangent, SMALL
+        )
 
 
 def _sizes(sample: Sample) -> np.ndarray:

@@ -3,8 +3,8 @@
 In order of reading: `read_only` and `array_table` (what results hold); `coincidence`, `zero_values`
 and `scaling` (doubles, and what they leave to others); `natural_coordinates` (origin and units,
 exact) and `system_facts` (what exact algebra says of a system); `digits`, `ball_polynomials`,
-`newton` and `precise_point` (balls), `power_series`, `null_space` and `pivots` (arithmetic and
-rank); `exact_system` and `algebraic_point` (exact points, modulo primes); `branch_union` (what
+`newton` and `precise_point` (balls), `power_series`; `ball_ranks` and `double_ranks`
+(ranks); `exact_system` and `algebraic_point` (exact points, modulo primes); `branch_union` (what
 factors of equations leave, joined); `implicit_function` (the regular part of equations solved by
 series); `deflation` (a singular zero made a regular one) by `descent` and `sharpening`, with
 `second_round` and `rounds_in_doubles`; `dual_space` (the dimension of its local ring), `far_along`,

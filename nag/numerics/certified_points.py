@@ -16,7 +16,6 @@ from functools import cache, partial
 
 import flint
 import numpy as np
-from scipy.linalg import qr
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import jacobian_rank
@@ -28,6 +27,7 @@ from nag.numerics.coincidence import clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
 from nag.numerics.digits import in_bits, middle, number, rational_point
 from nag.numerics.discs import UP
+from nag.numerics.double_ranks import pivot_rows
 from nag.numerics.krawczyk import Boxes, enter_box, find_overlaps, prove_boxes
 from nag.numerics.singular_point import Place, analyse
 
@@ -326,8 +326,7 @@ def independent_equations(
         jacobian = jacobian - (jacobian @ q) @ q.conj().T
     # A gradient beyond the range of doubles says nothing.
     jacobian[~np.isfinite(jacobian).all(axis=1)] = 0
-    _, _, order = qr(jacobian.T, pivoting=True, mode="economic")
-    return sorted(order[: len(point) - len(slices)].tolist())
+    return sorted(pivot_rows(jacobian, len(point) - len(slices))[0])
 
 
 def _others(

@@ -8,6 +8,7 @@ from math import inf
 import flint
 import numpy as np
 
+from nag.numerics.ball_ranks import regular_block
 from nag.numerics.deflation import MOST_WORK_ROUGHLY, Deflated, NotDeflated, deflate
 from nag.numerics.descent import Block, Point, Round, work
 from nag.numerics.digits import LOG10_2, bits_of, log_norm, log_size, middle, working
@@ -15,7 +16,6 @@ from nag.numerics.exact_system import ExactSystem
 from nag.numerics.far_along import far_value
 from nag.numerics.implicit_function import Reduction, eliminate
 from nag.numerics.newton import find_zero, inverse_of
-from nag.numerics.pivots import pivots
 from nag.numerics.power_series import evaluate
 from nag.numerics.series_zeros import STEPS, ScaledSeries
 from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO, predict_along, sharpen
@@ -135,9 +135,9 @@ def _reduced(
         return rounds, inverse
     slopes = system.values_at(LEAST_DIGITS).jacobian(point)
     with working(LEAST_DIGITS):
-        rows, columns = pivots(lambda _: slopes, system.n, 0, ZERO)
-    this = Round(tuple(rows), tuple(columns))
-    if len(columns) != sum(len(r.columns) for r in rounds):
+        found = regular_block(slopes, system.n, ZERO)
+    this = Round(tuple(found.rows), tuple(found.columns))
+    if found.rank != sum(len(r.columns) for r in rounds):
         return rounds, inverse
     block, bits = Block.of(system, this, point), bits_of(LEAST_DIGITS)
     found = inverse_of(block.jacobian(block.variables, bits), bits)

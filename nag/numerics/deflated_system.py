@@ -21,8 +21,8 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_boxes import BITS, FineBox, box_about, holds_conjugate
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.ball_ranks import regular_block
 from nag.numerics.digits import bits_of, in_bits, log_norm, middle
-from nag.numerics.pivots import pivots
 from nag.numerics.precise_point import PrecisePoint
 
 # Digits in which ranks are taken, and below which an entry is zero (decimal logarithm).
@@ -73,8 +73,8 @@ def deflated_zero(
         while len(point) <= MOST_UNKNOWNS:
             system = BallPolynomials.of(equations, rows)
             entries = system.jacobian(point, bits_of(DIGITS)).mid().tolist()
-            chosen, columns = pivots(lambda _, m=entries: m, len(point), 0, ZERO)
-            if len(columns) == len(point):
+            chosen = regular_block(entries, len(point), ZERO).rows
+            if len(chosen) == len(point):
                 return _proved(system, point, chosen, rounds, of_real)
             parts = rng.integers(-(2**WEIGHT), 2**WEIGHT, (2, len(point) - len(chosen), len(point)))
             # Without slices the deflated equations are real, and so is the zero in a box that

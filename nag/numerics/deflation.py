@@ -27,11 +27,11 @@ from typing import Any
 import flint
 import numpy as np
 
+from nag.numerics.ball_ranks import regular_block
 from nag.numerics.descent import Descent, Point, Round, descend, total_work
 from nag.numerics.digits import log_norm, log_size, middle, working
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import jacobian
-from nag.numerics.pivots import pivots
 from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives
 from nag.numerics.sharpening import ARRIVED, DIGITS, ROUNDING, ZERO, sharpen
 
@@ -156,7 +156,7 @@ def _noise(degree: int, inverse: float) -> float:
     return max(ZERO, SPARE - DIGITS + degree * max(0.0, inverse))
 
 
-def regular_block(
+def certain_round(
     slopes: Callable[[Point], list[list[Any]]],
     centre: Point,
     reach: float,
@@ -167,15 +167,12 @@ def regular_block(
     size = flint.arb(10) ** flint.arb(reach)
     shifts = np.exp(2j * np.pi * rng.random((2, n)))
 
-    def at(i: int) -> list[list[flint.acb]]:
-        point = centre
-        if i:
-            moves = shifts[i - 1].tolist()
-            point = [c + middle(size * flint.acb(s)) for c, s in zip(centre, moves, strict=True)]
-        return slopes(point)
-
-    solved, columns = pivots(at, n, len(shifts), ZERO)
-    return Round(tuple(solved), tuple(columns))
+    points = [
+        [c + middle(size * flint.acb(s)) for c, s in zip(centre, moves, strict=True)]
+        for moves in shifts.tolist()
+    ]
+    block = regular_block(slopes(centre), n, ZERO, [slopes(point) for point in points])
+    return Round(tuple(block.rows), tuple(block.columns))
 
 
 def deflate(
@@ -207,7 +204,7 @@ def deflate(
         farthest = max(reach + 1, ARRIVED)
         rows: list[Terms] = []
         while True:
-            this = regular_block(slopes, centre, reach, rng)
+            this = certain_round(slopes, centre, reach, rng)
             left = len(centre) - len(this.columns)
             if rounds and left == len(centre):
                 raise NotDeflated("its error is too large to see which derivatives vanish there")

@@ -19,6 +19,7 @@ from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.algebraic_point import prime_images
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.ball_ranks import Field, UnclearRank
 from nag.numerics.curves import curve_through
 from nag.numerics.deflation import MOST_WORK, Deflated
 from nag.numerics.descent import Round, work
@@ -29,7 +30,6 @@ from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import LocalDimension
 from nag.numerics.local_structure import FURTHEST, HIGHEST, NUMBERS, REACHES, known_digits
 from nag.numerics.located_zero import Zero, is_exact, locate_zero
-from nag.numerics.null_space import Field, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing, Terms
 from nag.numerics.sharpening import DIGITS, ZERO, sharpen
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
-from nag.numerics.null_space import Field
+from nag.numerics.ball_ranks import Field
 from nag.numerics.power_series import Series, SeriesRing
 
 # Local rings of higher dimension are not worked out.
@@ -80,7 +80,7 @@ def dual_space(
         stop: told the numbers of functionals of each degree so far, says whether to go no further.
 
     Raises:
-        nag.numerics.null_space.UnclearRank: if a rank cannot be read.
+        nag.numerics.ball_ranks.UnclearRank: if a rank cannot be read.
     """
     if m == 1:
         return _in_one_variable(series, highest, stop)

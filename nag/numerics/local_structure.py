@@ -12,6 +12,7 @@ import numpy as np
 
 from nag.algebra.exact_ranks import FIELDS, PrimeField
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.ball_ranks import Digits, Field, UnclearRank
 from nag.numerics.clusters import find_zeros_of_cluster
 from nag.numerics.curves import curve_through, is_exact_zero, point_beside
 from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
@@ -27,7 +28,6 @@ from nag.numerics.digits import (
 from nag.numerics.dual_space import CurveSearch, DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
-from nag.numerics.null_space import Digits, Field, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.sharpening import DIGITS, ZERO, sharpen

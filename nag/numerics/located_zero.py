@@ -14,7 +14,7 @@ import numpy as np
 from nag.algebra.number import Irrational, Number
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.curves import is_exact_zero
-from nag.numerics.deflation import Deflated, NotDeflated, SeriesTooLong, deflate, regular_block
+from nag.numerics.deflation import Deflated, NotDeflated, SeriesTooLong, certain_round, deflate
 from nag.numerics.descent import Round
 from nag.numerics.digits import doubles, middle, number, rational_point
 from nag.numerics.exact_system import ExactSystem
@@ -129,7 +129,7 @@ def _exact_zero(
         return Zero(system, nothing, nothing.rounds[0], None), ""
     slopes = system.values_at(DIGITS).jacobian
     if error is None:
-        block = regular_block(slopes, y, ROUNDING - DIGITS, rng)
+        block = certain_round(slopes, y, ROUNDING - DIGITS, rng)
         try:
             found = deflate(system, y, ROUNDING - DIGITS, rng)
             found = replace(found, point=y)
@@ -151,7 +151,7 @@ def _exact_zero(
                 least = reach
             continue
         if is_exact_zero(system, found):
-            block = regular_block(
+            block = certain_round(
                 system.values_at(DIGITS).jacobian, found.point, ROUNDING - DIGITS, rng
             )
             exact = rational_point(found.point, DIGITS) if system.rational else None

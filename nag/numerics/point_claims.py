@@ -11,13 +11,13 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
-import flint
 import numpy as np
 
 from nag.algebra.factoring import factored
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_boxes import BITS, FineBox, box_about, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.ball_ranks import regular_block
 from nag.numerics.certified_points import EVIDENCE, CertifiedPoints, Proof, independent_equations
 from nag.numerics.claims import Standing
 from nag.numerics.deflated_system import vanishing_digits
@@ -155,32 +155,13 @@ def corank_standings(
             continue
         box = boxes.box(i)
         with in_bits(BITS[-1]):
-            most = len(box.centre) - _least_rank(jacobian(box.balls, BITS[-1]))
+            n, entries = len(box.centre), jacobian(box.balls, BITS[-1]).tolist()
+            most = n - regular_block(entries, n).rank
         if said > most:
             found.append(Standing.REFUTED)
         else:
             found.append(Standing.EVIDENCE if said == most else Standing.DOUBTED)
     return found
-
-
-def _least_rank(matrix: flint.acb_mat) -> int:
-    """A rank that a matrix of balls has at least: elimination while there is a pivot."""
-    rows = matrix.tolist()
-    rank = 0
-    while rows and rows[0]:
-        places = [(i, j) for i, row in enumerate(rows) for j, z in enumerate(row) if z != 0]
-        places = [(i, j) for i, j in places if not rows[i][j].contains(0)]
-        if not places:
-            break
-        i, j = max(places, key=lambda place: float(rows[place[0]][place[1]].abs_lower().log()))
-        pivot = rows.pop(i)
-        rows = [
-            [z - row[j] / pivot[j] * p for k, (z, p) in enumerate(zip(row, pivot, strict=True))
-             if k != j]
-            for row in rows
-        ]  # fmt: skip
-        rank += 1
-    return rank
 
 
 def nonvanishing(

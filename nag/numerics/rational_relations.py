@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from itertools import chain
 from math import log10
 
 import flint
 import numpy as np
 
+from nag.numerics.ball_ranks import known_zero, regular_block
 from nag.numerics.digits import bits_of, in_bits
 
 # Digits by which an approximation must be better than its size explains.
@@ -51,32 +53,14 @@ def clearly_independent(columns: np.ndarray) -> bool:
 def rank_of_columns(columns: Sequence[Sequence[flint.acb]], digits: int) -> int | None:
     """The rank over the complex numbers of columns of balls; None if these digits do not tell it.
 
-    A column depends on those before it where nothing of it is left but balls that contain zero, and
-    these are small.
+    It is told where elimination leaves nothing but balls that contain zero and are small.
     """
-    with in_bits(bits_of(digits + SPARE)):
-        return _rank_of_columns(columns, digits)
-
-
-def _rank_of_columns(columns: Sequence[Sequence[flint.acb]], digits: int) -> int | None:
     limit = flint.arb(10) ** int(-SHARP * digits)
-    left = [list(column) for column in columns]
     sizes = [max((float(abs(z).mid()) for z in column), default=0.0) for column in columns]
-    rank = 0
-    for k, column in enumerate(left):
-        pivot = max(range(len(column)), key=lambda i: float(column[i].abs_lower()))
-        if column[pivot].contains(0):
-            if any(flint.arb(z.abs_upper()) > limit * (1 + sizes[k]) for z in column):
-                return None
-            continue
-        rank += 1
-        inverse = 1 / column[pivot]
-        for other in left[k + 1 :]:
-            factor = other[pivot] * inverse
-            for i, z in enumerate(column):
-                other[i] = other[i] - factor * z
-            other[pivot] = flint.acb(0)
-    return rank
+    with in_bits(bits_of(digits + SPARE)):
+        rows = [[z / (1 + s) for z in column] for column, s in zip(columns, sizes, strict=True)]
+        block = regular_block(rows, len(rows[0]))
+        return block.rank if known_zero(chain(*block.rest), limit) else None
 
 
 class Echelon:
@@ -121,11 +105,9 @@ class Echelon:
 
     def _add(self, column: Sequence[flint.arb]) -> list[Fraction] | None:
         tops, rest = self._reduced(column)
-        pivot = max(rest, key=lambda i: rest[i].abs_lower(), default=None)
-        if pivot is None or rest[pivot].contains(0):
-            self._check(column, rest.values())
+        if self._depends(column, rest.values()):
             return self._coefficients(tops)
-        self._keep(tops, rest, pivot)
+        self._keep(tops, rest, max(rest, key=lambda i: rest[i].abs_lower()))
         return None
 
     def relation(self, column: Sequence[flint.arb]) -> list[Fraction] | None:
@@ -139,10 +121,7 @@ class Echelon:
 
     def _relation(self, column: Sequence[flint.arb]) -> list[Fraction] | None:
         tops, rest = self._reduced(column)
-        if not all(x.contains(0) for x in rest.values()):
-            return None
-        self._check(column, rest.values())
-        return self._coefficients(tops)
+        return self._coefficients(tops) if self._depends(column, rest.values()) else None
 
     def _reduced(self, column: Sequence[flint.arb]) -> tuple[list[flint.arb], dict[int, flint.arb]]:
         """A column's part of the upper matrix, and what is left of it in the other rows."""
@@ -166,11 +145,12 @@ class Echelon:
         self._pivots.append(pivot)
         self._upper.append([*tops, rest[pivot]])
 
-    def _check(self, column: Sequence[flint.arb], rest: Iterable[flint.arb]) -> None:
+    def _depends(self, column: Sequence[flint.arb], rest: Iterable[flint.arb]) -> bool:
         size = max((float(abs(x).mid()) for x in column), default=0.0)
-        limit = flint.arb(10) ** int(-SHARP * self.digits) * (1 + size)
-        if any(x.rad() > limit for x in rest):
+        found = known_zero(rest, flint.arb(10) ** int(-SHARP * self.digits) * (1 + size))
+        if found is None:
             raise TooFewDigitsError(f"{self.digits} digits do not tell whether a column depends")
+        return found
 
     def _coefficients(self, tops: list[flint.arb]) -> list[Fraction]:
         """Back substitution; the solution recognised."""

@@ -22,6 +22,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.ball_ranks import row_echelon
 from nag.numerics.digits import log_size, rational, working
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import local_dimension
@@ -180,7 +181,7 @@ def _independent(
 ) -> list[dict[tuple[int, ...], flint.acb]]:
     """A basis of the span of forms, their leading coefficients one."""
     monomials = sorted({e for part in parts for e in part}, reverse=True)
-    rows = _reduced([[part.get(e, flint.acb(0)) for e in monomials] for part in parts])
+    rows = row_echelon([[part.get(e, 0) for e in monomials] for part in parts], NOTHING)
     nonzero = [[(e, c) for e, c in zip(monomials, row, strict=True)] for row in rows]
     return [{e: c for e, c in row if log_size(c) > NOTHING} for row in nonzero]
 
@@ -191,28 +192,6 @@ def _recognised(forms: Sequence[dict[tuple[int, ...], flint.acb]]) -> list[Form]
     if any(q is None for q in chain.from_iterable(form.values() for form in numbers)):
         return [{e: _rounded(complex(c)) for e, c in form.items()} for form in forms]
     return [_primitive({e: q for e, q in form.items() if q}) for form in numbers]
-
-
-def _reduced(rows: list[list[flint.acb]]) -> list[list[flint.acb]]:
-    """The reduced echelon form, without the rows that vanish."""
-    done: list[list[flint.acb]] = []
-    for column in range(len(rows[0])):
-        sizes = [log_size(row[column]) for row in rows]
-        best = max(range(len(rows)), key=sizes.__getitem__, default=None)
-        if best is None or sizes[best] <= NOTHING:
-            continue
-        pivot = rows.pop(best)
-        pivot = [c / pivot[column] for c in pivot]
-        rows = [_minus(row, pivot, column) for row in rows]
-        done = [_minus(row, pivot, column) for row in done] + [pivot]
-        if not rows:
-            break
-    return done
-
-
-def _minus(row: list[flint.acb], pivot: list[flint.acb], column: int) -> list[flint.acb]:
-    factor = row[column]
-    return [a - factor * b for a, b in zip(row, pivot, strict=True)]
 
 
 def _rounded(z: complex) -> complex:

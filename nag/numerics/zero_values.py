@@ -23,8 +23,6 @@ from nag.numerics.singular_point import Place, SingularEnd, analyse
 ON = 1e-9
 # Values at points that are not sharpened that are certainly not zero.
 NONZERO = 1e-6
-# Singular values at a point of a component below which a gap is looked for.
-SINGULAR = 1e-9
 # How much larger than its estimate the error of a point may be, and the least that is believed.
 SLACK, LEAST = 1e3, 1e-12
 

@@ -16,15 +16,13 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank, pivot_rows
 from nag.numerics.scaling import scaled_terms, variable_scales
 from nag.numerics.zero_values import SLACK
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.witness.isosingular import Deflated, Level
 from nag.witness.slices import padded
 
-# A rank is read where neighbouring singular values differ by this factor, and at a point that is
-# known to be singular, though perhaps not well, below this value.
-GAP, NEARLY_SINGULAR = 1e3, 1e-5
 # Newton's method may correct an end by this part of its size: errors of singular ones are unsure.
 NEAR = 1e-7
 # A deflation of more steps that add unknowns has not been met in the literature's examples.
@@ -36,14 +34,12 @@ NEWTON_STEPS = 12
 # Steps that are rounding errors, as are singular values so small beside the largest; last steps at
 # points that are known, well or badly conditioned; and residuals there.
 ROUNDING, SHARP, ROUGH, VANISHING = 1e-14, 1e-10, 1e-8, 1e-11
-# Roundings in such a step, times the condition; and a singular value, beside the largest, of zero.
-LOSS, NOTHING = 1e2, 1e-17
+# Roundings in such a step, times the condition.
+LOSS = 1e2
 # Rounding errors of values, and what they may change a regular zero's least singular value by.
 ROUNDED, CHANGED = 1e-15, 0.1
 # Sizes are very unequal if they, and 1, differ by more than two to this power.
 UNEQUAL = 10
-# Rows of larger matrices are chosen by LAPACK, which takes longer to load than smaller ones take.
-MOST_ENTRIES = 2000
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,24 +180,6 @@ def _floors(evaluator: Evaluator, z: np.ndarray, slices: int) -> np.ndarray:
     return np.concatenate([FLAT * size ** (evaluator.degrees - 1.0), np.full(slices, 1e-300)])
 
 
-def numerical_corank(singular: np.ndarray, columns: int, small: float) -> int:
-    """Corank of a balanced Jacobian with ``columns`` columns, at the gap of its singular values.
-
-    The widest gap counts whose lower side is below ``small``, and that is at least a factor
-    `GAP`. Entries of a balanced matrix are of order one, so a matrix of rank zero shows a gap
-    below one.
-    """
-    s = np.zeros(columns)
-    s[: len(singular)] = singular[:columns]
-    s = np.maximum(s / max(1.0, s.max(initial=0.0)), NOTHING)
-    above, best, corank = 1.0, GAP, 0
-    for rank, value in enumerate(s):
-        if value < small and above / value > best:
-            best, corank = above / value, columns - rank
-        above = value
-    return corank
-
-
 def is_end(x: np.ndarray, accuracy: float, zero: np.ndarray) -> bool:
     """Whether a zero is where a path ended, not somewhere in the neighbourhood of its end ``x``."""
     distance = np.linalg.norm(zero - x) / (1 + np.linalg.norm(x))
@@ -270,28 +248,7 @@ def _square_rows(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> list[
         return []
     if len(matrix) == need:
         return list(range(need))
-    return _most_independent(matrix, need)
-
-
-def _most_independent(matrix: np.ndarray, need: int) -> list[int]:
-    """Rows chosen one by one, each the longest beside those before (Businger & Golub 1965)."""
-    if matrix.size > MOST_ENTRIES:
-        from scipy.linalg import qr
-
-        _, _, pivots = qr(matrix.T, mode="economic", pivoting=True)
-        return sorted(int(p) for p in pivots[:need])
-    rest, chosen = np.array(matrix, dtype=complex), []
-    for _ in range(need):
-        lengths = np.linalg.norm(rest, axis=1)
-        lengths[chosen] = -1.0
-        best = int(lengths.argmax())
-        chosen.append(best)
-        if lengths[best] > 0:
-            unit = rest[best] / lengths[best]
-            # Once more, as rounding errors of the first time count beside small rows.
-            for _ in range(2):
-                rest = rest - (rest @ unit.conj())[:, None] * unit
-    return sorted(chosen)
+    return sorted(pivot_rows(matrix, need)[0])
 
 
 def find_cut(
@@ -329,8 +286,7 @@ def _deflated_cut(
             return found
         free = system.total - len(end.rows)
         q = dyadic(rng, (system.total, free))
-        singular = np.linalg.svd(system.evaluator.balanced_jacobian(z) @ q, compute_uv=False)
-        m = numerical_corank(singular, free, NEARLY_SINGULAR)
+        m = matrix_corank(system.evaluator.balanced_jacobian(z) @ q, NEARLY_SINGULAR)
         if m == 0:
             return None
         steps += free > m

@@ -14,8 +14,8 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.ball_ranks import regular_block
 from nag.numerics.digits import bits_of, in_bits, middle
-from nag.numerics.pivots import pivots
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import is_negligible, vanish
 from nag.witness.close_points import CLOSE, Fine, in_words, rated
@@ -169,7 +169,7 @@ def _find_cut(
             return Cut(n, system.total - n, subset, system.levels), z
         free = system.total - len(rows)
         q = dyadic(rng, (system.total, free))
-        m = free - len(_block(_times(_slopes(system.polynomials, z), q), free)[1])
+        m = free - regular_block(_times(_slopes(system.polynomials, z), q), free, ZERO).rank
         if not m or system.too_large(free, m):
             return None
         q1, q2 = q[:, :m], q[:, m:]
@@ -189,16 +189,15 @@ def _unknowns(
     """
     slopes = _slopes(polynomials, z)
     matrix, right = _times(slopes, q2), _times(slopes, q1)
-    places, columns = _block(matrix, q2.shape[1])
-    if len(columns) < q2.shape[1]:
+    block = regular_block(matrix, q2.shape[1], ZERO)
+    if block.rank < q2.shape[1]:
         return None
-    block = flint.acb_mat([[matrix[i][j] for j in range(q2.shape[1])] for i in places])
-    values = flint.acb_mat([[-right[i][j] for j in range(q1.shape[1])] for i in places])
     try:
-        table = block.solve(values).tolist()
+        solved = block.solve(matrix, right)
     except ZeroDivisionError:
         return None
-    return [middle(row[j]) for j in range(q1.shape[1]) for row in table]
+    table = dict(zip(block.columns, solved, strict=True))
+    return [middle(-table[i][j]) for j in range(q1.shape[1]) for i in sorted(table)]
 
 
 def _slopes(polynomials: Sequence[Polynomial], z: list[flint.acb]) -> flint.acb_mat:
@@ -214,11 +213,6 @@ def _times(slopes: flint.acb_mat, q: np.ndarray) -> list[list[flint.acb]]:
         [middle(c / size) if size else middle(c) for c in row]
         for row, size in zip(product.tolist(), sizes, strict=True)
     ]
-
-
-def _block(matrix: list[list[flint.acb]], columns: int) -> tuple[list[int], list[int]]:
-    """Rows and columns of the largest regular block of a matrix, in digits."""
-    return pivots(lambda _: matrix, columns, 0, ZERO) if matrix else ([], [])
 
 
 def _size(row: Sequence[flint.acb]) -> flint.arb:
@@ -237,6 +231,6 @@ def _independent(
         # The slices are the largest by far, and come first.
         unit = size if i < len(polynomials) else size / flint.arb(10) ** FIRST
         matrix.append([middle(z / unit) if size else middle(z) for z in row])
-    chosen, _ = _block(matrix, n)
+    chosen = regular_block(matrix, n, ZERO).rows
     found = sorted(i for i in chosen if i < len(polynomials))
     return found if len(found) == need and len(chosen) == n else None

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.witness.cutting import numerical_corank
+from nag.numerics.double_ranks import numerical_corank
 
 MOST_STEPS = 200
 # Residuals from which the undamped steps take over, and that a zero must reach.

@@ -16,8 +16,8 @@ from nag.algebra.from_python import variable_indices
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
 from nag.numerics.coincidence import clusters
+from nag.numerics.double_ranks import matrix_corank
 from nag.numerics.read_only import equal_values, fixed_array
-from nag.numerics.zero_values import SINGULAR
 from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import (
@@ -26,7 +26,6 @@ from nag.witness.change_of_coordinates import (
     coordinates_of,
 )
 from nag.witness.component_equations import component_fibres
-from nag.witness.cutting import numerical_corank
 from nag.witness.fibres import Fibre
 from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
@@ -93,8 +92,7 @@ def _image_dimension(fibre: Fibre, coordinates: Sequence[int]) -> int:
     evaluator = fibre.cut.scaled.evaluator if fibre.cut.powers.any() else fibre.cut.evaluator
     _, _, vh = np.linalg.svd(evaluator.balanced_jacobian(z))
     tangent, _ = np.linalg.qr(vh[len(z) - fibre.dimension :].conj().T[: fibre.cut.n])
-    s = np.linalg.svd(tangent[list(coordinates)], compute_uv=False)
-    return fibre.dimension - numerical_corank(s, fibre.dimension, SINGULAR)
+    return fibre.dimension - matrix_corank(tangent[list(coordinates)])
 
 
 def _special_rows(
