@@ -12,7 +12,7 @@ The way of ``nag decompose cases/bennett.toml`` from the command to the table le
 `mechanism/graph`, `mechanism/problem`, `mechanism/model`, `mechanism/loops`,
 `mechanism/formulations`, `mechanism/half_angles`, `mechanism/loop_product`,
 `mechanism/joint_factors`; `algebra/system`; `tracking/run`; `decomposition/components`,
-`decomposition/method`; `witness/witness`; `decomposition/reduction`, `decomposition/one_equation`,
+`decomposition/method`; `witness/witness`; `decomposition/one_equation`, `decomposition/reduction`,
 `decomposition/roots`, `decomposition/final_checks`; `report/answer`, `witness/shown`.
 What these call on the way gives them a value, and can be taken by its name.
 """
