@@ -8,9 +8,9 @@ caller may choose stands beside its argument, or in `nag.tracking.settings.Setti
 ==========================================  ======  ================================================
 name                                        value   what it decides, and why there
 ==========================================  ======  ================================================
-algebra.generic_multiplicity.INDEPENDENT    1e-6    Singular value of gradients of length one that
+numerics.double_ranks.INDEPENDENT           1e-6    Singular value of gradients of length one that
                                                     surely are independent; else no bound is given.
-algebra.generic_multiplicity.NOT_ZERO       1e-7    Errors of derivatives beside their terms.
+numerics.double_ranks.NOT_ZERO              1e-7    Errors of derivatives beside their terms.
 numerics.zero_values.ON *                   1e-9    Values in doubles, beside their terms, at
                                                     sharpened points that may be zero: zeros lie
                                                     below 2.5e-13, others above 2e-6 in all systems

@@ -13,10 +13,10 @@ from systems import system
 from nag.algebra.factoring import factored
 from nag.algebra.generic_multiplicity import (
     generic_multiplicity,
-    independent_gradients,
     local_ideal,
     standard_monomials,
 )
+from nag.numerics.double_ranks import independent_gradients
 
 
 @given(st.lists(st.tuples(*[st.integers(0, 4)] * 3), min_size=0, max_size=5))

@@ -12,11 +12,11 @@ import pytest
 from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.factoring import factored
-from nag.algebra.generic_multiplicity import Gradients
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.files.cases import read_case
+from nag.numerics.double_ranks import Gradients
 from nag.numerics.natural_coordinates import shift_polynomial
 from nag.witness.multiplicity import multiplicity
 from nag.witness.slices import rows_through

@@ -157,7 +157,7 @@ def algebraic_zeros(
     if sum(bool(linear_variables(f)) for f in equations) < system.n - 1 - two_variables:
         return None
     over = ring(system.n)
-    reduced = _eliminated(over, [over.of(f) for f in equations])
+    reduced = _eliminate_linear(over, [over.of(f) for f in equations])
     if reduced is None:
         return None
     rest, images, left = reduced
@@ -174,7 +174,7 @@ def algebraic_zeros(
     return _zeros_of(common, [_univariate(g, index) for g in images])
 
 
-def _eliminated(
+def _eliminate_linear(
     over: Ring, equations: list[Any]
 ) -> tuple[list[Any], list[Any], tuple[int, ...]] | None:
     """What is left when variables were eliminated, what each one is then, and which are left."""
@@ -183,15 +183,13 @@ def _eliminated(
         equations = [f for f in equations if not f.is_zero()]
         if any(f.is_constant() for f in equations):
             return equations, images, ()
-        pivot = _pivot(equations, left)
+        pivot = _choose_pivot(equations, left)
         if pivot is None or len(left) == 1:
             break
         row, index = pivot
         f = equations.pop(row)
-        variable = over.context.gens()[index]
-        unit = tuple(int(i == index) for i in range(over.n))
         place = list(over.context.gens())
-        place[index] = variable - f / f[unit]
+        place[index] = over.solve_for(f, index)
 
         def put(g: Any, place: list[Any] = place) -> Any:
             return g.compose(*place, ctx=over.context)
@@ -257,7 +255,7 @@ def _at(f: Polynomial, x: Sequence[Any]) -> Any:
     return total
 
 
-def _pivot(equations: list[Any], left: set[int]) -> tuple[int, int] | None:
+def _choose_pivot(equations: list[Any], left: set[int]) -> tuple[int, int] | None:
     """An equation and a variable that it is linear in: lowest degree, fewest terms."""
     best: tuple[Any, tuple[int, int]] | None = None
     for row, f in enumerate(equations):

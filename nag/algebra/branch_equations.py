@@ -15,8 +15,8 @@ from nag.algebra.elimination import (
     Elimination,
     eliminate_linear,
     linear_variables,
-    solved,
-    substituted,
+    solve_for,
+    substitute,
 )
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.polynomial import Polynomial
@@ -141,10 +141,10 @@ class BranchEquations:
         if linear != {p for p in branch if p.degree == 1}:
             return False
         rules = sorted(linear, key=str)
-        return _modulo(rules, given - linear) == _modulo(rules, branch - linear)
+        return _use_linear(rules, given - linear) == _use_linear(rules, branch - linear)
 
 
-def _modulo(linear: Sequence[Polynomial], others: Collection[Polynomial]) -> set[Polynomial]:
+def _use_linear(linear: Sequence[Polynomial], others: Collection[Polynomial]) -> set[Polynomial]:
     """Polynomials in which linear equations have been used, up to constants."""
     rules, rest = list(linear), list(others)
     while rules:
@@ -152,6 +152,6 @@ def _modulo(linear: Sequence[Polynomial], others: Collection[Polynomial]) -> set
         if p.degree != 1:
             continue
         index = max(i for i in range(p.n) if i in p.support)
-        image = solved(p, index)
-        rules, rest = ([substituted(f, index, image) for f in fs] for fs in (rules, rest))
+        image = solve_for(p, index)
+        rules, rest = ([substitute(f, index, image) for f in fs] for fs in (rules, rest))
     return {f * (1 / f.terms[max(f.terms)]) for f in rest if f}

@@ -201,7 +201,7 @@ class Search:
             if equations is None:
                 return None
             state = replace(state, equations=equations)
-            pivot = self.pivot(equations)
+            pivot = self.choose_pivot(equations)
             if pivot is None:
                 return state
             reduced = self._substituted(state, *pivot)
@@ -240,7 +240,7 @@ class Search:
             return (kept,) if kept else None
         return result
 
-    def pivot(self, equations: Sequence[Equation]) -> tuple[Irreducible, int] | None:
+    def choose_pivot(self, equations: Sequence[Equation]) -> tuple[Irreducible, int] | None:
         """A linear equation and the variable to solve it for: the one that fills in least."""
         best: tuple[tuple[int, int, int], Irreducible] | None = None
         supports = [frozenset().union(*(p.support for p in e)) for e in equations]
@@ -259,7 +259,7 @@ class Search:
         return None if best is None else (best[1], best[0][2])
 
     def _substituted(self, state: State, p: Irreducible, index: int) -> State | None:
-        image = self._image(p, index)
+        image = self.ring.solve_for(p.f, index)
         images = [*self.generators[:index], image, *self.generators[index + 1 :]]
 
         def put(q: Irreducible) -> Any:
@@ -295,12 +295,6 @@ class Search:
         put_in = [(i, put(q)) for i, q in state.solved]
         solved = [(i, self._irreducible(value, str(value))) for i, value in put_in]
         return State(tuple(equations), (*solved, (index, p)), tuple(excluded))
-
-    def _image(self, p: Irreducible, index: int) -> Any:
-        """What ``p = 0`` says the variable is."""
-        variable = self.generators[index]
-        unit = tuple(int(i == index) for i in range(self.ring.n))
-        return variable - p.f / p.f[unit]
 
     def parted(self, start: State) -> list[State]:
         """Branches where there are too many: common factors, and the system without them."""
@@ -346,7 +340,7 @@ class Search:
         """The variables, those that were solved for as polynomials in the others."""
         images = list(self.generators)
         for i, p in leaf.solved:
-            images[i] = self._image(p, i)
+            images[i] = self.ring.solve_for(p.f, i)
         return images
 
 

@@ -110,15 +110,15 @@ def eliminate_linear(
     kept = set(range(n))
     groups = system.groups
     while True:
-        pivot = _pivot(equations, nonzero, kept - set(keep), groups, graphs)
+        pivot = _choose_pivot(equations, nonzero, kept - set(keep), groups, graphs)
         if pivot is None:
             break
         row, index = pivot
-        image = solved(equations[row], index)
+        image = solve_for(equations[row], index)
         del equations[row]
-        equations = [g for g in (substituted(f, index, image) for f in equations) if g]
-        nonzero = [substituted(f, index, image) for f in nonzero]
-        images = [substituted(f, index, image) for f in images]
+        equations = [g for g in (substitute(f, index, image) for f in equations) if g]
+        nonzero = [substitute(f, index, image) for f in nonzero]
+        images = [substitute(f, index, image) for f in images]
         kept.discard(index)
     order = sorted(kept)
     return Elimination(
@@ -134,7 +134,7 @@ def eliminate_linear(
     )
 
 
-def _pivot(
+def _choose_pivot(
     equations: list[Polynomial],
     nonzero: list[Polynomial],
     free: set[int],
@@ -167,7 +167,7 @@ def linear_variables(f: Polynomial) -> set[int]:
     return alone - occurring(e for e in f.terms if sum(e) > 1) if alone else alone
 
 
-def solved(f: Polynomial, index: int) -> Polynomial:
+def solve_for(f: Polynomial, index: int) -> Polynomial:
     """What ``f = 0`` says the variable is."""
     variable = Polynomial.variable(f.n, index)
     (exponents,) = variable.terms
@@ -175,12 +175,12 @@ def solved(f: Polynomial, index: int) -> Polynomial:
     return variable - f / coefficient
 
 
-def substituted(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
+def substitute(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
     """``f`` with one variable replaced, by Horner's rule in that variable."""
     if index not in f.support:
         return f
     if f.whole and image.whole:
-        return _substituted_in_integers(f, index, image)
+        return _substitute_in_integers(f, index, image)
     by_power = _by_power(f.terms, index)
     top = max(by_power)
     result = Polynomial(f.n, by_power[top])
@@ -189,7 +189,7 @@ def substituted(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
     return result
 
 
-def _substituted_in_integers(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
+def _substitute_in_integers(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
     """The same, with one division at the end."""
     assert f.whole
     assert image.whole

@@ -45,6 +45,11 @@ class Ring:
         terms = {tuple(map(int, e)): to_fraction(c) for e, c in f.to_dict().items()}
         return Polynomial(self.n, terms)
 
+    def solve_for(self, f: Any, index: int) -> Any:
+        """What ``f = 0`` says of a variable that it contains linearly, with a constant factor."""
+        unit = tuple(int(i == index) for i in range(self.n))
+        return self.context.gens()[index] - f / f[unit]
+
     def factors(self, f: Any) -> list[tuple[Any, int]]:
         """The distinct irreducible factors with their exponents; none of a constant.
 

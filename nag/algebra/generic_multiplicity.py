@@ -11,10 +11,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
-from nag.algebra.elimination import linear_variables, solved, substituted
-from nag.algebra.evaluation import Evaluator
+from nag.algebra.elimination import linear_variables, solve_for, substitute
 from nag.algebra.factoring import Factors, factored, product
 from nag.algebra.polynomial import Polynomial
 
@@ -102,18 +99,18 @@ def local_ideal(equations: Sequence[Factors], vanishes: Callable[[Polynomial], b
     coordinates: list[Polynomial] = []
     while True:
         monomials = [dict(m) for m in dict.fromkeys(tuple(m.items()) for m in monomials)]
-        pivot = _pivot(monomials)
+        pivot = _choose_pivot(monomials)
         if pivot is None:
             return LocalIdeal(tuple(coordinates), tuple(tuple(m.items()) for m in monomials))
         row, p, index = pivot
         del monomials[row]
-        image = solved(p, index)
-        coordinates = [substituted(f, index, image) for f in coordinates] + [p]
+        image = solve_for(p, index)
+        coordinates = [substitute(f, index, image) for f in coordinates] + [p]
         reduced = []
         for m in monomials:
             after: dict[Polynomial, int] | None = {}
             for q, k in m.items():
-                value = substituted(q, index, image)
+                value = substitute(q, index, image)
                 if not value:
                     after = None
                     break
@@ -124,7 +121,7 @@ def local_ideal(equations: Sequence[Factors], vanishes: Callable[[Polynomial], b
         monomials = reduced
 
 
-def _pivot(monomials: Sequence[dict[Polynomial, int]]) -> tuple[int, Polynomial, int] | None:
+def _choose_pivot(monomials: Sequence[dict[Polynomial, int]]) -> tuple[int, Polynomial, int] | None:
     """A generator that is linear in a variable, and the variable: of least degree."""
     best: tuple[tuple[int, int], tuple[int, Polynomial, int]] | None = None
     for row, m in enumerate(monomials):
@@ -161,10 +158,6 @@ def standard_monomials(exponents: Sequence[tuple[int, ...]], n: int) -> int | No
 
 # Generators with more choices of a factor of each are not taken apart.
 MOST_INTERSECTIONS = 64
-# Least singular value of gradients of length one that are certainly independent.
-INDEPENDENT = 1e-6
-# Errors of derivatives beside the sizes of their terms.
-NOT_ZERO = 1e-7
 
 
 def generic_multiplicity(
@@ -216,62 +209,3 @@ def generic_multiplicity(
             return 0
         total += single * math.prod(k for _, k in factors)
     return total
-
-
-@dataclass(frozen=True, eq=False)
-class Gradients:
-    """The derivatives of polynomials, to be evaluated at points.
-
-    Attributes:
-        rows: number of polynomials.
-        derivatives: of each by each variable, one after the other.
-        scales: largest coefficient of each derivative.
-    """
-
-    rows: int
-    derivatives: Evaluator
-    scales: np.ndarray
-
-    @classmethod
-    def of(cls, polynomials: Sequence[Polynomial], n: int) -> Gradients:
-        derivatives = [f.derivative(i) for f in polynomials for i in range(n)]
-        scales = [max((abs(float(c)) for c in f.terms.values()), default=1.0) for f in derivatives]
-        return cls(len(polynomials), Evaluator.of(derivatives, n), np.array(scales))
-
-    def rank(self, x: np.ndarray, error: float | np.ndarray) -> int:
-        """How many gradients are certainly independent at a point.
-
-        A singular value counts where it is larger than the sizes of all errors together (Weyl): a
-        derivative may be off by rounding of its terms, and by what an error of the coordinates
-        explains. Rows and columns are brought to length one, with their errors.
-
-        Args:
-            x: the point, shape ``(n,)``.
-            error: how far, at most, coordinates may be from the exact ones; a number or one each.
-        """
-        point = np.asarray(x, dtype=complex)[None]
-        shape = self.rows, len(x)
-        values = self.derivatives.values(point)[0]
-        sizes = self.derivatives.absolute(point)[0]
-        doubt = self.derivatives.absolute(np.abs(point) + error)[0] - sizes + NOT_ZERO * sizes
-        certain = np.abs(values) > doubt
-        gradients = (np.where(certain, values, 0) * self.scales).reshape(shape)
-        errors = (np.where(certain, doubt, doubt + np.abs(values)) * self.scales).reshape(shape)
-        for axis in (1, 0, 1):
-            # Squares of large derivatives leave the range of doubles.
-            for order in (np.inf, 2):
-                lengths = np.linalg.norm(gradients, ord=order, axis=axis, keepdims=True)
-                lengths = np.where(lengths == 0, 1.0, lengths)
-                gradients, errors = gradients / lengths, errors / lengths
-        off = float(np.linalg.norm(errors))
-        return int(np.sum(np.linalg.svd(gradients, compute_uv=False) > INDEPENDENT + off))
-
-
-def independent_gradients(
-    polynomials: Sequence[Polynomial], x: np.ndarray, error: float | np.ndarray
-) -> bool:
-    """Whether the gradients of polynomials are certainly independent at a point.
-
-    See `Gradients.rank`.
-    """
-    return Gradients.of(polynomials, len(x)).rank(x, error) == len(polynomials)

@@ -21,12 +21,11 @@ from nag.algebra.branch_equations import BranchEquations, BranchKind, Vanishing
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import (
-    Gradients,
     generic_multiplicity,
-    independent_gradients,
 )
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.double_ranks import Gradients, independent_gradients
 from nag.numerics.zero_values import (
     NONZERO,
     multiplicity_of_all,

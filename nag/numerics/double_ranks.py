@@ -9,13 +9,23 @@ References:
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
 
 # A rank is read where neighbouring singular values differ by this factor, below one of the next: at
 # a point of a component, and at one that is known to be singular, though perhaps not well.
 GAP, SINGULAR, NEARLY_SINGULAR = 1e3, 1e-9, 1e-5
 # A singular value, beside the largest, of zero.
 NOTHING = 1e-17
+# Least singular value of gradients of length one that are certainly independent.
+INDEPENDENT = 1e-6
+# Errors of derivatives beside the sizes of their terms.
+NOT_ZERO = 1e-7
 # Larger matrices are left to LAPACK, which takes longer to load than smaller ones take.
 MOST_ENTRIES = 10_000
 
@@ -71,3 +81,62 @@ def pivot_rows(matrix: np.ndarray, count: int | None = None) -> tuple[list[int],
             for _ in range(2):
                 rest = rest - (rest @ unit.conj())[:, None] * unit
     return chosen, lengths
+
+
+@dataclass(frozen=True, eq=False)
+class Gradients:
+    """The derivatives of polynomials, to be evaluated at points.
+
+    Attributes:
+        rows: number of polynomials.
+        derivatives: of each by each variable, one after the other.
+        scales: largest coefficient of each derivative.
+    """
+
+    rows: int
+    derivatives: Evaluator
+    scales: np.ndarray
+
+    @classmethod
+    def of(cls, polynomials: Sequence[Polynomial], n: int) -> Gradients:
+        derivatives = [f.derivative(i) for f in polynomials for i in range(n)]
+        scales = [max((abs(float(c)) for c in f.terms.values()), default=1.0) for f in derivatives]
+        return cls(len(polynomials), Evaluator.of(derivatives, n), np.array(scales))
+
+    def rank(self, x: np.ndarray, error: float | np.ndarray) -> int:
+        """How many gradients are certainly independent at a point.
+
+        A singular value counts where it is larger than the sizes of all errors together (Weyl): a
+        derivative may be off by rounding of its terms, and by what an error of the coordinates
+        explains. Rows and columns are brought to length one, with their errors.
+
+        Args:
+            x: the point, shape ``(n,)``.
+            error: how far, at most, coordinates may be from the exact ones; a number or one each.
+        """
+        point = np.asarray(x, dtype=complex)[None]
+        shape = self.rows, len(x)
+        values = self.derivatives.values(point)[0]
+        sizes = self.derivatives.absolute(point)[0]
+        doubt = self.derivatives.absolute(np.abs(point) + error)[0] - sizes + NOT_ZERO * sizes
+        certain = np.abs(values) > doubt
+        gradients = (np.where(certain, values, 0) * self.scales).reshape(shape)
+        errors = (np.where(certain, doubt, doubt + np.abs(values)) * self.scales).reshape(shape)
+        for axis in (1, 0, 1):
+            # Squares of large derivatives leave the range of doubles.
+            for order in (np.inf, 2):
+                lengths = np.linalg.norm(gradients, ord=order, axis=axis, keepdims=True)
+                lengths = np.where(lengths == 0, 1.0, lengths)
+                gradients, errors = gradients / lengths, errors / lengths
+        off = float(np.linalg.norm(errors))
+        return int(np.sum(np.linalg.svd(gradients, compute_uv=False) > INDEPENDENT + off))
+
+
+def independent_gradients(
+    polynomials: Sequence[Polynomial], x: np.ndarray, error: float | np.ndarray
+) -> bool:
+    """Whether the gradients of polynomials are certainly independent at a point.
+
+    See `Gradients.rank`.
+    """
+    return Gradients.of(polynomials, len(x)).rank(x, error) == len(polynomials)
