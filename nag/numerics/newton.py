@@ -142,7 +142,8 @@ def find_zero(
         if done and (last < inf or length == -inf):
             return Converged(x, error, inverse)
         left = length - size + digits
-        if last == inf or last - length < max(FAST, LEFT * left):
+        # A first step that is short beside the point is by slopes as near to those at the zero.
+        if min(last, size) - length < max(FAST, LEFT * left):
             inverse = None
         last = length
         known = min(4 * (size - length), digits) if length > -inf else digits
