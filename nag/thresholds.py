@@ -240,12 +240,12 @@ solving.start.family_monodromy.VANISHING    1e-13   Values at a first solution.
 solving.start.mixed_cells.SHARE             1e-8    Distance from 0 and 1 of fractions with volumes
                                                     of cells below: less is rounding.
 solving.start.mixed_cells.ZERO              1e-9    The same of pivots, and of rates from 0.
-solving.start.pencil.CLEAR                  1e-6    Sum of second differences over the points'
+solving.start.monodromy.CLEAR               1e-6    Sum of second differences over the points'
                                                     motion that is none of rounding.
-solving.start.pencil.FINE_ROUNDING          1e-50   What of it is rounding in 64 digits.
-solving.start.pencil.ROUNDING               1e-12   Sum of second differences over the points'
+solving.start.monodromy.FINE_ROUNDING       1e-50   What of it is rounding in 64 digits.
+solving.start.monodromy.ROUNDING            1e-12   Sum of second differences over the points'
                                                     motion that is rounding.
-solving.start.pencil.VISIBLE                10      Own second difference of each point, in those,
+solving.start.monodromy.VISIBLE             10      Own second difference of each point, in those,
                                                     without which its absence could not show.
 solving.start.scalings.ZERO                 1e-9    Singular values of matrices of whole numbers
                                                     that are zero.
@@ -401,7 +401,7 @@ LEAST, BASIN, FINEST; tracking.ends.end_run: TRIAL, SMALLER, SHORTEST, MOST_REJE
 tracking.ends.follow: FURTHER, FURTHEST; tracking.jumps: NEIGHBOURS; tracking.settings: TIGHTER,
 SHARPER; tracking.straight_run: LEAST, SHORTEST, OVERFLOW, ROUNDING, FARTHEST;
 solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING, WIDEST, TINY;
-solving.isolated_zero: ROUNDING; solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR;
+solving.isolated_zero: ROUNDING; solving.branch_solutions: ROUGH; solving.missing_zeros: NEAR;
 solving.solution_classes: STEP; solving.start.choice: WORK; solving.start.family_monodromy: SHARP,
 ARRIVED; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
 solving.start.target: HALF_UNIT; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt: EXACT,

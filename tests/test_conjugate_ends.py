@@ -13,7 +13,7 @@ from nag.files.cases import read_case
 from nag.numerics.singular_point import Place
 from nag.solving import path_ends
 from nag.solving import solve as solving
-from nag.solving.conjugate_ends import restore_conjugate_ends
+from nag.solving.path_ends import restore_conjugate_ends
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
 from nag.solving.start.target import Start

@@ -12,13 +12,12 @@ from systems import benchmark
 
 from nag.errors import StartError
 from nag.solving.start import monodromy as module
-from nag.solving.start import pencil as pencil_module
 from nag.solving.start.fibre_monodromy import GenericSystem, by_monodromy
 from nag.solving.start.mixed_cells import mixed_cells
-from nag.solving.start.monodromy import monodromy
-from nag.solving.start.pencil import (
+from nag.solving.start.monodromy import (
     Pencil,
     irreducible_row,
+    monodromy,
     seeded_pencil,
     trace_is_linear,
 )
@@ -70,8 +69,8 @@ def test_the_trace_of_all_is_linear_and_that_of_fewer_is_not(name: str) -> None:
 
 
 def test_what_rounding_hides_is_seen_in_more_digits(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pencil_module, "ROUNDING", 1.0)
-    monkeypatch.setattr(pencil_module, "CLEAR", np.inf)
+    monkeypatch.setattr(module, "ROUNDING", 1.0)
+    monkeypatch.setattr(module, "CLEAR", np.inf)
     pencil, system = all_points("planar-3-rpr", 1)
     assert trace_is_linear(pencil, system.points, np.random.default_rng(5), 1)
     for k in range(len(system.points)):

@@ -16,6 +16,7 @@ import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
 from nag.algebra.branch_equations import BranchEquations, BranchKind
+from nag.algebra.elimination import Elimination
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -27,7 +28,7 @@ from nag.numerics.branch_union import (
     find_repeats,
     multiplicities_in_scheme,
 )
-from nag.numerics.digits import bits_of
+from nag.numerics.digits import bits_of, doubles
 from nag.numerics.natural_coordinates import NaturalCoordinates, comparable_coordinates
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import (
@@ -38,12 +39,14 @@ from nag.numerics.zero_values import (
     vanishes_at_all,
     widen_error,
 )
-from nag.solving.larger_sets import LargerSets
-from nag.solving.lifted_solution import lifted_solution
+from nag.solving.isolated_zero import ROUNDING
 from nag.solving.missing_zeros import DIGITS
-from nag.solving.solutions import PathStatistics, Solution, SolveResult
-from nag.solving.solve_task import SolveTask
+from nag.solving.path_search import SolveTask
+from nag.solving.solutions import LargerSets, PathStatistics, Solution, SolveResult
 
+# Coordinates with larger errors than this, relative to their sizes, are worked out in more digits:
+# terms of what gives the variables that were eliminated may cancel.
+ROUGH = 1e-9
 # Solutions that may be the same, found in two branches: relative distance.
 NEAR = 1e-7
 # Digits to compute with.
@@ -274,9 +277,46 @@ def _solve_part(
     result = others(task.of_part(replace(elimination.system, nonzero=images)))
     # All equations say later which of them are left out.
     solutions = (*result.solutions, *result.excluded_solutions)
-    found = tuple(_Found(lifted_solution(s, elimination), branch, None, s) for s in solutions)
+    found = tuple(_Found(_lift_solution(s, elimination), branch, None, s) for s in solutions)
     larger = result.larger.map_points(elimination.lift)
     return _Part(branch.system, found, result, larger, elimination.lift(result.undecided))
+
+
+def _lift_solution(solution: Solution, elimination: Elimination) -> Solution:
+    """The solution above one of ``elimination.system``.
+
+    Its ``radii`` are known where those of the given one are, or where more digits were needed.
+    """
+    y, radii = solution.point, solution.radii
+    x = elimination.lift(y)
+    if len(elimination.kept) == len(x):
+        return replace(solution, point=x)
+    even = solution.accuracy * (1 + np.linalg.norm(y))
+    errors = elimination.lift_radii(y, np.full(len(y), even) if radii is None else radii)
+    others = np.delete(np.arange(len(x)), elimination.kept)
+    if solution.multiplicity == 1 and (errors > ROUGH * np.abs(x))[others].any():
+        fine = _lift_in_digits(elimination, y, solution.accuracy if radii is None else radii)
+        if fine is not None:
+            point, zero_radii = fine
+            # What is known to so many digits does not say whether it vanishes.
+            known = elimination.lift_radii(y, zero_radii)
+            return replace(solution, point=point, radii=ROUNDING * np.abs(point) + known)
+    return replace(solution, point=x, radii=None if radii is None else errors)
+
+
+def _lift_in_digits(
+    elimination: Elimination, y: np.ndarray, error: float | np.ndarray
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """The point above the regular zero near ``y``, to rounding, and the errors of that zero.
+
+    None if there is none.
+    """
+    zeros = possible_zeros(elimination.system.polynomials, y, error, np.random.default_rng(0))
+    if len(zeros) != 1 or zeros[0].multiplicity != 1 or zeros[0].precise is None:
+        return None
+    zero = zeros[0].precise
+    images = BallPolynomials.of(elimination.images).values(zero.centre, bits_of(WORKING))
+    return doubles(images.mid().entries()), zero.radii
 
 
 def _join_parts(

@@ -21,7 +21,7 @@ from nag.errors import StartError
 from nag.numerics.system_facts import SystemFacts
 from nag.solving.certificate import bound_of_zeros
 from nag.solving.parameter_line import parameter_line
-from nag.solving.path_search import PathSearch
+from nag.solving.path_search import PathSearch, SolveTask
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve_without_paths
 from nag.solving.solve_classes import (
@@ -30,7 +30,6 @@ from nag.solving.solve_classes import (
     solve_classes,
     solved_by_monodromy,
 )
-from nag.solving.solve_task import SolveTask
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
 from nag.solving.start.target import Start, Target, unit

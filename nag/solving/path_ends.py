@@ -1,4 +1,9 @@
-"""The ends of all paths, sorted: isolated solutions, points on components, open questions."""
+"""The ends of all paths, sorted: isolated solutions, points on components, open questions.
+
+The zeros of equations with real coefficients come in conjugate pairs, which paths of complex
+homotopies reach apart from each other. A regular end whose conjugate no path has reached therefore
+says where a lost path must have led: of a simple zero, exactly one path ends there.
+"""
 
 from __future__ import annotations
 
@@ -10,16 +15,19 @@ from itertools import repeat
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.numerics.zero_values import ON, vanishes_at
+from nag.numerics.zero_values import ON, vanishes, vanishes_at
 from nag.solving.isolated_zero import IsolatedZero, affine_point, which_are_real
-from nag.solving.larger_sets import LargerSets, is_set_excluded
-from nag.solving.solutions import Solution
+from nag.solving.solutions import LargerSets, Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
 from nag.text.table import counted
-from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.ends.inclusion import prove_end
+from nag.tracking.ends.terms import Terms
+from nag.tracking.paths import Ball, Paths, PathStatus
+from nag.tracking.projective import coinciding
 
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
@@ -273,7 +281,21 @@ def _is_excluded(problem: SquareProblem, end: SingularEnd) -> bool | None:
         # On random equations that cut the set it is a generic point of it.
         answers = [vanishes_at(end, g) for g in problem.nonzero]
         return True if True in answers else None if None in answers else False
-    return is_set_excluded(problem.nonzero, end) if end.place is Place.ON_COMPONENT else None
+    return _is_set_excluded(problem.nonzero, end) if end.place is Place.ON_COMPONENT else None
+
+
+def _is_set_excluded(nonzero: Sequence[Polynomial], end: SingularEnd) -> bool | None:
+    """Whether one of some polynomials vanishes on all of the set through a zero that lies on one.
+
+    None where that is not known.
+    """
+    near = [g for g in nonzero if vanishes_at(end, g) is not False]
+    if not near:
+        return False
+    if end.beside is None:
+        return None
+    answers = [vanishes(g, end.beside) for g in near]
+    return True if True in answers else None if None in answers else False
 
 
 def _judge_group(
@@ -385,3 +407,45 @@ def list_doubts(begin: Start, paths: Paths) -> list[str]:
     if unsure:
         notes.append(f"{unsure} paths to infinity may end at solutions far out")
     return notes
+
+
+def restore_conjugate_ends(begin: Start, paths: Paths) -> Paths:
+    """The paths, those that were lost with the missing conjugates of regular ends as theirs.
+
+    They are left as they are unless as many conjugates are missing as paths were lost, each is
+    apart from all known regular ends, and Krawczyk's test proves each a regular zero of the exact
+    equations. Which lost path leads to which of them is not known, and does not matter.
+    """
+    lost = paths.where(PathStatus.FAILED)
+    if not begin.complete or not len(lost):
+        return paths
+    missing = paths.select_rows(_find_unpaired(begin, paths)).conjugate()
+    if len(missing) != len(lost) or not _prove_all(begin, missing):
+        return paths
+    return paths.track_again(lost, missing)
+
+
+def _find_unpaired(begin: Start, paths: Paths) -> np.ndarray:
+    """Indices of the finite regular ends whose conjugates are no such ends."""
+    regular = paths.where(PathStatus.REGULAR)
+    count = len(regular)
+    ends = paths.select_rows(regular)
+    twice = Paths.concatenate([ends, ends.conjugate()])
+    paired = np.zeros(count, dtype=bool)
+    groups = begin.homotopy.groups
+    for i, j in coinciding(groups, twice.points, twice.accuracy).tolist():
+        if i < count <= j and twice.same(begin.homotopy, i, j):
+            paired[j - count] = True
+    return regular[~paired]
+
+
+def _prove_all(begin: Start, ends: Paths) -> bool:
+    terms = Terms(begin.homotopy)
+    for i, (x, accuracy) in enumerate(zip(ends.points, ends.accuracy.tolist(), strict=True)):
+        ball = ends.balls.get(i)
+        if ball is None:
+            parts = np.stack([np.stack([x.real, x.imag], axis=1), np.zeros((len(x), 2))], axis=2)
+            ball = Ball(parts, np.full(len(x), accuracy))
+        if prove_end(terms, ball.centre, ball.radii) is None:
+            return False
+    return True

@@ -1,22 +1,64 @@
-"""The search for isolated zeros by paths: what is known so far, and what it amounts to."""
+"""A system to solve, and the search for its zeros by paths: what is known, what that amounts to."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import Completeness, ZeroCount
-from nag.solving.conjugate_ends import restore_conjugate_ends
+from nag.numerics.system_facts import SystemFacts
 from nag.solving.isolated_zero import IsolatedZero
-from nag.solving.path_ends import PathEnds, add_zeros, list_doubts, sort_ends
+from nag.solving.path_ends import (
+    PathEnds,
+    add_zeros,
+    list_doubts,
+    restore_conjugate_ends,
+    sort_ends,
+)
 from nag.solving.solutions import PathStatistics, SolveResult
-from nag.solving.solve_task import SolveTask
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
 from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.run import Run
+
+
+@dataclass(frozen=True, eq=False)
+class SolveTask:
+    """A system to solve, and how.
+
+    Attributes:
+        start: the start system that is asked for, ``"auto"`` for the one with the least work.
+        finite: whether only a finite solution set is of interest.
+    """
+
+    facts: SystemFacts
+    start: str
+    run: Run
+    finite: bool = False
+
+    @property
+    def system(self) -> PolynomialSystem:
+        return self.facts.system
+
+    def of_part(self, system: PolynomialSystem) -> SolveTask:
+        """The same for what a branch leaves of the system."""
+        return replace(self, facts=SystemFacts(system))
+
+    @cached_property
+    def rng(self) -> np.random.Generator:
+        """The random numbers of what is tracked; `problem` takes the first of them."""
+        return self.run.random()
+
+    @cached_property
+    def problem(self) -> SquareProblem:
+        """The system as it is tracked."""
+        equations = [f for f in self.system.polynomials if f]
+        return SquareProblem.of(self.system, equations, self.rng, self.facts.natural)
 
 
 class Bound(NamedTuple):

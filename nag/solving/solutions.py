@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.read_only import equal_values, fixed_array
-from nag.solving.larger_sets import LargerSets
-from nag.text.table import one_line
+from nag.text.table import counted, one_line
 from nag.tracking.run import Run
 
 
@@ -56,6 +55,64 @@ class Solution:
         from nag.solving.shown import solution_text
 
         return solution_text(self)
+
+
+@dataclass(frozen=True, eq=False)
+class LargerSets:
+    """End points on solution sets of positive dimension, each shape ``(k, n)``.
+
+    Attributes:
+        counting: no polynomial that must not vanish does so on all of the set.
+        excluded: one does.
+        doubtful: that is not known.
+    """
+
+    counting: np.ndarray
+    excluded: np.ndarray
+    doubtful: np.ndarray
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            object.__setattr__(self, field.name, fixed_array(getattr(self, field.name)))
+
+    @classmethod
+    def of(cls, n: int, points: Sequence[tuple[np.ndarray, bool | None]] = ()) -> LargerSets:
+        """Points, each with whether its set is excluded; None where that is not known."""
+        parts = [[x for x, answer in points if answer is which] for which in (False, True, None)]
+        return cls(*(np.array(part, dtype=complex).reshape(len(part), n) for part in parts))
+
+    @classmethod
+    def together(cls, n: int, parts: Sequence[LargerSets]) -> LargerSets:
+        """The points of several branches of a system."""
+        every = [cls.of(n), *parts]
+        return cls(*(np.vstack([getattr(p, f.name) for p in every]) for f in fields(cls)))
+
+    def map_points(self, image: Callable[[np.ndarray], np.ndarray]) -> LargerSets:
+        """The points in other coordinates."""
+        return LargerSets(image(self.counting), image(self.excluded), image(self.doubtful))
+
+    @property
+    def points(self) -> np.ndarray:
+        """All of them."""
+        return np.vstack([self.counting, self.excluded, self.doubtful])
+
+    @property
+    def notes(self) -> list[str]:
+        """What a reader must know of them."""
+        notes = []
+        if count := len(self.counting):
+            lie = "lies on it and is no isolated solution"
+            if count > 1:
+                lie = "lie on it and are no isolated solutions"
+            ends = counted(count, "end point")
+            notes.append(f"the solution set has positive dimension; {ends} {lie}")
+        if count := len(self.doubtful):
+            lie = "lies on a solution set" if count == 1 else "lie on solution sets"
+            notes.append(
+                f"{counted(count, 'end point')} {lie} of positive dimension; whether something "
+                "that must not vanish does so on all of it was not decided"
+            )
+        return notes
 
 
 @dataclass(frozen=True)

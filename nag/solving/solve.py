@@ -20,9 +20,8 @@ from nag.algebra.zero_count import Completeness, ZeroCount
 from nag.numerics.system_facts import SystemFacts
 from nag.solving.branch_solutions import solve_branches, solve_exactly
 from nag.solving.missing_zeros import find_at_lost_paths, find_by_sizes
-from nag.solving.path_search import Bound, PathSearch
+from nag.solving.path_search import Bound, PathSearch, SolveTask
 from nag.solving.solutions import Solution, SolveResult
-from nag.solving.solve_task import SolveTask
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import check_kind, choose, mixed_volume
 from nag.solving.start.isotropic import isotropic
