@@ -18,7 +18,7 @@ from nag.solving.start.monodromy import (
     Pencil,
     irreducible_row,
     monodromy,
-    seeded_pencil,
+    seed_pencil,
     trace_is_linear,
 )
 from nag.solving.start.target import Target
@@ -38,7 +38,7 @@ def all_points(name: str, seed: int) -> tuple[Pencil, GenericSystem]:
     each, rng = benchmark(name), np.random.default_rng(seed)
     row = irreducible_row(each.supports, rng)
     assert row is not None
-    pencil, system = seeded_pencil(each.supports, row, rng)
+    pencil, system = seed_pencil(each.supports, row, rng)
     volume = mixed_cells(enlarged(each, row), rng).mixed_volume
     system, _, _ = by_monodromy(system, volume, rng, 1)
     assert len(system.points) == volume

@@ -119,7 +119,7 @@ class SolutionsCertificate:
     @property
     def all_proved(self) -> bool:
         """Whether each is proved a solution, as is said of it, and all differ; not on evidence."""
-        proved = self.points.all_proved and self._borne_out and bool(self.nonzero.all())
+        proved = self.points.all_proved and self._is_borne_out and bool(self.nonzero.all())
         return proved and nothing_against(self.claims)
 
     @cached_property
@@ -128,7 +128,7 @@ class SolutionsCertificate:
         return claims_of_solutions(self)
 
     @property
-    def _borne_out(self) -> bool:
+    def _is_borne_out(self) -> bool:
         """Whether each point is next to a zero of the equations of its own, as is said of it."""
         told = not self.contradicted and not self.doubted
         return Proof.NONE not in self.points.proofs and self.distinct and told

@@ -102,13 +102,13 @@ def prove_paths(result: SolveResult, threads: int = 1) -> ProvedPaths:
         system = MovingSystem.of(homotopy, patches)
     except OverflowError as error:
         raise PathsError(str(error)) from None
-    starts = located(system, _charted(start.points, patches), 1.0)
-    ends = _charted(_coordinates(problem.target, start, result), patches)
+    starts = located(system, _put_in_charts(start.points, patches), 1.0)
+    ends = _put_in_charts(_coordinates(problem.target, start, result), patches)
     known = located(system, ends, 0.0, NEAR)
     simple = sum(s.multiplicity == 1 for s in result.solutions)
     paths, steps = certified_paths(system, starts), 0
     for endgame in FURTHER:
-        ends, steps = _identified(paths, known), steps + paths.steps
+        ends, steps = _identify_ends(paths, known), steps + paths.steps
         if len(np.unique(ends[ends >= 0])) >= simple or not (paths.reached > 0).any():
             break
         # Solutions far out, or near infinity, are nobody's until t is very small.
@@ -120,7 +120,7 @@ def prove_paths(result: SolveResult, threads: int = 1) -> ProvedPaths:
     return ProvedPaths(start.name, distinct(starts), paths.reached, ends, steps, others)
 
 
-def _identified(paths: CertifiedPaths, known: Located) -> np.ndarray:
+def _identify_ends(paths: CertifiedPaths, known: Located) -> np.ndarray:
     """For each path that arrived which of the known zeros it ends in, -1 for none."""
     ends = np.full(len(paths.reached), -1)
     for p in np.flatnonzero(paths.reached == 0).tolist():
@@ -155,7 +155,7 @@ def _coordinates(target: Target, start: Start, result: SolveResult) -> np.ndarra
     return np.hstack([np.ones((len(points), shift)), points]).astype(complex)
 
 
-def _charted(points: np.ndarray, patches: np.ndarray) -> np.ndarray:
+def _put_in_charts(points: np.ndarray, patches: np.ndarray) -> np.ndarray:
     """The same projective points, scaled in each group so that its form is one."""
     points = np.array(points, dtype=complex)
     for form in patches:

@@ -92,33 +92,35 @@ class Confirmation:
         """Newton's method from ``points``, shape ``(P, n)``, for parameters of shape ``(k,)``."""
         blocks = [points[k : k + BLOCK] for k in range(0, len(points), BLOCK)] or [points[:0]]
         if len(blocks) > 1 and threads > 1:
-            self._block(points[:1], values)  # What is cached is made once.
+            self._confirm_block(points[:1], values)  # What is cached is made once.
             with ThreadPoolExecutor(threads) as pool:
-                done = list(pool.map(lambda block: self._block(block, values), blocks))
+                done = list(pool.map(lambda block: self._confirm_block(block, values), blocks))
         else:
-            done = [self._block(block, values) for block in blocks]
+            done = [self._confirm_block(block, values) for block in blocks]
         result = Confirmed.concatenate([each for each, _ in done])
         promising = np.flatnonzero(np.concatenate([p for _, p in done]))[:MOST_FINE]
-        again = [(i, self._fine(result.points[i], values)) for i in promising.tolist()]
+        again = [(i, self._confirm_in_digits(result.points[i], values)) for i in promising.tolist()]
         better = [(i, fine) for i, fine in again if fine is not None and fine.regular[0]]
         if not better:
             return result
         places = np.array([i for i, _ in better])
         return result.replace_rows(places, Confirmed.concatenate([fine for _, fine in better]))
 
-    def _joined(self, points: np.ndarray, values: np.ndarray) -> np.ndarray:
+    def _append_parameters(self, points: np.ndarray, values: np.ndarray) -> np.ndarray:
         return np.hstack([points, np.broadcast_to(values, (len(points), len(values)))])
 
-    def _scaled(
+    def _scale_jacobian(
         self, points: np.ndarray, values: np.ndarray, sizes: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """The Jacobian with columns scaled by the sizes, and then rows; the rows' factors."""
-        matrix = self._derivatives(self._joined(points, values)) * sizes[:, None, :]
+        matrix = self._derivatives(self._append_parameters(points, values)) * sizes[:, None, :]
         with np.errstate(divide="ignore"):
             factor = 1 / np.abs(matrix).max(axis=2)
         return matrix * factor[:, :, None], factor
 
-    def _block(self, points: np.ndarray, values: np.ndarray) -> tuple[Confirmed, np.ndarray]:
+    def _confirm_block(
+        self, points: np.ndarray, values: np.ndarray
+    ) -> tuple[Confirmed, np.ndarray]:
         """The result in doubles, and which of the others Newton's method converges at."""
         with np.errstate(all="ignore"):
             finite = np.isfinite(points).all(axis=1)
@@ -127,9 +129,9 @@ class Confirmation:
             going = np.flatnonzero(finite)
             for _ in range(STEPS):
                 here = points[going]
-                matrix, factor = self._scaled(here, values, _sizes(here))
-                residual = self._evaluator.values(self._joined(here, values)) * factor
-                step = _solved(matrix, residual)
+                matrix, factor = self._scale_jacobian(here, values, _sizes(here))
+                residual = self._evaluator.values(self._append_parameters(here, values)) * factor
+                step = _solve_linear(matrix, residual)
                 moved = _sizes(here) * step
                 size = np.abs(step).max(axis=1)
                 # A small coordinate may be wrong altogether where others are large.
@@ -139,16 +141,16 @@ class Confirmation:
                 going = going[near & (size > SMALL)]
                 if not len(going):
                     break
-            judged = self._judged(points, values, finite, _sizes(points), None)
+            judged = self._bound_distances(points, values, finite, _sizes(points), None)
             left = np.flatnonzero(finite & ~judged.regular)
             if len(left):
                 largest = np.abs(points[left]).max(axis=1, keepdims=True)
                 sizes = np.repeat(np.where(largest > 0, largest, 1.0), points.shape[1], axis=1)
-                again = self._judged(points[left], values, finite[left], sizes, None)
+                again = self._bound_distances(points[left], values, finite[left], sizes, None)
                 judged = judged.replace_rows(left[again.regular], again.select_rows(again.regular))
             return judged, finite & ~judged.regular & (length < PROMISING)
 
-    def _judged(
+    def _bound_distances(
         self,
         points: np.ndarray,
         values: np.ndarray,
@@ -158,12 +160,12 @@ class Confirmation:
     ) -> Confirmed:
         """Kantorovich's bounds at points; ``exact`` are residuals without rounding errors."""
         n = self.family.n
-        matrix, factor = self._scaled(points, values, lengths)
-        inverse = _inverses(matrix)
-        z = self._joined(points, values)
+        matrix, factor = self._scale_jacobian(points, values, lengths)
+        inverse = _invert_each(matrix)
+        z = self._append_parameters(points, values)
         # Derivatives in directions of these lengths are at most those where coordinates have them.
         reach = np.maximum(np.abs(points), lengths)
-        sizes, second = self._evaluator.term_sizes(self._joined(reach, values), n)
+        sizes, second = self._evaluator.term_sizes(self._append_parameters(reach, values), n)
         residual = self._evaluator.values(z) if exact is None else exact
         # Rounding of the residual, and of its product with the inverse.
         noise = 8 * EPS * sizes if exact is None else n * EPS * np.abs(residual)
@@ -184,22 +186,22 @@ class Confirmation:
             np.full(len(points), 16 if exact is None else DIGITS),
         )
 
-    def _fine(self, point: np.ndarray, values: np.ndarray) -> Confirmed | None:
+    def _confirm_in_digits(self, point: np.ndarray, values: np.ndarray) -> Confirmed | None:
         """The same for one point, with residuals in more digits."""
         point = point[None]
         with np.errstate(all="ignore"):
             for _ in range(FINE_STEPS):
-                matrix, factor = self._scaled(point, values, _sizes(point))
-                step = _solved(matrix, self._exact(point, values) * factor)
+                matrix, factor = self._scale_jacobian(point, values, _sizes(point))
+                step = _solve_linear(matrix, self._find_residuals(point, values) * factor)
                 if not np.abs(step).max() < 0.5:
                     return None
                 point = point - _sizes(point) * step
                 if np.abs(step).max() < 4 * EPS:
                     break
-            exact = self._exact(point, values)
-            return self._judged(point, values, np.ones(1, bool), _sizes(point), exact)
+            exact = self._find_residuals(point, values)
+            return self._bound_distances(point, values, np.ones(1, bool), _sizes(point), exact)
 
-    def _exact(self, point: np.ndarray, values: np.ndarray) -> np.ndarray:
+    def _find_residuals(self, point: np.ndarray, values: np.ndarray) -> np.ndarray:
         """Values of the equations in more digits, scaled as the evaluator's, shape ``(1, n)``."""
         z = [flint.acb(complex(x)) for x in (*point[0], *values)]
         found = BallPolynomials.of(self.family.polynomials).values(z, bits_of(DIGITS))
@@ -212,15 +214,15 @@ def _sizes(points: np.ndarray) -> np.ndarray:
     return np.maximum(np.abs(points), TINY)
 
 
-def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+def _solve_linear(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
     """Solutions of linear systems; not a number where a matrix is singular."""
     try:
         return np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
     except np.linalg.LinAlgError:
-        return (_inverses(matrix) @ right[:, :, None])[:, :, 0]
+        return (_invert_each(matrix) @ right[:, :, None])[:, :, 0]
 
 
-def _inverses(matrix: np.ndarray) -> np.ndarray:
+def _invert_each(matrix: np.ndarray) -> np.ndarray:
     try:
         return np.linalg.inv(matrix)
     except np.linalg.LinAlgError:

@@ -28,7 +28,7 @@ from nag.solving.solve_classes import (
     SolvedClasses,
     line_of_classes,
     solve_classes,
-    solved_by_monodromy,
+    solve_random_member,
 )
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
@@ -92,7 +92,7 @@ def solve_generic(
     given = family if isinstance(family, SymmetricFamily) else SymmetricFamily(family)
     family = given.original
     if start == "parameter" or (start == "auto" and len(given) > 1):
-        classes = solved_by_monodromy(given, count, rng, run.threads, run.progress)
+        classes = solve_random_member(given, count, rng, run.threads, run.progress)
         return Solved(
             family,
             given.outer_values(classes.values),

@@ -77,7 +77,7 @@ class ClassEnds:
         return np.flatnonzero(np.isin(self.status, status))
 
 
-def solved_by_monodromy(
+def solve_random_member(
     symmetric: SymmetricFamily,
     count: int | None,
     rng: np.random.Generator,

@@ -65,7 +65,7 @@ class SquareProblem:
         equations = lower if prod(f.degree for f in lower) <= FEW else equations
         added = max(0, n - len(equations))
         whole = [*equations, *(_random_linear(n, rng) for _ in range(added))]
-        target = Target.of(_squared(whole, n, rng), n, digits, natural)
+        target = Target.of(_square_up(whole, n, rng), n, digits, natural)
         nonzero = tuple(target.scaled(f) for f in system.nonzero)
         if len(equations) + added == n:
             mended = tuple(Polynomial(n, terms) for terms in target.given)
@@ -134,7 +134,7 @@ def _random_linear(n: int, rng: np.random.Generator) -> Polynomial:
     return Polynomial(n, terms)
 
 
-def _squared(polynomials: list[Polynomial], n: int, rng: np.random.Generator) -> list[Polynomial]:
+def _square_up(polynomials: list[Polynomial], n: int, rng: np.random.Generator) -> list[Polynomial]:
     """``n`` polynomials: those of highest degree, each with multiples of the others added."""
     if len(polynomials) == n:
         return polynomials

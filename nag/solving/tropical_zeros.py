@@ -80,11 +80,11 @@ def tropical_zeros(
         if not least <= np.abs(scales).max() <= LARGEST:
             continue
         start = np.exp2(logs - scales) * np.exp(1j * angles)
-        apart = _apart(start * np.exp2(scales), known, errors)
+        apart = _is_apart(start * np.exp2(scales), known, errors)
         zero = _zero(polynomials, scales, start, rng) if apart else None
-        if zero is None or not _apart(zero.point, known, errors):
+        if zero is None or not _is_apart(zero.point, known, errors):
             continue
-        if all(_differ(zero.point, other.point) for other in found):
+        if all(_are_two(zero.point, other.point) for other in found):
             found.append(zero)
     return found
 
@@ -154,12 +154,12 @@ def _zero(
     return None
 
 
-def _apart(x: np.ndarray, known: np.ndarray, errors: np.ndarray) -> bool:
+def _is_apart(x: np.ndarray, known: np.ndarray, errors: np.ndarray) -> bool:
     """Whether a point is none of the known ones, nor its distance explained by their errors."""
     distance = np.abs(known - x).max(axis=1, initial=0.0)
     return bool((distance > np.maximum(errors, APART * np.abs(x).max())).all())
 
 
-def _differ(x: np.ndarray, y: np.ndarray) -> bool:
+def _are_two(x: np.ndarray, y: np.ndarray) -> bool:
     """Whether points that are known to rounding in each coordinate are certainly two."""
     return bool((np.abs(x - y) > APART * np.maximum(np.abs(x), np.abs(y))).any())

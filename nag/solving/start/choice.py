@@ -53,11 +53,11 @@ def choose(
         ValueError: if there is no such kind.
     """
     check_kind(kind)
-    start, reason = _chosen(target, kind, given, rng, threads, generic)
+    start, reason = _make_start(target, kind, given, rng, threads, generic)
     return replace(start, homotopy=replace(start.homotopy, digits=target.digits)), reason
 
 
-def _chosen(
+def _make_start(
     target: Target, kind: str, given: Groups, rng: np.random.Generator, threads: int, generic: bool
 ) -> tuple[Start, str]:
     total = bezout(target)

@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from nag.solving.start.target import Start, Target, Terms, group_degrees, homogenized, unit
+from nag.solving.start.target import Start, Target, Terms, group_degrees, homogenize_rows, unit
 from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.projective import coinciding
 from nag.tracking.settings import named
@@ -56,7 +56,7 @@ class GenericSystem:
         )
 
 
-def seeded(supports: Sequence[np.ndarray], rng: np.random.Generator) -> GenericSystem:
+def seed_system(supports: Sequence[np.ndarray], rng: np.random.Generator) -> GenericSystem:
     """Random coefficients of a system with a random zero, no coordinate of which is zero."""
     x = unit(rng, len(supports))
     coefficients = []
@@ -120,7 +120,7 @@ def by_monodromy(
     n = len(system.supports)
     groups = (tuple(range(n)),)
     degrees = group_degrees(system.rows, groups)
-    first = homogenized(system.rows, n, groups, degrees)
+    first = homogenize_rows(system.rows, n, groups, degrees)
     here = DistinctPoints(system.points, system.errors, most)
     spent, idle = 0, 0
     for _ in range(MOST_LOOPS):
@@ -129,18 +129,18 @@ def by_monodromy(
         if idle % 2 == 0 and (idle or not spent):
             # On the line through two systems few loops may be of use, be there ever so many.
             other = replace(system, coefficients=tuple(unit(rng, len(s)) for s in system.supports))
-            second = homogenized(other.rows, n, groups, degrees)
+            second = homogenize_rows(other.rows, n, groups, degrees)
             there = DistinctPoints(system.points[:0], system.errors[:0], most)
         known = max(len(here.points), len(there.points))
         gamma = complex(unit(rng, 1)[0])
         forward = straight_line(first, second, gamma)
         backward = straight_line(second, first, 1 / gamma)
-        ends = _moved(forward, here.points, threads)
+        ends = _move_points(forward, here.points, threads)
         spent += len(here.points)
         there.add(*ends)
         # The way is one to one: what it did not reach leads back to solutions that are new.
         left = there.missing_from(*ends)
-        here.add(*_moved(backward, left, threads))
+        here.add(*_move_points(backward, left, threads))
         spent += len(left)
         idle = 0 if max(len(here.points), len(there.points)) > known else idle + 1
         # The question costs as much as a loop: after 1, 3, 7 loops in vain.
@@ -149,7 +149,9 @@ def by_monodromy(
     return system.holding(here.points, here.errors), spent, False
 
 
-def _moved(homotopy: Homotopy, points: np.ndarray, threads: int) -> tuple[np.ndarray, np.ndarray]:
+def _move_points(
+    homotopy: Homotopy, points: np.ndarray, threads: int
+) -> tuple[np.ndarray, np.ndarray]:
     """Where paths from ``points`` arrive, and the errors there."""
     ends = track_regular(homotopy, points, named("fast"), threads)
     return ends.points, ends.errors
@@ -161,6 +163,6 @@ def start_at(
     """The homotopy from ``system``, all of whose solutions are known, to ``target``."""
     groups = (tuple(range(target.n)),)
     degrees = group_degrees(system.rows, groups)
-    begin = homogenized(system.rows, target.n, groups, degrees)
-    goal = homogenized(target.rows, target.n, groups, degrees)
+    begin = homogenize_rows(system.rows, target.n, groups, degrees)
+    goal = homogenize_rows(target.rows, target.n, groups, degrees)
     return Start(name, straight_line(begin, goal, gamma), system.points, groups, detail=detail)

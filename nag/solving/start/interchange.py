@@ -71,8 +71,8 @@ def interchange(target: Target, rows: Sequence[int], free: Sequence[int]) -> Int
     """
     blocks: list[list[int]] = []
     owner: dict[int, int] = {}
-    classes = _alike(target, free)
-    plain = replace(target, rows=_numbered(target.rows)) if classes else target
+    classes = _find_alike(target, free)
+    plain = replace(target, rows=_number_coefficients(target.rows)) if classes else target
     for alike in classes:
         owners = _owners(target, rows, alike)
         found: list[list[int]] = []
@@ -90,9 +90,9 @@ def interchange(target: Target, rows: Sequence[int], free: Sequence[int]) -> Int
     return Interchange(tuple(map(tuple, blocks)), owner)
 
 
-def _alike(target: Target, free: Sequence[int]) -> list[list[int]]:
+def _find_alike(target: Target, free: Sequence[int]) -> list[list[int]]:
     """Variables whose exponents, beside the degrees of their terms, are the same."""
-    marked = _marked(target)
+    marked = _mark_exponents(target)
     marked.sort(axis=0)
     classes: dict[bytes, list[int]] = {}
     for j in free:
@@ -100,7 +100,7 @@ def _alike(target: Target, free: Sequence[int]) -> list[list[int]]:
     return [alike for alike in classes.values() if len(alike) > 1]
 
 
-def _marked(target: Target) -> np.ndarray:
+def _mark_exponents(target: Target) -> np.ndarray:
     """Each variable's exponent and degree of each term, as one number; shape ``(terms, n)``."""
     exponents = target.stack.exponents
     total = exponents.sum(axis=1, keepdims=True)
@@ -109,7 +109,7 @@ def _marked(target: Target) -> np.ndarray:
 
 def _owners(target: Target, rows: Sequence[int], alike: Sequence[int]) -> dict[int, int]:
     """A row for each variable in which it occurs as in no other; none if they are not distinct."""
-    marked = _marked(target)
+    marked = _mark_exponents(target)
     ends = np.append(target.stack.first[1:], len(marked))
     owners: dict[int, int] = {}
     for j in alike:
@@ -124,7 +124,7 @@ def _owners(target: Target, rows: Sequence[int], alike: Sequence[int]) -> dict[i
     return owners if len(set(owners.values())) == len(owners) else {}
 
 
-def _numbered(rows: Sequence[Terms]) -> tuple[Terms, ...]:
+def _number_coefficients(rows: Sequence[Terms]) -> tuple[Terms, ...]:
     """Rows of fractions with a whole number for each, as these are compared in less time."""
     if not all(isinstance(c, Fraction) for row in rows for c in row.values()):
         return tuple(rows)
@@ -148,11 +148,11 @@ def _exchanges(
 
 def _is_image(row: Terms, other: Terms, pair: tuple[int, int]) -> bool:
     return len(row) == len(other) and all(
-        other.get(_interchanged(e, *pair)) == c for e, c in row.items()
+        other.get(_swap_exponents(e, *pair)) == c for e, c in row.items()
     )
 
 
-def _interchanged(e: Exponents, j: int, k: int) -> Exponents:
+def _swap_exponents(e: Exponents, j: int, k: int) -> Exponents:
     if e[j] == e[k]:
         return e
     moved = list(e)

@@ -25,7 +25,7 @@ from nag.algebra.turns import Turns, looped_turns
 from nag.errors import StartError
 from nag.solving.start.mixed_cells import MixedCells, mixed_cells
 from nag.solving.start.polyhedral import polyhedral
-from nag.solving.start.target import Start, Target, Terms, homogenized
+from nag.solving.start.target import Start, Target, Terms, homogenize_rows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.known import Known
 from nag.tracking.paths import PathStatus
@@ -149,7 +149,7 @@ def isotropic(
         return None
     groups = (tuple(range(target.n)),)
     degrees = np.array(target.degrees)[:, None]
-    rows = homogenized(target.rows, target.n, groups, degrees)
+    rows = homogenize_rows(target.rows, target.n, groups, degrees)
     points = np.hstack([np.ones((len(x), 1)), x * np.exp2(-np.array(target.scales, dtype=float))])
     start = Start(
         "polyhedral",

@@ -22,9 +22,9 @@ import numpy as np
 
 from nag.errors import StartError
 from nag.numerics.digits import bits_of, in_bits
-from nag.solving.start.fibre_monodromy import GenericSystem, by_monodromy, seeded, start_at
+from nag.solving.start.fibre_monodromy import GenericSystem, by_monodromy, seed_system, start_at
 from nag.solving.start.mixed_cells import mixed_cells
-from nag.solving.start.target import Start, Target, group_degrees, homogenized, unit
+from nag.solving.start.target import Start, Target, group_degrees, homogenize_rows, unit
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy, straight_line
@@ -107,14 +107,14 @@ def irreducible_row(supports: Sequence[np.ndarray], rng: np.random.Generator) ->
     return None
 
 
-def seeded_pencil(
+def seed_pencil(
     supports: Sequence[np.ndarray], row: int, rng: np.random.Generator
 ) -> tuple[Pencil, GenericSystem]:
     """A random pencil in one row, and its system at ``u = 0`` with one solution."""
     n = len(supports)
     x = unit(rng, n)
-    direction = _rounded(unit(rng, len(supports[row])), SHORT)
-    form = _rounded(unit(rng, 1 + n), SHORT)
+    direction = _round_to_bits(unit(rng, len(supports[row])), SHORT)
+    form = _round_to_bits(unit(rng, 1 + n), SHORT)
     coefficients = []
     for i, support in enumerate(supports):
         monomials = np.prod(x[None, :] ** support, axis=1)
@@ -123,12 +123,12 @@ def seeded_pencil(
         if i == row:
             value += (form[0] + form[1:] @ x) * (direction @ monomials)
         c = c - value / np.vdot(monomials, monomials) * monomials.conj()
-        coefficients.append(_rounded(c, LONG) if i == row else c)
+        coefficients.append(_round_to_bits(c, LONG) if i == row else c)
     pencil = Pencil(tuple(supports), row, tuple(coefficients), direction, form)
     return pencil, pencil.system(points=np.append(1.0, x)[None] / np.sqrt(1 + n))
 
 
-def _rounded(z: np.ndarray, bits: int) -> np.ndarray:
+def _round_to_bits(z: np.ndarray, bits: int) -> np.ndarray:
     return np.round(z * 2.0**bits) / 2.0**bits
 
 
@@ -144,11 +144,11 @@ def trace_is_linear(
     groups = (tuple(range(n)),)
     begin = pencil.system()
     degrees = group_degrees(begin.rows, groups)
-    first = homogenized(begin.rows, n, groups, degrees)
+    first = homogenize_rows(begin.rows, n, groups, degrees)
     there = [(first, points)]
-    shifts = _rounded(unit(rng, 2), SHORT).tolist()
+    shifts = _round_to_bits(unit(rng, 2), SHORT).tolist()
     for shift in shifts:
-        second = homogenized(pencil.system(shift).rows, n, groups, degrees)
+        second = homogenize_rows(pencil.system(shift).rows, n, groups, degrees)
         homotopy = straight_line(first, second, complex(unit(rng, 1)[0]))
         ends = track_regular(homotopy, points, named("default"), threads).points
         if len(ends) < len(points):
@@ -159,14 +159,14 @@ def trace_is_linear(
     motion = np.abs(slopes).max(axis=0).sum(axis=0)
     differences = slopes[0] - slopes[1]
     total = differences.sum(axis=0)
-    if _are_all(differences, total, ROUNDING * motion):
+    if _is_sum_linear(differences, total, ROUNDING * motion):
         return True
     if (np.abs(total) > CLEAR * motion).any():
         return False
-    return _are_all(*_second_differences(there, shifts), FINE_ROUNDING * motion)
+    return _is_sum_linear(*_second_differences(there, shifts), FINE_ROUNDING * motion)
 
 
-def _are_all(differences: np.ndarray, total: np.ndarray, noise: np.ndarray) -> bool:
+def _is_sum_linear(differences: np.ndarray, total: np.ndarray, noise: np.ndarray) -> bool:
     """Whether the sum of second differences is zero, and each point's is seen not to be."""
     linear = (np.abs(total) <= noise).all()
     visible = (np.abs(differences) > VISIBLE * noise).any(axis=1)
@@ -208,7 +208,7 @@ def monodromy(target: Target, rng: np.random.Generator, threads: int) -> Start:
     row = irreducible_row(target.supports, rng)
     if row is None:
         return _up_to_the_mixed_volume(target, gamma, rng, threads)
-    pencil, seed = seeded_pencil(target.supports, row, rng)
+    pencil, seed = seed_pencil(target.supports, row, rng)
     test = partial(trace_is_linear, pencil, rng=rng, threads=threads)
     system, spent, proven = by_monodromy(seed, MOST_PATHS, rng, threads, test)
     if not proven:
@@ -226,7 +226,7 @@ def _up_to_the_mixed_volume(
     volume = mixed_cells(target.supports, rng).mixed_volume
     if volume > MOST_PATHS:
         raise StartError(f"monodromy: {volume} paths; at most {MOST_PATHS} are tracked")
-    system, spent = seeded(target.supports, rng), 0
+    system, spent = seed_system(target.supports, rng), 0
     if volume:
         system, spent, _ = by_monodromy(system, volume, rng, threads)
     else:

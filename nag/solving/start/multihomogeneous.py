@@ -15,7 +15,7 @@ from math import comb, factorial, prod
 import numpy as np
 
 from nag.errors import StartError
-from nag.solving.start.target import Start, Target, group_degrees, homogenized, unit
+from nag.solving.start.target import Start, Target, group_degrees, homogenize_rows, unit
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.homotopy import straight_line
 
@@ -247,6 +247,6 @@ def multihomogeneous(target: Target, groups: Groups, rng: np.random.Generator) -
         matrix = table[rows, numbers]
         solution = np.linalg.solve(matrix[:, :, 1:], -matrix[:, :, :1])[:, :, 0]
         points[:, [shift + i for i in groups[g]]] = solution
-    begin = homogenized(start_rows, n, groups, degrees)
-    goal = homogenized(target.rows, n, groups, degrees)
+    begin = homogenize_rows(start_rows, n, groups, degrees)
+    goal = homogenize_rows(target.rows, n, groups, degrees)
     return Start("multihomogeneous", straight_line(begin, goal, gamma), points, groups)

@@ -24,7 +24,7 @@ import numpy as np
 from nag.errors import StartError
 from nag.solving.start.fibre_monodromy import DistinctPoints, GenericSystem, by_monodromy, start_at
 from nag.solving.start.mixed_cells import MixedCells
-from nag.solving.start.target import Start, Target, group_degrees, homogenized
+from nag.solving.start.target import Start, Target, group_degrees, homogenize_rows
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
@@ -189,7 +189,7 @@ def by_degeneration(
     starts = np.exp(1j * np.concatenate([np.zeros((len(angles), 1)), angles], axis=1))
     weights = cell_weights(cells)[owners]
     degrees = group_degrees(system.rows, groups)
-    homotopy = Homotopy(_single_terms(homogenized(system.rows, n, groups, degrees)))
+    homotopy = Homotopy(_single_terms(homogenize_rows(system.rows, n, groups, degrees)))
     found = track_regular(homotopy, starts, named("fast"), threads, LENGTH * weights)
     distinct = DistinctPoints(found.points, found.errors, len(starts))
     return system.holding(distinct.points, distinct.errors), len(starts)

@@ -217,7 +217,7 @@ def most_digits(polynomials: Iterable[Polynomial]) -> int:
     return max((f.digits for f in polynomials), default=0)
 
 
-def homogenized(
+def homogenize_rows(
     rows: Iterable[Terms], n: int, groups: Sequence[Sequence[int]], degrees: np.ndarray
 ) -> CompiledRows:
     """Rows of the given degrees in the groups; the layout is that of `compile_rows`."""

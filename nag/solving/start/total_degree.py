@@ -20,7 +20,7 @@ import numpy as np
 from nag.algebra.polynomial import Exponents
 from nag.errors import StartError
 from nag.solving.start.interchange import Interchange, interchange
-from nag.solving.start.target import Start, Target, Terms, group_degrees, homogenized, unit
+from nag.solving.start.target import Start, Target, Terms, group_degrees, homogenize_rows, unit
 from nag.tracking.homotopy import straight_line
 from nag.tracking.known import Known
 
@@ -235,8 +235,8 @@ def total_degree(
         start_rows = _generic_rows(start_rows, n, free, wanted, rng)
     groups = (tuple(range(n)),)
     degrees_of_rows = group_degrees([target.rows[i] for i in rows], groups)
-    goal = homogenized([target.rows[i] for i in rows], n, groups, degrees_of_rows)
-    begin = homogenized(start_rows, n, groups, degrees_of_rows)
+    goal = homogenize_rows([target.rows[i] for i in rows], n, groups, degrees_of_rows)
+    begin = homogenize_rows(start_rows, n, groups, degrees_of_rows)
     points, roots = _roots(n, free, wanted, constants)
     # What stands there are values of the forms; the adjoint of a unitary matrix is its inverse.
     columns = [1 + j for j in free]
