@@ -394,8 +394,7 @@ tracking.ends.initial_forms: GAIN; tracking.ends.kept_points: RESIDUAL, SECOND;
 tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
 tracking.ends.linear_algebra: LEAST, LARGEST; tracking.ends.runs: ACCURACY, CONTRACTION;
 tracking.linear_algebra: PIVOT, PHASE; tracking.taylor: EPSILON; tracking.numbers.complex_numbers:
-HALVED, SMALL_SQUARE, LARGER; tracking.numbers.double_double: EPSILON, SMALL;
-tracking.numbers.octuple_double: EPSILON, SMALL; tracking.numbers.quad_double: EPSILON, SMALL;
+HALVED, SMALL_SQUARE, LARGER;
 tracking.predictor: PREDICT, CORRECT, TINY, FAR; tracking.projective: ROUNDING; tracking.track:
 LEAST, BASIN, FINEST; tracking.ends.end_run: TRIAL, SMALLER, SHORTEST, MOST_REJECTED, LAST_T;
 tracking.ends.follow: FURTHER, FURTHEST; tracking.jumps: NEIGHBOURS; tracking.settings: TIGHTER,

@@ -6,7 +6,8 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import NamedTuple
+from types import ModuleType
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ import pytest
 from nag.machine_code import kernel
 from nag.machine_code.kernel import Kernel, compilations
 from nag.machine_code.records import Reals
+from nag.tracking.numbers.complex_numbers import ARITHMETICS
 
 
 class Numbers(NamedTuple):
@@ -33,7 +35,7 @@ def _run() -> list[str]:
     compiled: list[str] = []
     values = np.arange(5.0)
     with compilations(compiled.append):
-        Kernel(add_up, "tracking")(Numbers(5, values))
+        Kernel(add_up)(Numbers(5, values))
     assert values[0] == 10.0
     return compiled
 
@@ -69,7 +71,7 @@ def test_a_file_with_one_wrong_byte_is_replaced(cache: Path) -> None:
     assert _run() == []
 
 
-def test_changed_sources_or_another_compiler_are_compiled_anew(
+def test_by_another_compiler_kernels_are_compiled_anew(
     cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
 
@@ -77,13 +79,67 @@ def test_changed_sources_or_another_compiler_are_compiled_anew(
 
     _run()
     with monkeypatch.context() as patch:
-        patch.setattr(kernel, "_sources", lambda package: b"other sources")
+        patch.setattr(kernel, "_compiler_files", lambda: b"other sources")
         assert _run() == ["add_up"]
     with monkeypatch.context() as patch:
         patch.setattr(processor, "compiler", lambda: "another one")
         assert _run() == ["add_up"]
     assert _run() == ["add_up"]
     assert _run() == []
+
+
+def _sum_of(text: str, name: str = "made") -> Any:
+    """A function of a module with this source, which lies in no file of the package."""
+    module = ModuleType(name)
+    exec(compile(text, name, "exec"), vars(module))
+    return vars(module)["total"]
+
+
+SOURCE = """
+from nag.tracking.numbers import error_free
+SCALE = 2.0
+
+def part(x):
+    return SCALE * x
+
+def total(s):
+    s.values[0] = part(s.values[1])
+"""
+ANOTHER = [("SCALE = 2.0", "SCALE = 3.0"), ("SCALE * x", "x + SCALE"), ("values[1]", "values[2]")]
+ALIKE = [
+    ("    return", '    """What part is."""\n    return'),
+    ("    s.values", '    """The total."""\n    # A comment.\n    s.values'),
+    ("def part", "def not_reached(x):\n    return x\n\n\ndef part"),
+    ("SCALE = 2.0", "SCALE = 4.0 / 2"),
+]
+
+
+def _origin_of(text: str) -> bytes:
+    origin = kernel._Origin()
+    origin.add("total", _sum_of(text))
+    return origin.digest.digest()
+
+
+@pytest.mark.parametrize(("old", "new"), ANOTHER)
+def test_what_a_kernel_reaches_makes_it_another(old: str, new: str) -> None:
+    assert _origin_of(SOURCE.replace(old, new)) != _origin_of(SOURCE)
+
+
+@pytest.mark.parametrize(("old", "new"), ALIKE)
+def test_docstrings_comments_and_what_it_does_not_reach_leave_it_as_it_is(
+    old: str, new: str
+) -> None:
+    assert SOURCE.replace(old, new) != SOURCE
+    assert _origin_of(SOURCE.replace(old, new)) == _origin_of(SOURCE)
+
+
+def test_a_kernel_is_another_in_another_arithmetic() -> None:
+    origins = []
+    for arithmetic in ARITHMETICS.values():
+        origin = kernel._Origin()
+        origin.add_constant(arithmetic)
+        origins.append(origin.digest.digest())
+    assert len(set(origins)) == len(ARITHMETICS)
 
 
 def test_object_code_of_another_processor_is_kept_beside(

@@ -362,14 +362,14 @@ def test_what_cannot_be_compiled_is_refused_with_its_line(
     place = re.escape(__file__) + r":\d+: "
     pattern = message if ".*" in message else re.escape(message)
     with pytest.raises(KernelError, match=place + pattern):
-        Kernel(function, None).prepare()
+        Kernel(function, keep=False).prepare()
 
 
 def test_the_line_is_that_of_the_expression() -> None:
     line = inspect.getsourcelines(divides_far_down)[1] + 3
     expected = f"{__file__}:{line}: nowhere is no number"
     with pytest.raises(KernelError, match=re.escape(expected)):
-        Kernel(divides_far_down, None).prepare()
+        Kernel(divides_far_down, keep=False).prepare()
 
 
 def divides_far_down(m: Memory) -> None:
@@ -408,10 +408,4 @@ def test_functions_that_are_more_than_their_own_statements_are_refused(
     function: Callable[[Memory], None], message: str
 ) -> None:
     with pytest.raises(KernelError, match=re.escape(__file__) + r":\d+: " + re.escape(message)):
-        Kernel(function, None).prepare()
-
-
-def test_kernels_that_are_kept_come_from_their_package_alone() -> None:
-    message = "_rest comes from .*test_kernel_language, not from nag.tracking"
-    with pytest.raises(KernelError, match=re.escape(__file__) + r":\d+: " + message):
-        Kernel(divides, "tracking")._compile()
+        Kernel(function, keep=False).prepare()

@@ -28,7 +28,7 @@ def solve(e: Equations) -> None:
         substitute(e.n, e.ar, e.ai, e.pivots, e.br, e.bi)
 
 
-_solve = Kernel(solve, None)
+_solve = Kernel(solve, keep=False)
 
 
 def _in_lanes(array):

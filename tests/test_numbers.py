@@ -15,11 +15,7 @@ from nag.machine_code.lanes import aligned, store
 from nag.machine_code.processor import processor
 from nag.machine_code.records import Reals
 from nag.tracking.ends.records import _constants, words
-from nag.tracking.numbers import complex_numbers as z
-from nag.tracking.numbers import double_double, octuple_double, quad_double
-from nag.tracking.numbers import double_double as number
-
-ARITHMETICS = (double_double, quad_double, octuple_double)
+from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
 
 
 class Operands(NamedTuple):
@@ -29,7 +25,7 @@ class Operands(NamedTuple):
     results: Reals
 
 
-def operations(x: Operands) -> None:
+def operations(z: ComplexNumbers, x: Operands) -> None:
     a = z.read(x.a, 0)
     b = z.read(x.b, 0)
     z.write(x.results, 0, z.add(a, b))
@@ -39,14 +35,14 @@ def operations(x: Operands) -> None:
     z.write(x.results, 4, z.exponential(a, x.inverses))
 
 
-def small_operations(x: Operands) -> None:
+def small_operations(z: ComplexNumbers, x: Operands) -> None:
     a = z.read(x.a, 0)
     z.write(x.results, 0, z.inverse(a))
-    store(x.results, 2 * number.WORDS, z.magnitude(a))
+    store(x.results, 2 * z.number.words, z.magnitude(a))
 
 
-KERNELS = {m.WORDS: Kernel(operations, None, {"number": m}) for m in ARITHMETICS}
-SMALL = {m.WORDS: Kernel(small_operations, None, {"number": m}) for m in ARITHMETICS}
+KERNELS = {k: Kernel(operations, z, keep=False) for k, z in ARITHMETICS.items()}
+SMALL = {k: Kernel(small_operations, z, keep=False) for k, z in ARITHMETICS.items()}
 
 
 def ball(parts: np.ndarray) -> flint.acb:
@@ -77,10 +73,10 @@ def random_numbers(count: int, rng: np.random.Generator, size: float) -> np.ndar
     return lanes
 
 
-@pytest.mark.parametrize("arithmetic", ARITHMETICS)
+@pytest.mark.parametrize("count", ARITHMETICS)
 @pytest.mark.parametrize("size", [1e-3, 1.0, 30.0])
-def test_operations_are_exact_to_rounding(arithmetic, size: float) -> None:
-    count, rng = arithmetic.WORDS, np.random.default_rng(3)
+def test_operations_are_exact_to_rounding(count: int, size: float) -> None:
+    rng = np.random.default_rng(3)
     a, b = random_numbers(count, rng, size), random_numbers(count, rng, size)
     results = computed(count, a, b)
     with flint.ctx.workprec(600):
@@ -92,13 +88,12 @@ def test_operations_are_exact_to_rounding(arithmetic, size: float) -> None:
                 # Halving and squaring an exponential's argument loses a few digits.
                 factor = 2**16 if k == 4 else 32
                 error = abs(ball(results[k, :, lane]) - value) / scale
-                assert float(error.mid()) < factor * arithmetic.EPSILON
+                assert float(error.mid()) < factor * ARITHMETICS[count].number.epsilon
 
 
-@pytest.mark.parametrize("arithmetic", ARITHMETICS)
+@pytest.mark.parametrize("count", ARITHMETICS)
 @pytest.mark.parametrize("size", [1e-140, 1e-160, 1e-180])
-def test_numbers_whose_squares_leave_the_range_have_sizes_and_inverses(arithmetic, size) -> None:
-    count = arithmetic.WORDS
+def test_numbers_whose_squares_leave_the_range_have_sizes_and_inverses(count: int, size) -> None:
     memory, results = aligned(2 * count), aligned(2 * count + 1)
     memory[:8], memory[8 * count : 8 * count + 8] = 3 * size, -4 * size
     SMALL[count](Operands(memory, memory, memory, results))
@@ -109,27 +104,27 @@ def test_numbers_whose_squares_leave_the_range_have_sizes_and_inverses(arithmeti
             error = abs(ball(values[: 2 * count, lane]) - expected) / abs(expected)
             # What is left of the last words are whole multiples of the smallest double.
             least = 5e-324 / size * 100
-            assert float(error.mid()) < max(32 * arithmetic.EPSILON, least)
+            assert float(error.mid()) < max(32 * ARITHMETICS[count].number.epsilon, least)
             assert values[-1, lane] == pytest.approx(5 * size, rel=1e-15)
 
 
-@pytest.mark.parametrize("arithmetic", ARITHMETICS)
-def test_plain_python_makes_the_same_words(arithmetic) -> None:
-    count, rng = arithmetic.WORDS, np.random.default_rng(7)
+@pytest.mark.parametrize("count", ARITHMETICS)
+def test_plain_python_makes_the_same_words(count: int) -> None:
+    rng = np.random.default_rng(7)
     a, b = random_numbers(count, rng, 1.0), random_numbers(count, rng, 1.0)
     memory = [aligned(2 * count) for _ in range(2)]
     for place, values in zip(memory, (a, b), strict=True):
         place[:] = values.ravel()
     results = aligned(10 * count)
     operands = Operands(*memory, _constants(14, count)[-1], results)
-    plain.run(operations, operands, modules={"number": arithmetic})
+    plain.run(operations, operands, constants=(ARITHMETICS[count],))
     if "fma" in processor()[2] or processor()[0].startswith(("aarch64", "arm64")):
         assert np.array_equal(results.reshape(5, 2 * count, 8), computed(count, a, b))
 
 
-@pytest.mark.parametrize("arithmetic", ARITHMETICS)
-def test_words_do_not_overlap(arithmetic) -> None:
-    count, rng = arithmetic.WORDS, np.random.default_rng(5)
+@pytest.mark.parametrize("count", ARITHMETICS)
+def test_words_do_not_overlap(count: int) -> None:
+    rng = np.random.default_rng(5)
     results = computed(count, random_numbers(count, rng, 1.0), random_numbers(count, rng, 1.0))
     parts = results[:2].reshape(4, count, 8)
     for larger, smaller in zip(parts.swapaxes(0, 1)[:-1], parts.swapaxes(0, 1)[1:], strict=True):

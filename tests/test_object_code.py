@@ -42,7 +42,7 @@ def language(m: Memory) -> None:
 
 
 KERNELS = {
-    "language": Kernel(language, None),
+    "language": Kernel(language, keep=False),
     "newton": newton_lanes,
     "cells": cells,
     "track": track_lanes,
@@ -114,7 +114,7 @@ def targets() -> None:
 
 @pytest.fixture(scope="module")
 def texts() -> dict[str, str]:
-    return {name: str(Module(k.function, k.modules).ir) for name, k in KERNELS.items()}
+    return {name: str(Module(k.function, k.constants).ir) for name, k in KERNELS.items()}
 
 
 def test_the_language_is_here_with_every_operation(monkeypatch: pytest.MonkeyPatch) -> None:

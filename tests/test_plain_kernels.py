@@ -44,14 +44,13 @@ def compared(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
     compiled = Kernel.__call__
 
     def call(self: Kernel, *records: Any) -> None:
-        name = ".".join([self.function.__name__, *(m.__name__ for m in self.modules.values())])
-        runs[name] += 1
-        if runs[name] > 1:
+        runs[self.name] += 1
+        if runs[self.name] > 1:
             compiled(self, *records)
             return
         expected = [copy(r) for r in records]
         compiled(self, *records)
-        plain.run(self.function, *expected, modules=self.modules)
+        plain.run(self.function, *expected, constants=self.constants)
         for record, other in zip(records, expected, strict=True):
             record = record.record if isinstance(record, Table) else record
             for name in record._fields:
@@ -66,7 +65,7 @@ def compared(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
 def test_paths_to_regular_ends_are_the_same(compared: Counter[str]) -> None:
     result = solve(system("x y", "x^2 + y^2 - 5", "x*y - 2"), start="total")
     assert len(result.solutions) == 4
-    assert {"track_batch", "newton_batch"} <= set(compared)
+    assert {"track_batch", "newton_batch.2_words"} <= set(compared)
 
 
 def test_paths_whose_corrections_are_rounding_errors_are_the_same(compared: Counter[str]) -> None:
@@ -83,7 +82,7 @@ def test_paths_to_singular_ends_are_the_same(compared: Counter[str]) -> None:
         system("x y", "x^2 + y^2 - 1", "2*x^2 + y^2 + 2*x*y - 4*x - 2*y + 2"), start="total"
     )
     assert sorted(s.multiplicity for s in result.solutions) == [1, 1, 2]
-    assert "follow_batch.nag.tracking.numbers.double_double" in compared
+    assert "follow_batch.2_words" in compared
 
 
 class Vectors(NamedTuple):

@@ -9,27 +9,32 @@ What is translated is this; whatever else a function has in it is refused, with 
 
 Functions
     Plain ``def`` with plain arguments: no defaults, decorators, nor variables of a function round
-    it. The kernel itself takes records (see `records`) and returns nothing. Functions that it calls
-    are translated for the types of their arguments, and return one type on all ways, or nothing on
-    any. None calls itself. Those of a kernel that is kept on disk come from its package, or from
-    this one, as only changes there are noticed.
+    it. The kernel itself takes constants (below), then records (see `records`), and returns
+    nothing. Functions that it calls are translated for the types of their arguments, and return one
+    type on all ways, or nothing on any. None calls itself, but for other types: for shorter tuples.
+Constants
+    Objects that are known when the kernel is compiled, of whatever class, as an arithmetic is.
+    Their attributes are numbers and other such objects; their methods are translated for each.
 Types
     ``bool``, ``int`` (64 bits, wraps round), ``float``, ``complex``, lanes (see `lanes`), tuples of
-    these, arrays of a record, and records. A variable keeps the type that it gets first; each of
-    the first four converts to the later ones. It may be read only where every way that leads there
-    gave it a value. Names of a module, and attributes of modules, must stay what they are.
+    these, arrays of a record, records, and constants. A variable keeps the type that it gets first;
+    each of the first four converts to the later ones. It may be read only where every way that
+    leads there gave it a value. Names of a module, and attributes of modules, must stay what they
+    are.
 Statements
     Assignments to names, array entries and tuples of these, also in place; ``if``; ``while``;
     ``for .. in range(..)`` with a constant step, none with an ``else``; ``break``, ``continue``,
     ``pass``, ``return``; calls. None that nothing leads to.
 Expressions
     Numbers and names; fields of records; ``.real, .imag, .conjugate()`` of complex numbers;
-    ``a[k]`` with a whole number, in a tuple a constant, there ``a[i:j]`` as well; tuples, and ``+``
-    of two; ``+ - * /`` of numbers and of lanes, ``// %`` of whole numbers, ``<< >>`` by a constant,
-    ``** 2``, ``**`` of a real number and a double; comparisons of numbers, one after the other
-    until one does not hold; ``in`` a tuple that is written out; ``not``, and ``and, or`` of
+    ``a[k]`` with a whole number, in a tuple a constant, there ``a[i:j]`` as well; tuples, ``+`` of
+    two, and ``len``; ``+ - * /`` of numbers and of lanes, ``// %`` of whole numbers, ``<< >>`` by a
+    constant, ``** 2``, ``**`` of a real number and a double; comparisons of numbers, one after the
+    other until one does not hold; ``in`` a tuple that is written out; ``not``, and ``and, or`` of
     conditions (where a number is wanted, of ``bool`` alone); ``.. if .. else ..``; calls of such
-    functions and of `operations.OPERATIONS`.
+    functions and of `operations.OPERATIONS`. Sums, differences and comparisons of whole numbers
+    that are constants, as lengths of tuples are, are constants; a condition that is one decides
+    which way is translated at all.
 Errors
     Dividing a whole number by zero raises `ZeroDivisionError`. Nothing else raises: divisions of
     doubles by zero, roots and powers without a real value give an infinity or NaN; whole numbers

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ast
 import builtins
-from types import FunctionType, ModuleType
+import operator
+from types import FunctionType, MethodType, ModuleType
 from typing import Any
 
 from llvmlite import ir
@@ -19,10 +20,12 @@ from nag.machine_code.records import (
     NONE,
     NUMBERS,
     REAL,
+    Constant,
     Pointer,
     Record,
     Tuple,
     Type,
+    constant_type,
     several,
 )
 from nag.machine_code.values import (
@@ -40,13 +43,21 @@ from nag.machine_code.values import (
     truth,
 )
 
+# Numbers that are compiled.
+_NUMBER = bool | int | float | complex
+# What is worked out of whole numbers that are known when the kernel is compiled.
+_FIXED: dict[type, Any] = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Eq: operator.eq}
+_FIXED |= {ast.NotEq: operator.ne, ast.Lt: operator.lt, ast.LtE: operator.le}
+_FIXED |= {ast.Gt: operator.gt, ast.GtE: operator.ge}
+
 
 class Expressions:
     """Variables and expressions of a function that is being translated.
 
     Variables live in memory that the first block reserves; LLVM makes registers of them. A
     variable keeps the type that it gets first. ``assigned`` are those that have a value wherever
-    the way to here led along; ``fails`` says whether a division by zero may end the function.
+    the way to here led along; ``fails`` says whether a division by zero may end the function;
+    ``size`` counts the syntax nodes of functions that are put in.
     """
 
     def __init__(self, module: Any, python: FunctionType, function: ir.Function) -> None:
@@ -57,6 +68,7 @@ class Expressions:
         self.assigned: set[str] = set()
         self.local = set(python.__code__.co_varnames)
         self.fails = False
+        self.size = 0
 
     def _place_of(self, node: ast.AST) -> str:
         code = self.python.__code__
@@ -71,14 +83,16 @@ class Expressions:
         if value.type is NONE:
             raise KernelError(f"nothing is assigned to {name}")
         if name not in self.variables:
-            place = self.reserve.alloca(llvm_type(value.type), name=name)
+            fixed = isinstance(value.type, Constant)
+            place = None if fixed else self.reserve.alloca(llvm_type(value.type), name=name)
             self.variables[name] = (value.type, place)
         kind, place = self.variables[name]
         try:
             code = convert(self.builder, value, kind).code
         except KernelError:
             raise KernelError(f"{name} is {kind} and cannot become {value.type}") from None
-        self.builder.store(code, place)
+        if place is not None:
+            self.builder.store(code, place)
         self.assigned.add(name)
 
     def _assign(self, target: ast.expr, value: Value) -> None:
@@ -97,10 +111,12 @@ class Expressions:
 
     def _place(self, node: ast.Subscript) -> tuple[Any, Type]:
         """Address of an entry, and its type."""
-        base = self._value(node.value)
+        return self._entry(self._value(node.value), node.slice)
+
+    def _entry(self, base: Value, number: ast.expr) -> tuple[Any, Type]:
         if not isinstance(base.type, Pointer):
             raise KernelError(f"{base.type} has no entries")
-        place = index(self.builder, self._value(node.slice))
+        place = index(self.builder, self._value(number))
         return self.builder.gep(base.code, [place]), base.type.element
 
     def _load(self, place: Any, kind: Type) -> Value:
@@ -132,17 +148,55 @@ class Expressions:
     # Expressions.
 
     def _static(self, node: ast.expr) -> Any:
-        """What a name outside the function stands for; None for anything else."""
+        """What is known when the kernel is compiled; None for anything else.
+
+        That is what names outside the function stand for, arguments and variables that hold such
+        objects, and attributes of these and of modules.
+        """
+        if isinstance(node, ast.Name) and node.id in self.variables:
+            kind = self.variables[node.id][0]
+            return kind.value if isinstance(kind, Constant) else None
         if isinstance(node, ast.Name) and node.id not in self.local:
             known = self.python.__globals__
-            found = known[node.id] if node.id in known else getattr(builtins, node.id, None)
-            if isinstance(found, ModuleType):
-                return self.module.modules.get(node.id, found)
-            return found
+            return known[node.id] if node.id in known else getattr(builtins, node.id, None)
         if isinstance(node, ast.Attribute):
             owner = self._static(node.value)
-            return getattr(owner, node.attr, None) if isinstance(owner, ModuleType) else None
+            if isinstance(owner, ModuleType) or self._is_fixed(node.value):
+                return getattr(owner, node.attr, None)
         return None
+
+    def _is_fixed(self, node: ast.expr) -> bool:
+        """Whether it is an argument or variable that holds a constant, or an attribute of one."""
+        if isinstance(node, ast.Attribute):
+            return self._is_fixed(node.value)
+        known = isinstance(node, ast.Name) and node.id in self.variables
+        return known and isinstance(self.variables[node.id][0], Constant)
+
+    def _fixed(self, node: ast.AST | None) -> Any:
+        """The whole number, or bit, that is known when the kernel is compiled; else None.
+
+        Numbers of items of tuples are, and with them what is made of them.
+        """
+        if isinstance(node, ast.Constant | ast.Name | ast.Attribute):
+            value = node.value if isinstance(node, ast.Constant) else self._static(node)
+            return value if isinstance(value, int) else None
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+            value = self._fixed(node.operand)
+            return None if value is None else -value
+        if isinstance(node, ast.Call) and self._static(node.func) is len and len(node.args) == 1:
+            kind = self._value(node.args[0]).type
+            return len(kind.items) if isinstance(kind, Tuple) else None
+        if isinstance(node, ast.BinOp) and type(node.op) in _FIXED:
+            left, right = node.left, node.right
+        elif isinstance(node, ast.Compare) and len(node.ops) == 1 and type(node.ops[0]) in _FIXED:
+            left, right = node.left, node.comparators[0]
+        else:
+            return None
+        values = self._fixed(left), self._fixed(right)
+        sign = node.op if isinstance(node, ast.BinOp) else node.ops[0]
+        value = None if None in values else _FIXED[type(sign)](*values)
+        # What wraps round is left to the kernel.
+        return value if value is None or -(2**63) <= value < 2**63 else None
 
     def _branch(self, test: ast.expr, yes: Any, no: Any) -> None:
         """Go on at ``yes`` if the test holds, else at ``no``."""
@@ -179,14 +233,14 @@ class Expressions:
         return self._known(node.value, repr(node.value))
 
     def _known(self, value: Any, text: str) -> Value:
-        if isinstance(value, bool | int | float | complex):
+        if isinstance(value, _NUMBER):
             return constant(value)
         raise KernelError(f"{text} is no number")
 
     def _of_Name(self, node: ast.Name) -> Value:
         if node.id in self.assigned:
             kind, place = self.variables[node.id]
-            return Value(kind, self.builder.load(place))
+            return Value(kind, None if place is None else self.builder.load(place))
         if node.id in self.local:
             raise KernelError(f"{node.id} may have no value yet")
         return self._known(self._static(node), node.id)
@@ -194,6 +248,8 @@ class Expressions:
     def _of_Attribute(self, node: ast.Attribute) -> Value:
         known = self._static(node)
         if known is not None:
+            if self._is_fixed(node) and not isinstance(known, _NUMBER):
+                return Value(constant_type(known), None)
             return self._known(known, ast.unparse(node))
         owner = self._value(node.value)
         if isinstance(owner.type, Record):
@@ -203,23 +259,26 @@ class Expressions:
         raise KernelError(f"{owner.type} has no {node.attr}")
 
     def _of_Subscript(self, node: ast.Subscript) -> Value:
-        if isinstance(node.value, ast.Name) and node.value.id in self.variables:
-            kind = self.variables[node.value.id][0]
-            if isinstance(kind, Tuple):
-                return self._part(self._value(node.value), node.slice)
-        return self._load(*self._place(node))
+        base = self._value(node.value)
+        if isinstance(base.type, Tuple):
+            return self._part(base, node.slice)
+        return self._load(*self._entry(base, node.slice))
 
     def _part(self, value: Value, node: ast.expr) -> Value:
         """An item of a tuple, or several that follow each other."""
         bounds = [node.lower, node.upper, node.step] if isinstance(node, ast.Slice) else [node]
-        if not all(part is None or isinstance(part, ast.Constant) for part in bounds):
-            raise KernelError("the index of a tuple must be a constant")
-        first, *others = [part and part.value for part in bounds]
-        if not others:
-            return self._item(value, first)
-        if not all(k is None or type(k) is int for k in (first, *others)):
-            raise KernelError("a tuple is cut at whole numbers")
-        return self._tuple(self._items(value)[slice(first, *others)])
+        known = [self._fixed(part) for part in bounds]
+        for part, k in zip(bounds, known, strict=True):
+            if part is not None and k is None and not isinstance(part, ast.Constant):
+                raise KernelError("the index of a tuple must be a constant")
+        if len(bounds) == 1:
+            count, k = len(value.type.items), known[0]
+            k = node.value if isinstance(node, ast.Constant) else k
+            return self._item(value, k + count if type(k) is int and -count <= k < 0 else k)
+        for part, k in zip(bounds, known, strict=True):
+            if part is not None and type(k) is not int:
+                raise KernelError("a tuple is cut at whole numbers")
+        return self._tuple(self._items(value)[slice(*known)])
 
     def _items(self, value: Value) -> list[Value]:
         return [self._item(value, k) for k in range(len(value.type.items))]
@@ -232,9 +291,21 @@ class Expressions:
         return Value(kind, code)
 
     def _of_Tuple(self, node: ast.Tuple) -> Value:
-        return self._tuple([self._value(item) for item in node.elts])
+        items: list[Value] = []
+        for item in node.elts:
+            if isinstance(item, ast.Starred):
+                inner = self._value(item.value)
+                if not isinstance(inner.type, Tuple):
+                    raise KernelError(f"{inner.type} is no tuple")
+                items += self._items(inner)
+            else:
+                items.append(self._value(item))
+        return self._tuple(items)
 
     def _of_BinOp(self, node: ast.BinOp) -> Value:
+        known = self._fixed(node)
+        if known is not None:
+            return constant(known)
         left, right = self._value(node.left), self._value(node.right)
         if isinstance(node.op, ast.Add) and isinstance(left.type, Tuple):
             if not isinstance(right.type, Tuple):
@@ -246,7 +317,9 @@ class Expressions:
         if operators.divides_whole_numbers(node.op, left, right):
             known = isinstance(right.code, ir.Constant) and right.code.constant
             if not known:
-                text = f"{self._place_of(node)}: division of a whole number by zero"
+                # The line may have moved since the kernel was compiled.
+                place = f"{self.python.__code__.co_filename}, {self.python.__name__}"
+                text = f"{place}: division of a whole number by zero in {ast.unparse(node)}"
                 check_divisor(self.function, self.builder, right, text)
                 self.fails = True
         return operators.binary(self.builder, node.op, left, right)
@@ -282,6 +355,9 @@ class Expressions:
         return Value(kind, result)
 
     def _of_IfExp(self, node: ast.IfExp) -> Value:
+        known = self._fixed(node.test)
+        if known is not None:
+            return self._value(node.body if known else node.orelse)
         yes, no, after = (self.function.append_basic_block() for _ in range(3))
         self._branch(node.test, yes, no)
         ends = []
@@ -303,24 +379,27 @@ class Expressions:
         return self._merged(kind, list(zip(codes, ends, strict=True)))
 
     def _of_Compare(self, node: ast.Compare) -> Value:
+        known = self._fixed(node)
+        if known is not None:
+            return constant(known)
         left = self._value(node.left)
         if len(node.ops) > 1:
             return self._chain(node, left)
-        operator, comparator = node.ops[0], node.comparators[0]
-        if isinstance(operator, ast.In | ast.NotIn):
+        sign, comparator = node.ops[0], node.comparators[0]
+        if isinstance(sign, ast.In | ast.NotIn):
             bit = self._contains(left, comparator)
-            return Value(BOOL, self.builder.not_(bit) if isinstance(operator, ast.NotIn) else bit)
-        return Value(BOOL, operators.compare(self.builder, operator, left, self._value(comparator)))
+            return Value(BOOL, self.builder.not_(bit) if isinstance(sign, ast.NotIn) else bit)
+        return Value(BOOL, operators.compare(self.builder, sign, left, self._value(comparator)))
 
     def _chain(self, node: ast.Compare, left: Value) -> Value:
         """Comparisons one after the other, until one does not hold."""
         after = self.function.append_basic_block()
         ends = []
-        for k, (operator, comparator) in enumerate(zip(node.ops, node.comparators, strict=True)):
-            if isinstance(operator, ast.In | ast.NotIn):
+        for k, (sign, comparator) in enumerate(zip(node.ops, node.comparators, strict=True)):
+            if isinstance(sign, ast.In | ast.NotIn):
                 raise KernelError("in is not chained")
             right = self._value(comparator)
-            bit = operators.compare(self.builder, operator, left, right)
+            bit = operators.compare(self.builder, sign, left, right)
             ends.append((bit, self.builder.block))
             left = right
             if k == len(node.ops) - 1:
@@ -346,11 +425,18 @@ class Expressions:
             raise KernelError("arguments must not be named")
         if isinstance(node.func, ast.Attribute) and node.func.attr == "conjugate":
             return self._conjugate(node.func, node.args)
+        known = self._fixed(node)
+        if known is not None:
+            return constant(known)
         function = self._static(node.func)
         arguments = [self._value(a) for a in node.args]
-        known = operation(function)
-        if known is not None:
-            count, emit = known
+        if isinstance(function, MethodType):
+            owner = function.__self__
+            arguments.insert(0, Value(constant_type(owner), None))
+            function = function.__func__
+        emitted = operation(function)
+        if emitted is not None:
+            count, emit = emitted
             if len(arguments) != count and (count is not None or len(arguments) < 2):
                 wanted = "two or more" if count is None else count
                 name = ast.unparse(node.func)
@@ -369,12 +455,16 @@ class Expressions:
 
     def _called(self, function: FunctionType, arguments: list[Value]) -> Value:
         callee = self.module.translated(function, tuple(a.type for a in arguments))
-        codes = [a.code for a in arguments]
+        codes = [a.code for a in arguments if not isinstance(a.type, Constant)]
         place = None
         if callee.result is not NONE:
             place = self.reserve.alloca(llvm_type(callee.result))
             codes.insert(0, self.builder.bitcast(place, BYTE.as_pointer()))
-        self.builder.call(callee.function, [*codes, self.function.args[-1]])
+        # What a function does with the rest of a tuple is one with what it does.
+        is_put_in = callee.is_put_in or function is self.python
+        self.size += callee.size if is_put_in else 0
+        attributes = ("alwaysinline",) if is_put_in else ()
+        self.builder.call(callee.function, [*codes, self.function.args[-1]], attrs=attributes)
         if callee.fails:
             check_call(self.function, self.builder)
             self.fails = True

@@ -8,15 +8,14 @@ from __future__ import annotations
 import ast
 import inspect
 import textwrap
-from collections.abc import Mapping
-from types import FunctionType, ModuleType
+from types import FunctionType
 from typing import Any, get_type_hints
 
 from llvmlite import ir
 
 from nag.machine_code.expressions import Expressions
 from nag.machine_code.processor import ENTRY
-from nag.machine_code.records import INT, NONE, Record, Type, record
+from nag.machine_code.records import INT, NONE, Constant, Record, Type, constant_type, record
 from nag.machine_code.values import (
     BYTE,
     WORD,
@@ -28,9 +27,9 @@ from nag.machine_code.values import (
     llvm_type,
 )
 
-# Functions of at most so many syntax nodes are put in where they are called.
-SMALL = 130
-_MACHINE_CODE = __name__.rpartition(".")[0]
+# Functions of at most so many syntax nodes are put in where they are called, unless with those that
+# are put into them there are so many.
+SMALL, LARGE = 130, 2000
 
 
 class Module:
@@ -38,40 +37,30 @@ class Module:
 
     Args:
         function: the Python function that the former is.
-        modules: what is meant by names of modules, see `nag.machine_code.kernel.Kernel`.
-        packages: where functions may come from, besides this package; all of Python if empty.
+        constants: its first arguments, see `nag.machine_code.kernel.Kernel`.
 
     Raises:
         KernelError: if anything in a function is not translated; it says in which file and line.
     """
 
-    def __init__(
-        self,
-        function: FunctionType,
-        modules: Mapping[str, ModuleType] | None = None,
-        packages: tuple[str, ...] = (),
-    ) -> None:
-        self.modules = dict(modules or {})
-        self.packages = packages
+    def __init__(self, function: FunctionType, constants: tuple[Any, ...] = ()) -> None:
         self.ir = ir.Module(function.__name__)
         self.ir.triple = ""
         self.constant_memory = self.ir.add_metadata([])
         self._known: dict[tuple[Any, ...], _Body | None] = {}
-        for name, module in self.modules.items():
-            self._check_home(f"{name} = {module.__name__}", module.__name__)
         hints = get_type_hints(function)
-        hints.pop("return", None)
+        names = function.__code__.co_varnames[len(constants) : function.__code__.co_argcount]
+        kinds: list[Type] = [constant_type(value) for value in constants]
         try:
-            kinds = tuple(record(hint) for hint in hints.values())
+            kinds += [record(hints[name]) for name in names if name in hints]
         except TypeError as error:
             raise _refused(function, str(error)) from None
-        _Body(self, function, kinds, ENTRY)
+        _Body(self, function, tuple(kinds), ENTRY)
 
     def translated(self, function: FunctionType, kinds: tuple[Type, ...]) -> _Body:
         """The function for these types of arguments."""
         key = (function, *kinds)
         if key not in self._known:
-            self._check_home(function.__name__, function.__module__)
             self._known[key] = None
             name = f"{function.__name__}.{len(self._known)}"
             self._known[key] = _Body(self, function, kinds, name)
@@ -79,12 +68,6 @@ class Module:
         if known is None:
             raise KernelError(f"{function.__name__} calls itself")
         return known
-
-    def _check_home(self, name: str, module: str) -> None:
-        """Changes are noticed only in these packages, so that nothing may come from elsewhere."""
-        homes = (*self.packages, _MACHINE_CODE)
-        if self.packages and not any(f"{module}.".startswith(f"{home}.") for home in homes):
-            raise KernelError(f"{name} comes from {module}, not from {' or '.join(self.packages)}")
 
 
 def _refused(function: FunctionType, message: str) -> LocatedError:
@@ -127,7 +110,7 @@ class _Body(Expressions):
         nodes = list(ast.walk(tree))
         results = any(isinstance(n, ast.Return) and n.value for n in nodes)
         self.returns = results and name != ENTRY
-        given = [llvm_type(kind) for kind in kinds]
+        given = [llvm_type(kind) for kind in kinds if not isinstance(kind, Constant)]
         # A result goes where the first argument points, as its type is known last.
         if self.returns:
             given.insert(0, BYTE.as_pointer())
@@ -136,14 +119,14 @@ class _Body(Expressions):
         code.attributes.add("nounwind")
         if name != ENTRY:
             code.linkage = "internal"
-            if len(nodes) <= SMALL:
-                code.attributes.add("alwaysinline")
         super().__init__(module, function, code)
         self.result: Type = NONE
         # Where each loop goes on and where it ends; what has a value at each break of it.
         self.loops: list[tuple[Any, Any, list[set[str]]]] = []
         start = self.builder.block
-        for argument, parameter, kind in zip(code.args[self.returns :], names, kinds, strict=False):
+        arguments = iter(code.args[self.returns :])
+        for parameter, kind in zip(names, kinds, strict=True):
+            argument = None if isinstance(kind, Constant) else next(arguments)
             if isinstance(kind, Record):
                 argument.add_attribute("noalias")
                 argument.attributes.dereferenceable = 8 * len(kind.fields)
@@ -156,8 +139,12 @@ class _Body(Expressions):
                 raise self._fail(tree, f"{function.__name__} may end without a result")
             self.builder.ret_void()
         self.reserve.branch(start)
+        # Those of the functions that are put in have been added on the way.
+        self.size += len(nodes)
+        self.is_put_in = name != ENTRY and len(nodes) <= SMALL and self.size <= LARGE
 
     def _suite(self, statements: list[ast.stmt]) -> None:
+        """Translate statements, up to one after which nothing is left to do in this case."""
         for statement in statements:
             if self.builder.block.is_terminated:
                 raise self._fail(statement, "nothing leads here")
@@ -165,7 +152,8 @@ class _Body(Expressions):
             if method is None:
                 raise self._fail(statement, f"{type(statement).__name__} is not translated")
             try:
-                method(statement)
+                if method(statement):
+                    return
             except LocatedError:
                 raise
             except KernelError as error:
@@ -208,7 +196,12 @@ class _Body(Expressions):
             self.builder.store(value.code, self.builder.bitcast(self.function.args[0], pointer))
         self.builder.ret_void()
 
-    def _do_If(self, node: ast.If) -> None:
+    def _do_If(self, node: ast.If) -> bool:
+        """Whether it is known which way leads on, and that nothing follows there."""
+        known = self._fixed(node.test)
+        if known is not None:
+            self._suite(node.body if known else node.orelse)
+            return bool(self.builder.block.is_terminated)
         yes, no, after = (self.function.append_basic_block() for _ in range(3))
         self._branch(node.test, yes, no)
         before, ends = self.assigned, []
@@ -220,6 +213,7 @@ class _Body(Expressions):
                 self.builder.branch(after)
                 ends.append(self.assigned)
         self._go_on(after, ends)
+        return False
 
     def _go_on(self, block: Any, ends: list[set[str]]) -> None:
         """Go on where several ways end, if any; what has a value has one on each of them."""

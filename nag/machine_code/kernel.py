@@ -2,25 +2,31 @@
 
 The object code lies beside the sources, in ``__pycache__``, or, where that cannot be written, in
 the user's cache folder. It bears a digest of all that it was made from, and one of itself.
+
+What it was made from is told by Python's own code of the functions that it reaches, and the numbers
+that they name, as they are in this process: no file is read for it, and neither comments nor
+docstrings count. The compiler's own files are told by their bytes, as they need not be loaded.
 """
 
 from __future__ import annotations
 
 import contextlib
 import ctypes
+import opcode
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from functools import cache
 from hashlib import blake2b
 from pathlib import Path
 from threading import RLock
-from types import FunctionType, ModuleType
-from typing import Any
+from types import CodeType, FunctionType, ModuleType
+from typing import Any, get_type_hints
 
-from nag.machine_code.records import table
+from nag.machine_code.records import record, table
 
 DIGEST = 32
+_MACHINE_CODE = __name__.rpartition(".")[0]
 _lock = RLock()
 _listeners: list[Callable[[str], None]] = []
 
@@ -36,14 +42,73 @@ def compilations(listener: Callable[[str], None]) -> Iterator[None]:
 
 
 @cache
-def _sources(package: str) -> bytes:
-    """Digest of all that kernels of ``nag.<package>`` are made of."""
+def _compiler_files() -> bytes:
+    """Digest of this package."""
     digest = blake2b(digest_size=DIGEST)
-    here = Path(__file__).parent
-    for folder in (here, here.parent.joinpath(*package.split("."))):
-        for file in sorted(folder.rglob("*.py")):
-            digest.update(file.read_bytes())
+    for file in sorted(Path(__file__).parent.glob("*.py")):
+        digest.update(file.read_bytes())
     return digest.digest()
+
+
+def _instructions(code: CodeType) -> tuple[Any, ...]:
+    """What a function does, without its docstring and where it stands."""
+    operations, numbers = code.co_code[::2], bytearray(code.co_code[1::2])
+    used = []
+    for k, operation in enumerate(operations):
+        if operation in opcode.hasconst:
+            used.append(code.co_consts[numbers[k]])
+            numbers[k] = 0
+    named = code.co_names, code.co_varnames, code.co_argcount
+    return operations, bytes(numbers), repr(used), *named
+
+
+class _Origin:
+    """Digest of functions and constants that a kernel reaches; ``met`` are those that it has."""
+
+    def __init__(self) -> None:
+        self.digest = blake2b(digest_size=DIGEST)
+        self.met: dict[int, Any] = {}
+
+    def add(self, name: str, value: Any, names: tuple[str, ...] = ()) -> None:
+        """Add what a name stands for; of a module, what it has under some of ``names``."""
+        if isinstance(value, bool | int | float | complex):
+            self.digest.update(f"{name} = {value!r}".encode())
+            return
+        known = id(value) in self.met and not isinstance(value, ModuleType)
+        self.digest.update(f"{name}: {known}".encode())
+        if known:
+            return
+        self.met[id(value)] = value
+        if isinstance(value, ModuleType):
+            for attribute in names:
+                if attribute in vars(value):
+                    self.add(f"{name}.{attribute}", vars(value)[attribute], names)
+        elif isinstance(value, FunctionType) and not _is_told_otherwise(value.__module__):
+            self.digest.update(repr(_instructions(value.__code__)).encode())
+            for attribute in value.__code__.co_names:
+                if attribute in value.__globals__:
+                    found = value.__globals__[attribute]
+                    self.add(attribute, found, value.__code__.co_names)
+
+    def add_constant(self, value: Any) -> None:
+        """Add an object with all of its attributes, and the methods of its classes."""
+        self.add(str(value), value)
+        for owner in type(value).__mro__[:-1]:
+            for name, method in sorted(vars(owner).items()):
+                plain = method.__func__ if isinstance(method, staticmethod) else method
+                plain = plain.fget if isinstance(plain, property) else plain
+                if isinstance(plain, FunctionType) and not name.startswith("__"):
+                    self.add(name, plain)
+        for name, part in sorted(vars(value).items()):
+            if isinstance(part, bool | int | float | complex | str):
+                self.digest.update(f"{name} = {part!r}".encode())
+            else:
+                self.add_constant(part)
+
+
+def _is_told_otherwise(module: str) -> bool:
+    """Whether functions of a module are this package's, or a library's, and not looked into."""
+    return module.startswith(f"{_MACHINE_CODE}.") or module.partition(".")[0] in ("numpy", "math")
 
 
 def _folders(function: FunctionType) -> list[Path]:
@@ -67,25 +132,19 @@ class Kernel:
     """A function of records (see `nag.machine_code.records`), compiled when it is first needed.
 
     Args:
-        function: the Python function; its arguments are annotated with records.
-        package: the package below ``nag`` that all it is made of comes from, besides this one; the
-            object code is kept on disk until a file of either changes. None: it is not kept.
-        modules: what module is meant where the function, or one that it calls, refers to a module
-            by one of these names: so one source serves several arithmetics.
+        function: the Python function; arguments that are not constant are annotated with records.
+        constants: its first arguments in every call, objects whose attributes and methods do not
+            change, as an arithmetic is: the object code is for these.
+        keep: whether the object code is kept on disk, until anything that it is made of changes.
 
-    The function itself, called with the same records, does what the kernel does, slowly; for its
-    memory to be checked as well see `nag.machine_code.plain`.
+    The function itself, called with the constants and the same records, does what the kernel does,
+    slowly; for its memory to be checked as well see `nag.machine_code.plain`.
     """
 
-    def __init__(
-        self,
-        function: FunctionType,
-        package: str | None,
-        modules: Mapping[str, ModuleType] | None = None,
-    ) -> None:
+    def __init__(self, function: FunctionType, *constants: Any, keep: bool = True) -> None:
         self.function = function
-        self.package = package
-        self.modules = dict(modules or {})
+        self.constants = constants
+        self.keep = keep
         self._call: Any = None
         self._loaded: Any = None
 
@@ -99,7 +158,7 @@ class Kernel:
             TypeError: if an array has not the type that its field says, or their number is wrong.
             KernelError: if it is to be compiled and something in it is not translated.
             ZeroDivisionError: if a whole number was divided by zero; it says in which file and
-                line. What was written before stays.
+                function. What was written before stays.
         """
         if self._call is None:
             self.prepare()
@@ -115,12 +174,12 @@ class Kernel:
         """Load it from disk, or compile it."""
         with _lock:
             if self._call is None:
-                code = self._read() if self.package else None
+                code = self._read() if self.keep else None
                 if code is None:
                     for listener in _listeners:
                         listener(self.function.__name__)
                     code = self._compile()
-                    if self.package:
+                    if self.keep:
                         self._write(code)
                 self._load(code)
 
@@ -128,7 +187,7 @@ class Kernel:
         from nag.machine_code.processor import Loaded
 
         self._loaded = Loaded(code)
-        count = self.function.__code__.co_argcount
+        count = self.function.__code__.co_argcount - len(self.constants)
         kind = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * (count + 1))
         self._call = kind(self._loaded.address)
 
@@ -136,26 +195,43 @@ class Kernel:
         from nag.machine_code.functions import Module
         from nag.machine_code.processor import object_code
 
-        packages = (f"nag.{self.package}",) if self.package else ()
-        return object_code(str(Module(self.function, self.modules, packages).ir))
+        return object_code(str(Module(self.function, self.constants).ir))
+
+    @property
+    def name(self) -> str:
+        """The function's name, and what it is compiled for."""
+        return ".".join([self.function.__name__, *map(str, self.constants)])
 
     @property
     def _origin(self) -> bytes:
+        """Digest of all that the object code is made from."""
         from nag.machine_code.processor import compiler, processor
 
-        digest = blake2b(_sources(self.package), digest_size=DIGEST)
-        digest.update(repr((compiler(), processor(), sys.version)).encode())
-        return digest.digest()
+        origin = _Origin()
+        origin.add(self.name, self.function)
+        for value in self.constants:
+            origin.add_constant(value)
+        kinds = [record(kind) for kind in self._records]
+        made_by = compiler(), processor(), sys.version, _compiler_files()
+        origin.digest.update(repr((kinds, made_by)).encode())
+        return origin.digest.digest()
+
+    @property
+    def _records(self) -> list[type]:
+        """The classes of the records."""
+        hints, code = get_type_hints(self.function), self.function.__code__
+        names = code.co_varnames[len(self.constants) : code.co_argcount]
+        return [hints[name] for name in names]
 
     @property
     def _file(self) -> str:
         from nag.machine_code.processor import processor
 
         kind = blake2b(repr(processor()).encode(), digest_size=4).hexdigest()
-        name = ".".join([self.function.__name__, *(m.__name__ for m in self.modules.values())])
-        return f"{self.function.__module__}.{name}-{kind}.kernel"
+        return f"{self.function.__module__}.{self.name}-{kind}.kernel"
 
     def _read(self) -> bytes | None:
+        expected = self._origin
         for folder in _folders(self.function):
             try:
                 content = (folder / self._file).read_bytes()
@@ -163,7 +239,7 @@ class Kernel:
                 continue
             origin, digest = content[:DIGEST], content[DIGEST : 2 * DIGEST]
             code = content[2 * DIGEST :]
-            if origin == self._origin and digest == blake2b(code, digest_size=DIGEST).digest():
+            if origin == expected and digest == blake2b(code, digest_size=DIGEST).digest():
                 return code
         return None
 

@@ -7,13 +7,10 @@ standard library raise where they have no value.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from types import FunctionType, ModuleType
+from types import FunctionType
 from typing import Any
 
 import numpy as np
-
-from nag.machine_code import lanes
 
 
 class Memory:
@@ -61,62 +58,17 @@ def _checked(record: Any) -> Any:
     return record._replace(**fields)
 
 
-class _Bound:
-    """Copies of functions that mean other modules by some names."""
-
-    def __init__(self, modules: Mapping[str, ModuleType]) -> None:
-        self.modules = modules
-        self._functions: dict[FunctionType, FunctionType] = {}
-        self._modules: dict[ModuleType, ModuleType] = {}
-
-    def function(self, function: FunctionType) -> FunctionType:
-        if function not in self._functions:
-            names: dict[str, Any] = {"__builtins__": __builtins__}
-            copy = FunctionType(function.__code__, names, function.__name__)
-            self._functions[function] = copy
-            known = function.__globals__
-            for name in function.__code__.co_names:
-                if name in known:
-                    names[name] = self._value(name, known[name])
-        return self._functions[function]
-
-    def _value(self, name: str, value: Any) -> Any:
-        if isinstance(value, ModuleType):
-            return self._module(self.modules.get(name, value))
-        if isinstance(value, FunctionType) and _is_bound(value.__module__):
-            return self.function(value)
-        return value
-
-    def _module(self, module: ModuleType) -> ModuleType:
-        if not _is_bound(module.__name__):
-            return module
-        if module not in self._modules:
-            copy = self._modules[module] = ModuleType(module.__name__)
-            for name, value in vars(module).items():
-                if not name.startswith("__"):
-                    setattr(copy, name, self._value(name, value))
-        return self._modules[module]
-
-
-def _is_bound(module: str) -> bool:
-    """Whether functions of a module may refer to one that is exchanged: the libraries' do not."""
-    return module != lanes.__name__ and module.partition(".")[0] not in ("numpy", "math")
-
-
-def run(
-    function: FunctionType, *records: Any, modules: Mapping[str, ModuleType] | None = None
-) -> None:
-    """What ``Kernel(function, None, modules)`` does with these records, in plain Python.
+def run(function: FunctionType, *records: Any, constants: tuple[Any, ...] = ()) -> None:
+    """What ``Kernel(function, *constants)`` does with these records, in plain Python.
 
     Args:
         function: a function that can be compiled.
         records: NamedTuples; their arrays are written to.
-        modules: what module is meant by which name, see `nag.machine_code.kernel.Kernel`.
+        constants: its first arguments, see `nag.machine_code.kernel.Kernel`.
 
     Raises:
         IndexError: if it reads or writes outside an array, or lanes that are not aligned.
         ZeroDivisionError: if it divides a whole number by zero.
     """
-    bound = _Bound(modules or {}).function(function)
     with np.errstate(all="ignore"):
-        bound(*map(_checked, records))
+        function(*constants, *map(_checked, records))

@@ -54,10 +54,22 @@ class Tuple(Type):
 
 
 @dataclass(frozen=True)
+class Constant(Type):
+    """An object that is known when a kernel is compiled; functions are translated for each one."""
+
+    value: Any
+
+
+@dataclass(frozen=True)
 class Record(Type):
     """A table of words; ``fields`` are the types of what they stand for."""
 
     fields: tuple[tuple[str, Type], ...]
+
+
+def constant_type(value: Any) -> Constant:
+    """The type of an object that is known."""
+    return Constant(type(value).__name__, value)
 
 
 def pointer(element: Type) -> Pointer:

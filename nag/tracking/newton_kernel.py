@@ -16,7 +16,7 @@ from nag.tracking.ends.records import words
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.kernel_arrays import System, Work
 from nag.tracking.linear_algebra import factorize, substitute, substitute_adjoint
-from nag.tracking.numbers import complex_numbers as z
+from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
 from nag.tracking.taylor import factors_at, jacobian, normalize, products
 
 
@@ -81,7 +81,7 @@ def _low(number: Number | complex, rounded: complex, scale: float) -> Sequence[f
     return words(number, 2, 1 / Fraction(scale))[1::2]
 
 
-def _residual(s, w, low):
+def _residual(z, s, w, low):
     """Minus the values of polynomial and linear rows in double-double, rounded at the end."""
     zero = splat(0.0)
     slots = low.slots
@@ -171,11 +171,11 @@ def _put(s, w, batch, first):
     store(w.tr, 0, splat(0.0))
 
 
-def _newton(s, w, low):
+def _newton(z, s, w, low):
     """Newton's step at the lanes' points, whose matrix is factorised, into the right-hand side."""
     for j in range(s.N):
         z.write(low.slots, j, z.exact(load(w.vr, j), load(w.vi, j)))
-    _residual(s, w, low)
+    _residual(z, s, w, low)
     substitute(s.N, w.jr, w.ji, w.pivots, w.br, w.bi)
 
 
@@ -194,7 +194,7 @@ def _move(s, w):
         store(w.vi, j, load(w.vi, j) + load(w.bi, j))
 
 
-def newton_batch(s: System, w: Work, low: Low, batch: Refinement) -> None:
+def newton_batch(z: ComplexNumbers, s: System, w: Work, low: Low, batch: Refinement) -> None:
     """Refine all points of a batch in place."""
     n = s.N
     count = batch.count
@@ -213,7 +213,7 @@ def newton_batch(s: System, w: Work, low: Low, batch: Refinement) -> None:
             if step > 0:
                 normalize(s, w)
                 length = square_root(_matrix(s, w))
-            _newton(s, w, low)
+            _newton(z, s, w, low)
             _move(s, w)
             for lane in range(last):
                 batch.error[first + lane] = w.norms[lane]
@@ -223,7 +223,7 @@ def newton_batch(s: System, w: Work, low: Low, batch: Refinement) -> None:
             store(w.norms, 1, _smallest(s, w))
         store(w.norms, 0, length)
         if batch.twice != 0:
-            _newton(s, w, low)
+            _newton(z, s, w, low)
             for lane in range(last):
                 for j in range(n):
                     further = complex(w.br[8 * j + lane], w.bi[8 * j + lane])
@@ -236,4 +236,4 @@ def newton_batch(s: System, w: Work, low: Low, batch: Refinement) -> None:
                 batch.points[n * path + j] = complex(w.vr[8 * j + lane], w.vi[8 * j + lane])
 
 
-newton_lanes = Kernel(newton_batch, "tracking")
+newton_lanes = Kernel(newton_batch, ARITHMETICS[2])

@@ -417,4 +417,4 @@ def track_batch(s: System, w: Work, b: Batch) -> None:
                 busy += 1
 
 
-track_lanes = Kernel(track_batch, "tracking")
+track_lanes = Kernel(track_batch)

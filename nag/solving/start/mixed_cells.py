@@ -293,7 +293,7 @@ def follow_cells(s: Lifted, w: Followed) -> None:
                     cell[2 * which + 1] = enters
 
 
-_kernel = Kernel(follow_cells, "solving")
+_kernel = Kernel(follow_cells)
 
 
 def _scratch(n: int, points: int) -> Followed:

@@ -11,8 +11,7 @@ from __future__ import annotations
 import math
 
 from nag.machine_code.lanes import any_less, fma, load, select_less, splat, square_root, store
-from nag.tracking.numbers import complex_numbers as z
-from nag.tracking.numbers import double_double as number
+from nag.tracking.numbers.complex_numbers import SMALL_SQUARE, largest, length
 
 # Longest step, in log t.
 LONGEST = 40.0
@@ -20,11 +19,11 @@ LONGEST = 40.0
 TINY = 1e-290
 
 
-def _keep(data, k, accepted, value):
+def _keep(z, data, k, accepted, value):
     z.write(data, k, z.choose(splat(0.5), accepted, value, z.read(data, k)))
 
 
-def expand_logarithms(s, r, order):
+def expand_logarithms(z, s, r, order):
     """Taylor coefficients of the logarithms of the coordinates at the point."""
     nothing = z.exact(splat(0.0), splat(0.0))
     n = s.N
@@ -35,16 +34,16 @@ def expand_logarithms(s, r, order):
         # m x_m = sum of i l_i x_(m-i) for l = log x; the sums take the place of l for now.
         for m in range(1, order + 1):
             own = z.read(r.series, (m - 1) * size + j)
-            total = z.gather_real(nothing, z.negative(own), number.exact(splat(float(m))))
+            total = z.gather_real(nothing, z.negative(own), z.number.exact(splat(float(m))))
             for i in range(1, m):
                 left = z.read(r.change, i)
                 total = z.gather(total, left, z.read(r.series, (m - i - 1) * size + j))
             total = z.multiply(z.gathered(total), z.negative(inverse))
             z.write(r.change, m, total)
-            z.write(r.fresh, (m - 1) * n + j, z.stretch(total, number.same(s.inverses, m)))
+            z.write(r.fresh, (m - 1) * n + j, z.stretch(total, z.number.same(s.inverses, m)))
 
 
-def estimate_radius(s, r, order):
+def estimate_radius(z, s, r, order):
     """Radius of convergence at the point, and the last term, into the first two measures.
 
     Of each coordinate that series counts, its own or its logarithm's, whose last term is smaller.
@@ -55,26 +54,26 @@ def estimate_radius(s, r, order):
     second = zero
     third = zero
     for j in range(s.N):
-        weight = z.largest(load(r.weights, j), z.magnitude(z.read(r.slots, j)))
+        weight = largest(load(r.weights, j), z.magnitude(z.read(r.slots, j)))
         share = z.magnitude(z.read(r.slots, j)) / weight
         weight = splat(1.0) / weight
         plain = z.magnitude(z.read(r.series, (order - 1) * size + j)) * weight
         log = z.magnitude(z.read(r.fresh, (order - 1) * s.N + j)) * share
-        last = z.largest(last, select_less(log, plain, log, plain))
+        last = largest(last, select_less(log, plain, log, plain))
         own = z.magnitude(z.read(r.series, (order - 2) * size + j)) * weight
         other = z.magnitude(z.read(r.fresh, (order - 2) * s.N + j)) * share
-        second = z.largest(second, select_less(log, plain, other, own))
+        second = largest(second, select_less(log, plain, other, own))
         own = z.magnitude(z.read(r.series, (order - 3) * size + j)) * weight
         other = z.magnitude(z.read(r.fresh, (order - 3) * s.N + j)) * share
-        third = z.largest(third, select_less(log, plain, other, own))
+        third = largest(third, select_less(log, plain, other, own))
     least = splat(TINY)
-    inverse = splat(1.0) / z.largest(last, least)
-    radius = z.largest(second * inverse, square_root(third * inverse))
+    inverse = splat(1.0) / largest(last, least)
+    radius = largest(second * inverse, square_root(third * inverse))
     store(r.measures, 0, select_less(least, last, radius, splat(LONGEST)))
     store(r.measures, 1, last)
 
 
-def keep_series(s, r, order):
+def keep_series(z, s, r, order):
     """Taylor coefficients of coordinates and logarithms into the base, in the accepted lanes."""
     accepted = load(r.accepted, 0)
     n = s.N
@@ -82,12 +81,12 @@ def keep_series(s, r, order):
     for j in range(n):
         for m in range(1, order + 1):
             k = (m - 1) * n + j
-            _keep(r.coordinates, k, accepted, z.read(r.series, (m - 1) * size + j))
-            _keep(r.logarithms, k, accepted, z.read(r.fresh, k))
-        _round(s, r, order, j)
+            _keep(z, r.coordinates, k, accepted, z.read(r.series, (m - 1) * size + j))
+            _keep(z, r.logarithms, k, accepted, z.read(r.fresh, k))
+        _round(z, s, r, order, j)
 
 
-def _round(s, r, order, j):
+def _round(z, s, r, order, j):
     """Taylor coefficients of a coordinate and its logarithm as doubles."""
     q = 2 * j * (order + 1)
     re, im = z.rounded(z.read(r.base, j))
@@ -102,22 +101,22 @@ def _round(s, r, order, j):
         store(r.logs, q + 2 * m + 1, im)
 
 
-def _last_terms(s, r, order, j):
+def _last_terms(z, s, r, order, j):
     """Sizes of the last coefficients of a coordinate's logarithm, times it, and of itself."""
     q = 2 * (j * (order + 1) + order)
-    plain = z.length(load(r.plain, q), load(r.plain, q + 1))
-    log = z.length(load(r.logs, q), load(r.logs, q + 1))
+    plain = length(load(r.plain, q), load(r.plain, q + 1))
+    log = length(load(r.logs, q), load(r.logs, q + 1))
     return log * z.magnitude(z.read(r.base, j)), plain
 
 
-def predict(s, r, order, wanted, finishing, h):
+def predict(z, s, r, order, wanted, finishing, h):
     """Points a step ``-h`` in log t on, or at t = 0 where finishing, in the lanes wanted.
 
     A coordinate is predicted by the series, its own or its logarithm's, whose last term is smaller.
     """
     n = s.N
     half = splat(0.5)
-    step = number.exact(splat(0.0) - h)
+    step = z.number.exact(splat(0.0) - h)
     for j in range(n):
         base = z.read(r.base, j)
         log = z.exact(splat(0.0), splat(0.0))
@@ -128,24 +127,24 @@ def predict(s, r, order, wanted, finishing, h):
             own = z.read(r.coordinates, k)
             log = z.stretch(z.add(log, z.read(r.logarithms, k)), step)
             plain = z.stretch(z.add(plain, own), step)
-            end = z.add(end, z.stretch(own, number.same(s.at_end, m)))
-        last, other = _last_terms(s, r, order, j)
+            end = z.add(end, z.stretch(own, z.number.same(s.at_end, m)))
+        last, other = _last_terms(z, s, r, order, j)
         value = z.add(base, plain)
         if any_less(last, other):
             by_log = z.multiply(base, z.exponential(log, s.inverses))
             value = z.choose(last, other, by_log, value)
         value = z.choose(half, finishing, z.add(base, end), value)
         z.write(r.slots, j, z.choose(half, wanted, value, z.read(r.slots, j)))
-    zero = number.exact(splat(0.0))
+    zero = z.number.exact(splat(0.0))
     shrunk, _ = z.exponential((step, zero), s.inverses)
-    t = number.multiply(number.read(r.time, 0), shrunk)
-    t = number.choose(half, finishing, zero, t)
-    number.write(r.t, 0, number.choose(half, wanted, t, number.read(r.t, 0)))
+    t = z.number.multiply(z.number.read(r.time, 0), shrunk)
+    t = z.number.choose(half, finishing, zero, t)
+    z.number.write(r.t, 0, z.number.choose(half, wanted, t, z.number.read(r.t, 0)))
 
 
 def _size(data, q, lane):
     square = data[8 * q + lane] ** 2 + data[8 * (q + 1) + lane] ** 2
-    if square < z.SMALL_SQUARE:
+    if square < SMALL_SQUARE:
         return abs(complex(data[8 * q + lane], data[8 * (q + 1) + lane]))
     return math.sqrt(square)
 
@@ -223,28 +222,28 @@ def tails(s, r, order, w):
     return most
 
 
-def extrapolate(s, r, order, winding):
+def extrapolate(z, s, r, order, winding):
     """What each coordinate's logarithm is at r = 0: four complex numbers for each.
 
     The derivative there, which is the order v, and the last term of its series; the change of the
     logarithm from here and its derivative with respect to r over r here, both but for ``w v`` times
     their first weight, as ``v h`` does not end.
     """
-    w = number.exact(winding)
+    w = z.number.exact(winding)
     for j in range(s.N):
         slope = z.exact(splat(0.0), splat(0.0))
         last = slope
         change = slope
         bend = slope
-        power = number.exact(splat(1.0))
+        power = z.number.exact(splat(1.0))
         for k in range(order):
             log = z.stretch(z.read(r.logarithms, k * s.N + j), power)
-            slope = z.add(slope, z.stretch(log, number.same(s.slope_at_end, k)))
-            last = z.add(last, z.stretch(log, number.same(s.last_of_slope, k)))
-            power = number.multiply(power, w)
+            slope = z.add(slope, z.stretch(log, z.number.same(s.slope_at_end, k)))
+            last = z.add(last, z.stretch(log, z.number.same(s.last_of_slope, k)))
+            power = z.number.multiply(power, w)
             log = z.stretch(log, w)
-            change = z.add(change, z.stretch(log, number.same(s.at_end, k + 1)))
-            bend = z.add(bend, z.stretch(log, number.same(s.bend_at_end, k + 1)))
+            change = z.add(change, z.stretch(log, z.number.same(s.at_end, k + 1)))
+            bend = z.add(bend, z.stretch(log, z.number.same(s.bend_at_end, k + 1)))
         z.write(r.limits, 4 * j, slope)
         z.write(r.limits, 4 * j + 1, last)
         z.write(r.limits, 4 * j + 2, change)

@@ -19,8 +19,7 @@ from nag.tracking.ends.lane_scalars import (
     SETTLED,
 )
 from nag.tracking.ends.linear_algebra import equilibrate, factorize, newton_correction, vanishing
-from nag.tracking.numbers import complex_numbers as z
-from nag.tracking.numbers import double_double as number
+from nag.tracking.numbers.complex_numbers import largest
 
 # Relative size of coordinates that doubles do not know, and the rounding errors that they make of
 # a point, both with room to spare.
@@ -32,7 +31,7 @@ STAGNANT = 1e2
 NOISY = 1e2
 
 
-def lay_floors(s, r, f):
+def lay_floors(z, s, r, f):
     """The least sizes by which columns are scaled, and in which corrections count.
 
     Small coordinates are not known at points that come from doubles; nor are those that have never
@@ -56,27 +55,27 @@ def lay_floors(s, r, f):
         store(r.floors, j, select_less(half, based, zero, begun))
 
 
-def weigh(s, r):
+def weigh(z, s, r):
     """Sizes of the coordinates by which columns are scaled."""
     for j in range(s.N):
-        size = z.largest(z.magnitude(z.read(r.slots, j)), load(r.least, j))
+        size = largest(z.magnitude(z.read(r.slots, j)), load(r.least, j))
         store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
 
 
-def linearize(s, r, rough, close):
+def linearize(z, s, r, rough, close):
     """The factorised Jacobian at the points, Newton's correction and its measures.
 
     ``rough, close``: see `newton_correction`.
     """
-    products(s, r, s.products)
-    values(s, r)
-    jacobian(s, r)
-    equilibrate(s, r)
-    factorize(s, r)
-    newton_correction(s, r, rough, close)
+    products(z, s, r, s.products)
+    values(z, s, r)
+    jacobian(z, s, r)
+    equilibrate(z, s, r)
+    factorize(z, s, r)
+    newton_correction(z, s, r, rough, close)
 
 
-def correct(s, r, f, b):
+def correct(z, s, r, f, b):
     """Newton's method in all lanes, until each has settled or failed.
 
     At last everything is evaluated once more at the corrected points, whatever number of
@@ -84,18 +83,18 @@ def correct(s, r, f, b):
     """
     for lane in range(8):
         f[8 * SETTLED + lane] = 0.0 if f[8 * MODE + lane] > IDLE else 2.0
-    lay_patches(s, r)
-    factors_at(s, r)
+    lay_patches(z, s, r)
+    factors_at(z, s, r)
     half = splat(0.5)
     nothing = z.exact(splat(0.0), splat(0.0))
     # What vanishes along a path is as large, at points from doubles, as their rounding errors are.
     from_doubles = load(f, ROUGH) - load(f, BASE)
-    rough = select_less(half, from_doubles, splat(DOUBLES / number.EPSILON), splat(0.0))
+    rough = select_less(half, from_doubles, splat(DOUBLES / z.number.epsilon), splat(0.0))
     close = splat(1.0) if b.close > 0 else splat(0.0)
-    lay_floors(s, r, f)
-    weigh(s, r)
+    lay_floors(z, s, r, f)
+    weigh(z, s, r)
     for k in range(MOST_CORRECTIONS):
-        linearize(s, r, rough, close)
+        linearize(z, s, r, rough, close)
         for lane in range(8):
             if f[8 * SETTLED + lane] < 0.5:
                 f[8 * EVALUATED + lane] += 1.0
@@ -103,18 +102,18 @@ def correct(s, r, f, b):
         for j in range(s.N):
             x = z.read(r.slots, j)
             correction = z.read(r.right, j)
-            moved = z.choose(half, vanishing(x, correction), nothing, z.add(x, correction))
+            moved = z.choose(half, vanishing(z, x, correction), nothing, z.add(x, correction))
             z.write(r.slots, j, z.choose(settled, half, moved, x))
         busy = 0
         for lane in range(8):
             if f[8 * SETTLED + lane] < 0.5:
-                f[8 * SETTLED + lane] = _judged(r, f, lane, k)
+                f[8 * SETTLED + lane] = _judged(z, r, f, lane, k)
                 if f[8 * SETTLED + lane] < 0.5:
                     busy += 1
         if busy == 0:
             break
-    weigh(s, r)
-    linearize(s, r, rough, close)
+    weigh(z, s, r)
+    linearize(z, s, r, rough, close)
     for lane in range(8):
         excess = r.measures[8 + lane]
         f[8 * EVALUATED + lane] += 1.0
@@ -124,7 +123,7 @@ def correct(s, r, f, b):
             f[8 * SETTLED + lane] = 2.0
 
 
-def _judged(r, f, lane, k):
+def _judged(z, r, f, lane, k):
     """0 if a lane needs another correction, 1 if it has settled, 2 if it failed."""
     eta = r.measures[lane]
     excess = r.measures[8 + lane]
@@ -153,6 +152,6 @@ def _judged(r, f, lane, k):
         # Corrections that do not contract any more may be a few rounding errors.
         return 1.0 if excess <= STAGNANT else 2.0
     # The next correction is about theta^2 times this one.
-    if eta * theta * theta <= number.EPSILON:
+    if eta * theta * theta <= z.number.epsilon:
         return 1.0
     return 2.0 if k == MOST_CORRECTIONS - 1 else 0.0

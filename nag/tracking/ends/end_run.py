@@ -61,8 +61,7 @@ from nag.tracking.ends.linear_algebra import (
     substitute,
 )
 from nag.tracking.ends.records import Equations, Room
-from nag.tracking.numbers import double_double, octuple_double, quad_double
-from nag.tracking.numbers import double_double as number
+from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
 from nag.tracking.predictor import OVERLONG
 
 # How a path ended: it is lost where its rounding errors, or its steps, leave it nothing to go on.
@@ -127,18 +126,18 @@ class Batch(NamedTuple):
     radius_factor: float
 
 
-def _put(s, r, lane, data, path):
+def _put(z, s, r, lane, data, path):
     """Coordinates of a lane from an array of numbers."""
-    for k in range(2 * number.WORDS * s.N):
-        r.slots[8 * k + lane] = data[2 * number.WORDS * s.N * path + k]
+    for k in range(2 * z.number.words * s.N):
+        r.slots[8 * k + lane] = data[2 * z.number.words * s.N * path + k]
 
 
-def _set_time(r, lane, t, path, zero):
-    for k in range(number.WORDS):
-        r.t[8 * k + lane] = 0.0 if zero else t[number.WORDS * path + k]
+def _set_time(z, r, lane, t, path, zero):
+    for k in range(z.number.words):
+        r.t[8 * k + lane] = 0.0 if zero else t[z.number.words * path + k]
 
 
-def _fill(s, r, f, lane, path, b):
+def _fill(z, s, r, f, lane, path, b):
     """Put a path into a lane."""
     for k in range(SCALARS):
         f[8 * k + lane] = 0.0
@@ -150,33 +149,33 @@ def _fill(s, r, f, lane, path, b):
     if b.tried[path] == 0:
         f[8 * MODE + lane] = FINISH
         f[8 * ROUGH + lane] = b.rough_ends[path]
-        _set_time(r, lane, b.t, path, True)
-        _put(s, r, lane, b.ends, path)
+        _set_time(z, r, lane, b.t, path, True)
+        _put(z, s, r, lane, b.ends, path)
     else:
-        _begin(s, r, f, lane, b)
+        _begin(z, s, r, f, lane, b)
 
 
-def _begin(s, r, f, lane, b):
+def _begin(z, s, r, f, lane, b):
     """Go to the path's own point."""
     path = int(f[8 * PATH + lane])
     f[8 * MODE + lane] = STEP
     f[8 * ROUGH + lane] = b.rough[path]
-    _set_time(r, lane, b.t, path, False)
-    _put(s, r, lane, b.starts, path)
+    _set_time(z, r, lane, b.t, path, False)
+    _put(z, s, r, lane, b.starts, path)
 
 
-def _expand(s, r, order):
+def _expand(z, s, r, order):
     """Taylor coefficients of the path."""
     for m in range(1, order + 1):
-        incomplete_slots(s, r, m)
-        block_sums(s, r, m)
-        right_side(s, r, m)
-        substitute(s, r, r.right)
-        complete_slots(s, r, m)
-        block_sums(s, r, m)
+        incomplete_slots(z, s, r, m)
+        block_sums(z, s, r, m)
+        right_side(z, s, r, m)
+        substitute(z, s, r, r.right)
+        complete_slots(z, s, r, m)
+        block_sums(z, s, r, m)
 
 
-def _close(s, r, f, lane, b, outcome, data):
+def _close(z, s, r, f, lane, b, outcome, data):
     """Results of a path, its point from ``data``; the lane becomes free."""
     path = int(f[8 * PATH + lane])
     b.outcome[path] = outcome
@@ -184,19 +183,19 @@ def _close(s, r, f, lane, b, outcome, data):
     b.steps[path] += int(f[8 * TAKEN + lane])
     b.evaluations[path] += int(f[8 * EVALUATED + lane])
     b.curvature[path] = f[8 * CURVATURE + lane]
-    numbers = 2 * number.WORDS * s.N
+    numbers = 2 * z.number.words * s.N
     if outcome == REGULAR or f[8 * BASE + lane] > 0.5:
         for k in range(numbers):
             b.points[numbers * path + k] = data[8 * k + lane]
         if outcome != REGULAR:
-            for k in range(number.WORDS):
-                b.t[number.WORDS * path + k] = r.time[8 * k + lane]
+            for k in range(z.number.words):
+                b.t[z.number.words * path + k] = r.time[8 * k + lane]
     if f[8 * SAVED + lane] > 0.5:
         b.rough[path] = 0
         for k in range(numbers):
             b.safe[numbers * path + k] = r.safe[8 * k + lane]
-        for k in range(number.WORDS):
-            b.safe_t[number.WORDS * path + k] = r.safe_time[8 * k + lane]
+        for k in range(z.number.words):
+            b.safe_t[z.number.words * path + k] = r.safe_time[8 * k + lane]
     for j in range(s.N):
         error = r.base_errors[8 * j + lane]
         if outcome == REGULAR:
@@ -209,24 +208,24 @@ def _close(s, r, f, lane, b, outcome, data):
     f[8 * MODE + lane] = IDLE
 
 
-def _rejected(s, r, f, lane, b):
+def _rejected(z, s, r, f, lane, b):
     """A step or a finish that failed: a shorter step, or none if there is none."""
     if f[8 * MODE + lane] == FINISH:
         if f[8 * BASE + lane] < 0.5:
             if b.max_steps[int(f[8 * PATH + lane])] == 0:
-                _close(s, r, f, lane, b, LOST, r.base)
+                _close(z, s, r, f, lane, b, LOST, r.base)
             else:
-                _begin(s, r, f, lane, b)
+                _begin(z, s, r, f, lane, b)
             return
         f[8 * MODE + lane] = STEP
     elif f[8 * BASE + lane] < 0.5:
-        _close(s, r, f, lane, b, LOST, r.base)
+        _close(z, s, r, f, lane, b, LOST, r.base)
         return
     else:
         f[8 * H + lane] *= 0.4
         f[8 * REJECTED + lane] += 1.0
         if f[8 * H + lane] < SHORTEST or f[8 * REJECTED + lane] > MOST_REJECTED:
-            _close(s, r, f, lane, b, LOST, r.base)
+            _close(z, s, r, f, lane, b, LOST, r.base)
             return
     f[8 * WANTED + lane] = 1.0
 
@@ -256,24 +255,24 @@ def _nearest(f, lane):
     return math.log(f[8 * T + lane] / seen) + f[8 * SEEN_RADIUS + lane]
 
 
-def _shorten(s, r, f, lane, b):
+def _shorten(z, s, r, f, lane, b):
     """Another step from the base of one that was too long, by what that one saw."""
     f[8 * H + lane] = b.radius_factor * _nearest(f, lane)
     f[8 * REJECTED + lane] += 1.0
     f[8 * WANTED + lane] = 1.0
     if f[8 * REJECTED + lane] > MOST_REJECTED:
-        _close(s, r, f, lane, b, LOST, r.base)
+        _close(z, s, r, f, lane, b, LOST, r.base)
 
 
-def _predict(s, r, f, order):
+def _predict(z, s, r, f, order):
     """Where the lanes that want it are to be corrected next."""
     one = splat(1.0)
     finishing = load(f, MODE) - one
-    predict(s, r, order, load(f, WANTED), finishing, load(f, H))
+    predict(z, s, r, order, load(f, WANTED), finishing, load(f, H))
     store(f, WANTED, splat(0.0))
 
 
-def _advance(s, r, f, lane, b, best, winding):
+def _advance(z, s, r, f, lane, b, best, winding):
     """What follows an accepted step: a limit, a trial at t = 0, or another step."""
     path = int(f[8 * PATH + lane])
     rejected = f[8 * REJECTED + lane]
@@ -282,7 +281,7 @@ def _advance(s, r, f, lane, b, best, winding):
     f[8 * REJECTED + lane] = 0.0
     curvature = max(f[8 * CURVATURE + lane], 1.0)
     if f[8 * KNOWN + lane] * curvature > LOSING:
-        _close(s, r, f, lane, b, LOST, r.base)
+        _close(z, s, r, f, lane, b, LOST, r.base)
         return
     converged_here = best <= b.tail
     converged = converged_here and r.t[lane] <= b.latest[path]
@@ -291,9 +290,9 @@ def _advance(s, r, f, lane, b, best, winding):
         f[8 * WAITED + lane] = min(f[8 * WAITED + lane], 1.0)
     f[8 * WINDING + lane] = winding
     if f[8 * TAKEN + lane] >= b.max_steps[path] or f[8 * T + lane] < LAST_T:
-        _close(s, r, f, lane, b, TOO_LONG, r.base)
+        _close(z, s, r, f, lane, b, TOO_LONG, r.base)
         return
-    steep = max(curvature, steepest(f, lane)) if b.close > 0 else curvature
+    steep = max(curvature, steepest(z, f, lane)) if b.close > 0 else curvature
     goal = min(b.accuracy, b.contraction / steep)
     h = min(reach(s, r, b.order, lane, goal), b.radius_factor * _nearest(f, lane))
     if converged_here:
@@ -301,7 +300,7 @@ def _advance(s, r, f, lane, b, best, winding):
         h = min(h, max(2.0, math.log(f[8 * T + lane] / b.latest[path])))
     f[8 * H + lane] = min(h, f[8 * H + lane]) if rejected > 0.5 else h
     # Tails that are rounding errors, as of paths that stay where they are, say nothing new.
-    end = max(tail_at_end(s, r, b.order, lane), number.EPSILON)
+    end = max(tail_at_end(s, r, b.order, lane), z.number.epsilon)
     near = SMALLER * f[8 * TRIED + lane]
     if b.close > 0:
         near = min(near, b.contraction / steep)
@@ -310,7 +309,7 @@ def _advance(s, r, f, lane, b, best, winding):
         f[8 * MODE + lane] = FINISH
         f[8 * WANTED + lane] = 1.0
     elif f[8 * WAITED + lane] >= 2.0:
-        _close(s, r, f, lane, b, LIMIT, r.base)
+        _close(z, s, r, f, lane, b, LIMIT, r.base)
     else:
         f[8 * WANTED + lane] = 1.0
 
@@ -332,7 +331,7 @@ def _best_winding(s, r, b):
     store(r.measures, 1, chosen)
 
 
-def follow_batch(s: Equations, r: Room, b: Batch) -> None:
+def follow_batch(z: ComplexNumbers, s: Equations, r: Room, b: Batch) -> None:
     """Follow all paths of a batch."""
     f = r.scalars
     following = 0
@@ -340,14 +339,14 @@ def follow_batch(s: Equations, r: Room, b: Batch) -> None:
     for lane in range(8):
         f[8 * MODE + lane] = IDLE
         path = min(lane, b.count - 1)
-        _fill(s, r, f, lane, path, b)
+        _fill(z, s, r, f, lane, path, b)
         if lane < b.count:
             busy += 1
             following += 1
         else:
             f[8 * MODE + lane] = IDLE
     while busy > 0:
-        correct(s, r, f, b)
+        correct(z, s, r, f, b)
         stepping = 0
         for lane in range(8):
             r.accepted[lane] = 0.0
@@ -357,37 +356,37 @@ def follow_batch(s: Equations, r: Room, b: Batch) -> None:
             f[8 * TAKEN + lane] += 1.0
             contracted = f[8 * CONTRACTION + lane] <= b.contraction
             if f[8 * SETTLED + lane] > 1.5 or not contracted:
-                _rejected(s, r, f, lane, b)
+                _rejected(z, s, r, f, lane, b)
             elif mode == FINISH:
                 curvature = max(f[8 * CURVATURE + lane], 1.0)
                 if f[8 * KNOWN + lane] * curvature <= LOSING:
-                    _close(s, r, f, lane, b, REGULAR, r.slots)
+                    _close(z, s, r, f, lane, b, REGULAR, r.slots)
                 else:
-                    _rejected(s, r, f, lane, b)
+                    _rejected(z, s, r, f, lane, b)
             else:
                 r.accepted[lane] = 1.0
                 stepping += 1
         if stepping > 0:
-            _expand(s, r, b.order)
-            expand_logarithms(s, r, b.order)
-            estimate_radius(s, r, b.order)
+            _expand(z, s, r, b.order)
+            expand_logarithms(z, s, r, b.order)
+            estimate_radius(z, s, r, b.order)
             for lane in range(8):
                 f[8 * EVALUATED + lane] += r.accepted[lane] * b.order
                 if r.accepted[lane] > 0.5 and _too_long(r, f, lane, b):
                     r.accepted[lane] = 0.0
-                    _shorten(s, r, f, lane, b)
-            keep(s, r, f, b.order)
+                    _shorten(z, s, r, f, lane, b)
+            keep(z, s, r, f, b.order)
             _best_winding(s, r, b)
             if any_less(load(r.measures, 0), splat(2.0 * b.tail)):
-                extrapolate(s, r, b.order, load(r.measures, 1))
+                extrapolate(z, s, r, b.order, load(r.measures, 1))
             for lane in range(8):
                 if r.accepted[lane] > 0.5:
                     best, winding = r.measures[lane], r.measures[8 + lane]
-                    _advance(s, r, f, lane, b, best, winding)
-        _predict(s, r, f, b.order)
+                    _advance(z, s, r, f, lane, b, best, winding)
+        _predict(z, s, r, f, b.order)
         for lane in range(8):
             if f[8 * MODE + lane] == IDLE and following < b.count:
-                _fill(s, r, f, lane, following, b)
+                _fill(z, s, r, f, lane, following, b)
                 following += 1
         busy = 0
         for lane in range(8):
@@ -395,7 +394,4 @@ def follow_batch(s: Equations, r: Room, b: Batch) -> None:
                 busy += 1
 
 
-KERNELS = {
-    arithmetic.WORDS: Kernel(follow_batch, "tracking", {"number": arithmetic})
-    for arithmetic in (double_double, quad_double, octuple_double)
-}
+KERNELS = {words: Kernel(follow_batch, z) for words, z in ARITHMETICS.items()}

@@ -9,12 +9,10 @@ from __future__ import annotations
 import math
 
 from nag.machine_code.lanes import fma, load, splat, store
-from nag.tracking.numbers import complex_numbers as z
-from nag.tracking.numbers import double_double as number
 from nag.tracking.numbers.error_free import power_near_inverse_root
 
 
-def products(s, r, last):
+def products(z, s, r, last):
     """Products ``0 .. last - 1`` of the slots."""
     for k in range(last):
         a = z.read(r.slots, s.first[k])
@@ -22,9 +20,9 @@ def products(s, r, last):
         z.write(r.slots, s.N + 1 + k, z.multiply(a, b))
 
 
-def factors_at(s, r):
+def factors_at(z, s, r):
     """Factors of all parts at the lanes' t, and the slot that is 1."""
-    t = number.read(r.t, 0)
+    t = z.number.read(r.t, 0)
     z.write(r.slots, s.N, z.exact(splat(1.0), splat(0.0)))
     for p in range(s.parts):
         a = z.exact(splat(s.factors[4 * p]), splat(s.factors[4 * p + 1]))
@@ -32,7 +30,7 @@ def factors_at(s, r):
         z.write(r.factor, p, z.add(a, z.stretch(slope, t)))
 
 
-def _line(s, r, data, k, slots, first):
+def _line(z, s, r, data, k, slots, first):
     """Sum of a linear row's coefficients times coordinates, which start at ``first``."""
     total = z.exact(splat(0.0), splat(0.0))
     for j in range(s.N):
@@ -42,21 +40,21 @@ def _line(s, r, data, k, slots, first):
     return total
 
 
-def _is_real(data, k):
+def _is_real(z, data, k):
     """Whether complex number ``k`` of an array that is the same in all lanes is real."""
-    return data[number.WORDS * (2 * k + 1)] == 0.0
+    return data[z.number.words * (2 * k + 1)] == 0.0
 
 
-def _term(data, k, slot):
+def _term(z, data, k, slot):
     """A coefficient times a slot."""
-    if _is_real(data, k):
-        term = z.stretch(slot, number.same(data, 2 * k))
+    if _is_real(z, data, k):
+        term = z.stretch(slot, z.number.same(data, 2 * k))
     else:
         term = z.multiply(z.same(data, k), slot)
     return term
 
 
-def values(s, r):
+def values(z, s, r):
     """Minus the values of all rows into the right-hand side, and the sizes of their terms."""
     zero = splat(0.0)
     nothing = z.exact(zero, zero)
@@ -67,7 +65,7 @@ def values(s, r):
         total = nothing
         size = zero
         for q in range(s.value_start[b], s.value_start[b + 1]):
-            term = _term(s.value, q, z.read(r.slots, s.value_slot[q]))
+            term = _term(z, s.value, q, z.read(r.slots, s.value_slot[q]))
             total = z.add(total, term)
             size = size + z.magnitude(term)
         z.write(r.sums, b, total)
@@ -79,11 +77,11 @@ def values(s, r):
         k = s.value_place[b]
         z.write(r.right, k, z.add(z.read(r.right, k), z.negative(total)))
         store(r.sizes, k, load(r.sizes, k) + size)
-    t = number.read(r.t, 0)
+    t = z.number.read(r.t, 0)
     for k in range(s.linear):
-        moving = _line(s, r, s.A1, k, r.slots, 0)
+        moving = _line(z, s, r, s.A1, k, r.slots, 0)
         z.write(r.lines, k, moving)
-        total = z.add(_line(s, r, s.A0, k, r.slots, 0), z.stretch(moving, t))
+        total = z.add(_line(z, s, r, s.A0, k, r.slots, 0), z.stretch(moving, t))
         z.write(r.right, s.rows + k, z.negative(total))
         size = zero
         for j in range(s.N):
@@ -92,10 +90,10 @@ def values(s, r):
             slope = splat(math.sqrt(s.A1[q] ** 2 + s.A1[q + 1] ** 2))
             size = fma(fma(load(r.t, 0), slope, still), z.magnitude(z.read(r.slots, j)), size)
         store(r.sizes, s.rows + k, size)
-    _patches(s, r)
+    _patches(z, s, r)
 
 
-def _patches(s, r):
+def _patches(z, s, r):
     """Minus the values of the patches, each 0 at the point that it was laid at."""
     first = s.rows + s.linear
     for g in range(s.groups):
@@ -108,7 +106,7 @@ def _patches(s, r):
         z.write(r.right, k, z.add(z.read(r.right, k), z.negative(term)))
 
 
-def lay_patches(s, r):
+def lay_patches(z, s, r):
     """Scale each group by a power of two to about unit norm, and lay its patch through it."""
     for g in range(s.groups):
         total = splat(0.0)
@@ -136,7 +134,7 @@ def lay_patches(s, r):
         z.write(r.levels, g, level)
 
 
-def jacobian(s, r):
+def jacobian(z, s, r):
     """The Jacobian of all rows at the lanes' points and t."""
     n = s.N
     zero = splat(0.0)
@@ -147,13 +145,13 @@ def jacobian(s, r):
         total = nothing
         for q in range(s.jacobian_start[b], s.jacobian_start[b + 1]):
             slot = z.read(r.slots, s.jacobian_slot[q])
-            total = z.add(total, _term(s.jacobian, q, slot))
+            total = z.add(total, _term(z, s.jacobian, q, slot))
         part = s.jacobian_part[b]
         if s.moving[part] != 0:
             total = z.multiply(z.read(r.factor, part), total)
         k = s.jacobian_place[b]
         z.write(r.matrix, k, z.add(z.read(r.matrix, k), total))
-    t = number.read(r.t, 0)
+    t = z.number.read(r.t, 0)
     for k in range(s.linear):
         for j in range(n):
             q = 2 * (k * n + j)
@@ -166,7 +164,7 @@ def jacobian(s, r):
         z.write(r.matrix, k * n + j, entry)
 
 
-def incomplete_slots(s, r, m):
+def incomplete_slots(z, s, r, m):
     """Taylor coefficients of order ``m`` of the slots, those of the coordinates taken as 0."""
     nothing = z.exact(splat(0.0), splat(0.0))
     size = s.N + 1 + s.value_products
@@ -187,7 +185,7 @@ def incomplete_slots(s, r, m):
         z.write(r.series, top + s.N + 1 + q, z.gathered(total))
 
 
-def complete_slots(s, r, m):
+def complete_slots(z, s, r, m):
     """Add to the coefficients of order ``m`` what the solution in the right-hand side adds."""
     nothing = z.exact(splat(0.0), splat(0.0))
     size = s.N + 1 + s.value_products
@@ -207,7 +205,7 @@ def complete_slots(s, r, m):
         z.write(r.series, top + k, z.add(z.read(r.series, top + k), total))
 
 
-def block_sums(s, r, m):
+def block_sums(z, s, r, m):
     """Taylor coefficients of order ``m`` of the blocks and of the linear rows' moving parts."""
     nothing = z.exact(splat(0.0), splat(0.0))
     size = s.N + 1 + s.value_products
@@ -216,36 +214,36 @@ def block_sums(s, r, m):
         total = nothing
         for q in range(s.value_start[b], s.value_start[b + 1]):
             slot = z.read(r.series, top + s.value_slot[q])
-            if _is_real(s.value, q):
-                total = z.gather_real(total, slot, number.same(s.value, 2 * q))
+            if _is_real(z, s.value, q):
+                total = z.gather_real(total, slot, z.number.same(s.value, 2 * q))
             else:
                 total = z.gather(total, slot, z.same(s.value, q))
         z.write(r.sums, m * s.value_blocks + b, z.gathered(total))
     for k in range(s.linear):
-        z.write(r.lines, m * s.linear + k, _line(s, r, s.A1, k, r.series, top))
+        z.write(r.lines, m * s.linear + k, _line(z, s, r, s.A1, k, r.series, top))
 
 
-def _shifts(s, r, m):
+def _shifts(z, s, r, m):
     """Taylor coefficients of ``t exp(h)`` up to order ``m`` into ``r.change``."""
-    weight = number.read(r.t, 0)
+    weight = z.number.read(r.t, 0)
     for i in range(1, m + 1):
-        weight = number.multiply(weight, number.same(s.inverses, i))
-        number.write(r.change, i, weight)
+        weight = z.number.multiply(weight, z.number.same(s.inverses, i))
+        z.number.write(r.change, i, weight)
 
 
-def _shifted(r, data, first, stride, m):
+def _shifted(z, r, data, first, stride, m):
     """Coefficient of order ``m`` of ``t (exp(h) - 1)`` times a series, minus it."""
     total = z.exact(splat(0.0), splat(0.0))
     for i in range(1, m + 1):
         term = z.read(data, first + (m - i) * stride)
-        total = z.gather_real(total, term, number.read(r.change, i))
+        total = z.gather_real(total, term, z.number.read(r.change, i))
     return z.negative(z.gathered(total))
 
 
-def right_side(s, r, m):
+def right_side(z, s, r, m):
     """Minus the coefficient of order ``m`` of the rows, the coordinates' own taken as 0."""
     nothing = z.exact(splat(0.0), splat(0.0))
-    _shifts(s, r, m)
+    _shifts(z, s, r, m)
     for k in range(s.N):
         z.write(r.right, k, nothing)
     for b in range(s.value_blocks):
@@ -255,9 +253,9 @@ def right_side(s, r, m):
             total = z.multiply(z.read(r.factor, part), total)
             re = splat(s.factors[4 * part + 2])
             im = splat(s.factors[4 * part + 3])
-            moved = _shifted(r, r.sums, b, s.value_blocks, m)
+            moved = _shifted(z, r, r.sums, b, s.value_blocks, m)
             total = z.add(total, z.multiply(z.exact(re, im), moved))
         k = s.value_place[b]
         z.write(r.right, k, z.add(z.read(r.right, k), total))
     for k in range(s.linear):
-        z.write(r.right, s.rows + k, _shifted(r, r.lines, k, s.linear, m))
+        z.write(r.right, s.rows + k, _shifted(z, r, r.lines, k, s.linear, m))

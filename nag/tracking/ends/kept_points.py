@@ -6,8 +6,7 @@ from nag.machine_code.lanes import load, select_less, splat, store
 from nag.tracking.ends.branch import keep_series
 from nag.tracking.ends.lane_scalars import CURVATURE, EXCESS, KNOWN, SAVED
 from nag.tracking.ends.linear_algebra import RESOLVED
-from nag.tracking.numbers import complex_numbers as z
-from nag.tracking.numbers import double_double as number
+from nag.tracking.numbers.complex_numbers import largest
 
 # Largest product of the rounding error of a point and Newton's constant that leaves it safe.
 SAFE = 1e-6
@@ -16,7 +15,7 @@ SAFE = 1e-6
 RESIDUAL, SECOND = 8.0, 10.0
 
 
-def keep(s, r, f, order):
+def keep(z, s, r, f, order):
     """Make the accepted points the bases of further steps."""
     half = splat(0.5)
     accepted = load(r.accepted, 0)
@@ -26,22 +25,22 @@ def keep(s, r, f, order):
         size = z.magnitude(x)
         store(r.base_sizes, j, select_less(half, accepted, size, load(r.base_sizes, j)))
         weight, known = load(r.weights, j), load(r.base_weights, j)
-        weight = z.largest(weight, size)
+        weight = largest(weight, size)
         store(r.base_weights, j, select_less(half, accepted, weight, known))
         error, known = load(r.errors, j) * load(f, EXCESS), load(r.base_errors, j)
         store(r.base_errors, j, select_less(half, accepted, error, known))
-    time = number.read(r.time, 0)
-    number.write(r.time, 0, number.choose(half, accepted, number.read(r.t, 0), time))
-    _keep_safe(s, r, f)
-    keep_series(s, r, order)
+    time = z.number.read(r.time, 0)
+    z.number.write(r.time, 0, z.number.choose(half, accepted, z.number.read(r.t, 0), time))
+    _keep_safe(z, s, r, f)
+    keep_series(z, s, r, order)
 
 
-def steepest(f, lane):
+def steepest(z, f, lane):
     """What Newton's constant may be, in a direction that corrections have not had."""
-    return SECOND * f[8 * KNOWN + lane] / (RESIDUAL * number.EPSILON)
+    return SECOND * f[8 * KNOWN + lane] / (RESIDUAL * z.number.epsilon)
 
 
-def _keep_safe(s, r, f):
+def _keep_safe(z, s, r, f):
     """Keep the bases that are known so well that the next arithmetic may start from them.
 
     Newton's constant is at most as large as the inverse Jacobian makes it, of which the error of
@@ -54,11 +53,11 @@ def _keep_safe(s, r, f):
     for j in range(s.N):
         error, met = splat(RESOLVED) * load(r.base_errors, j), load(r.met, j)
         known = select_less(error, load(r.base_sizes, j), splat(1.0), splat(0.0))
-        lost = z.largest(lost, met - known)
-        store(r.met, j, select_less(half, accepted, z.largest(met, known), met))
+        lost = largest(lost, met - known)
+        store(r.met, j, select_less(half, accepted, largest(met, known), met))
     store(r.measures, 1, lost)
     for lane in range(8):
-        curvature = max(f[8 * CURVATURE + lane], steepest(f, lane), 1.0)
+        curvature = max(f[8 * CURVATURE + lane], steepest(z, f, lane), 1.0)
         r.measures[lane] = 0.0
         well = f[8 * KNOWN + lane] * curvature <= SAFE and r.measures[8 + lane] < 0.5
         if r.accepted[lane] > 0.5 and well:
@@ -67,5 +66,5 @@ def _keep_safe(s, r, f):
     safe = load(r.measures, 0)
     for j in range(s.N):
         z.write(r.safe, j, z.choose(half, safe, z.read(r.base, j), z.read(r.safe, j)))
-    time = number.choose(half, safe, number.read(r.time, 0), number.read(r.safe_time, 0))
-    number.write(r.safe_time, 0, time)
+    time = z.number.choose(half, safe, z.number.read(r.time, 0), z.number.read(r.safe_time, 0))
+    z.number.write(r.safe_time, 0, time)

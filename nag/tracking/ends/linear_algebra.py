@@ -6,8 +6,7 @@ import math
 
 from nag.machine_code.lanes import any_less, fma, load, select_less, splat, square_root, store
 from nag.tracking.linear_algebra import PHASE
-from nag.tracking.numbers import complex_numbers as z
-from nag.tracking.numbers import double_double as number
+from nag.tracking.numbers.complex_numbers import largest
 from nag.tracking.numbers.error_free import power_near_inverse
 
 # Part of a coordinate that a correction leaves where it takes it away.
@@ -30,7 +29,7 @@ def _power_near_inverse(r, value):
     return load(r.measures, 0)
 
 
-def equilibrate(s, r):
+def equilibrate(z, s, r):
     """Multiply columns by the sizes of the coordinates, and rows by the inverse of their largest.
 
     Scales are powers of two, so that nothing is rounded.
@@ -43,7 +42,7 @@ def equilibrate(s, r):
         most = splat(0.0)
         for j in range(n):
             size = z.magnitude(z.read(r.matrix, i * n + j)) * load(r.columns, j)
-            most = z.largest(most, size)
+            most = largest(most, size)
         power = _power_near_inverse(r, most)
         store(r.scales, i, power)
         for j in range(n):
@@ -51,7 +50,7 @@ def equilibrate(s, r):
             z.write(r.matrix, i * n + j, z.scale(entry, load(r.columns, j) * power))
 
 
-def _exchange(s, r, k):
+def _exchange(z, s, r, k):
     """Bring the largest entry of column ``k`` to the diagonal, in each lane its own."""
     n = s.N
     best = splat(-1.0)
@@ -73,11 +72,11 @@ def _exchange(s, r, k):
                 z.write(r.matrix, i * n + j, z.choose(distance, quarter, upper, lower))
 
 
-def factorize(s, r):
+def factorize(z, s, r):
     """Overwrite the equilibrated matrix by its factors; the diagonal holds the inverse pivots."""
     n = s.N
     for k in range(n):
-        _exchange(s, r, k)
+        _exchange(z, s, r, k)
         pivot = z.inverse(z.read(r.matrix, k * n + k))
         z.write(r.matrix, k * n + k, pivot)
         for i in range(k + 1, n):
@@ -89,7 +88,7 @@ def factorize(s, r):
                 z.write(r.matrix, i * n + j, z.add(entry, product))
 
 
-def substitute(s, r, data):
+def substitute(z, s, r, data):
     """Overwrite a right-hand side by the solution."""
     n = s.N
     for i in range(n):
@@ -120,7 +119,7 @@ def substitute(s, r, data):
         z.write(data, j, z.scale(z.read(data, j), load(r.columns, j)))
 
 
-def vanishing(x, correction):
+def vanishing(z, x, correction):
     """1 in the lanes where a correction takes a tiny coordinate away altogether, 0 elsewhere.
 
     Where equations hold a coordinate as a factor, zeros have no rounding errors to be told by.
@@ -128,47 +127,47 @@ def vanishing(x, correction):
     size = z.magnitude(x)
     left = z.magnitude(z.add(x, correction))
     gone = select_less(left, splat(GONE) * size, splat(1.0), splat(0.0))
-    return select_less(size, splat(number.SMALL), gone, splat(0.0))
+    return select_less(size, splat(z.number.small), gone, splat(0.0))
 
 
-def _vanishing_step(s, r):
+def _vanishing_step(z, s, r):
     """The largest correction of coordinates that are taken away, those that `vanishing` finds."""
     most = splat(0.0)
     for j in range(s.N):
         x, correction = z.read(r.slots, j), z.read(r.right, j)
-        most = z.largest(most, vanishing(x, correction) * z.magnitude(correction))
+        most = largest(most, vanishing(z, x, correction) * z.magnitude(correction))
     return most
 
 
-def _gone(x, correction, beside):
+def _gone(z, x, correction, beside):
     """`vanishing`, and corrections that are as nothing beside those of coordinates that vanish.
 
     A product of two such coordinates is a tiny coordinate that changes as much as it is large.
     """
     step = z.magnitude(correction)
-    idle = select_less(step, beside * splat(number.SMALL), splat(1.0), splat(0.0))
-    idle = select_less(z.magnitude(x), splat(number.SMALL), idle, splat(0.0))
-    return z.largest(vanishing(x, correction), idle)
+    idle = select_less(step, beside * splat(z.number.small), splat(1.0), splat(0.0))
+    idle = select_less(z.magnitude(x), splat(z.number.small), idle, splat(0.0))
+    return largest(vanishing(z, x, correction), idle)
 
 
-def make_noise(s, r):
+def make_noise(z, s, r):
     """Rounding errors of the rows; phases that grow as squares cancel no smooth vector."""
     for i in range(s.N):
-        size = load(r.sizes, i) * splat(number.EPSILON * 8.0)
+        size = load(r.sizes, i) * splat(z.number.epsilon * 8.0)
         re, im = math.cos(PHASE * (i * i)), math.sin(PHASE * (i * i))
         z.write(r.noise, i, z.exact(size * splat(re), size * splat(im)))
 
 
-def _lay_errors(s, r, beside):
+def _lay_errors(z, s, r, beside):
     """Rounding errors of the coordinates, and the largest of them."""
     most = splat(1e-300)
     for j in range(s.N):
         size, step = z.magnitude(z.read(r.slots, j)), z.magnitude(z.read(r.right, j))
-        error = fma(size, splat(number.EPSILON), z.magnitude(z.read(r.noise, j)) + splat(1e-300))
-        gone = _gone(z.read(r.slots, j), z.read(r.right, j), beside)
-        error = select_less(splat(0.5), gone, z.largest(error, step), error)
+        error = fma(size, splat(z.number.epsilon), z.magnitude(z.read(r.noise, j)) + splat(1e-300))
+        gone = _gone(z, z.read(r.slots, j), z.read(r.right, j), beside)
+        error = select_less(splat(0.5), gone, largest(error, step), error)
         store(r.errors, j, error)
-        most = z.largest(most, error)
+        most = largest(most, error)
     return most
 
 
@@ -184,11 +183,11 @@ def _lost_group(s, r):
                 error = load(r.errors, j)
                 total = fma(error, error, total)
         lost = select_less(splat(1.0 / RESOLVED), square_root(total), splat(1.0), zero)
-        unknown = z.largest(unknown, lost)
+        unknown = largest(unknown, lost)
     return unknown
 
 
-def newton_correction(s, r, rough, close):
+def newton_correction(z, s, r, rough, close):
     """Newton's correction into the right-hand side, rounding errors of the point, and measures.
 
     Measures of each lane: the largest correction over its coordinate's weight; the largest over
@@ -202,9 +201,9 @@ def newton_correction(s, r, rough, close):
     known in that measure, and Newton's method cannot know the coordinate in its own.
     """
     n = s.N
-    substitute(s, r, r.right)
-    make_noise(s, r)
-    substitute(s, r, r.noise)
+    substitute(z, s, r, r.right)
+    make_noise(z, s, r)
+    substitute(z, s, r, r.noise)
     zero = splat(0.0)
     half = splat(0.5)
     thousand = splat(RESOLVED)
@@ -212,30 +211,30 @@ def newton_correction(s, r, rough, close):
     excess = zero
     known = zero
     whole = zero
-    beside = _vanishing_step(s, r)
+    beside = _vanishing_step(z, s, r)
     # Points have about unit norm.
-    share = close * (splat(1.0) / _lay_errors(s, r, beside))
+    share = close * (splat(1.0) / _lay_errors(z, s, r, beside))
     for j in range(n):
         size = z.magnitude(z.read(r.slots, j))
         step = z.magnitude(z.read(r.right, j))
         whole = whole + step
         error = load(r.errors, j)
         least = share * error
-        size = z.largest(size, least)
+        size = largest(size, least)
         # What does not exceed its rounding error may be zero along the whole path; then its
         # Taylor coefficients are rounding errors as well, and larger.
-        unresolved = z.largest(thousand * error, splat(number.SMALL))
+        unresolved = largest(thousand * error, splat(z.number.small))
         weight = select_less(thousand * error, size, size, unresolved)
-        gone = _gone(z.read(r.slots, j), z.read(r.right, j), beside)
-        weight = select_less(half, gone, splat(number.SMALL), weight)
+        gone = _gone(z, z.read(r.slots, j), z.read(r.right, j), beside)
+        weight = select_less(half, gone, splat(z.number.small), weight)
         most = rough * error
         most = select_less(splat(ROUGHEST), most, splat(ROUGHEST), most)
-        weight = z.largest(z.largest(weight, z.largest(least, load(r.floors, j))), most)
+        weight = largest(largest(weight, largest(least, load(r.floors, j))), most)
         store(r.weights, j, weight)
-        eta = z.largest(eta, step / weight)
-        excess = z.largest(excess, step / error)
+        eta = largest(eta, step / weight)
+        excess = largest(excess, step / error)
         resolved = select_less(thousand * error, size, error / size, zero)
-        known = z.largest(known, resolved)
+        known = largest(known, resolved)
     unknown = _lost_group(s, r)
     # What is not a number is not less than anything.
     huge = splat(1e300)

@@ -16,9 +16,7 @@ from nag.tracking.ends.corrector import linearize, weigh
 from nag.tracking.ends.evaluation import factors_at, lay_patches
 from nag.tracking.ends.records import Equations, Room
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.numbers import complex_numbers as z
-from nag.tracking.numbers import double_double, quad_double
-from nag.tracking.numbers import double_double as number
+from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
 
 # Digits in which quotients of coordinates lose nothing.
 AFFINE_DIGITS = 200
@@ -32,24 +30,24 @@ class Steps(NamedTuple):
     points: Reals
 
 
-def newton_batch(s: Equations, r: Room, b: Steps) -> None:
+def newton_batch(z: ComplexNumbers, s: Equations, r: Room, b: Steps) -> None:
     """Newton's method at t = 0, eight points at a time."""
-    size = 2 * number.WORDS * s.N
+    size = 2 * z.number.words * s.N
     for j in range(s.N):
         store(r.least, j, splat(0.0))
         store(r.floors, j, splat(0.0))
     for first in range(0, b.count, 8):
         for lane in range(8):
             path = min(first + lane, b.count - 1)
-            for k in range(number.WORDS):
+            for k in range(z.number.words):
                 r.t[8 * k + lane] = 0.0
             for k in range(size):
                 r.slots[8 * k + lane] = b.points[size * path + k]
-        lay_patches(s, r)
-        factors_at(s, r)
+        lay_patches(z, s, r)
+        factors_at(z, s, r)
         for _ in range(b.steps):
-            weigh(s, r)
-            linearize(s, r, splat(0.0), splat(0.0))
+            weigh(z, s, r)
+            linearize(z, s, r, splat(0.0), splat(0.0))
             for j in range(s.N):
                 z.write(r.slots, j, z.add(z.read(r.slots, j), z.read(r.right, j)))
         for lane in range(min(8, b.count - first)):
@@ -57,10 +55,7 @@ def newton_batch(s: Equations, r: Room, b: Steps) -> None:
                 b.points[size * (first + lane) + k] = r.slots[8 * k + lane]
 
 
-KERNELS = {
-    arithmetic.WORDS: Kernel(newton_batch, "tracking", {"number": arithmetic})
-    for arithmetic in (double_double, quad_double)
-}
+KERNELS = {words: Kernel(newton_batch, ARITHMETICS[words]) for words in (2, 4)}
 
 
 def newton_steps(homotopy: Homotopy, points: np.ndarray, words: int, steps: int) -> np.ndarray:
