@@ -322,7 +322,7 @@ witness.slices.UNEVEN                       1e-5    Terms of a slice at points, 
                                                     that these move to, below which the latter is
                                                     scaled: else paths begin nearer to 1 than their
                                                     parameter is told from it.
-witness.at_prompt.ROUNDED                   1e-9    Values, beside their terms, at points that are
+witness.membership.ROUNDED                  1e-9    Values, beside their terms, at points that are
                                                     rounded ones of the set.
 decomposition.monodromy.ROUGH               1e-8    Errors that ends of loops may have, whatever the
                                                     tracker thinks: a jump to a close point must not
@@ -357,7 +357,7 @@ decomposition.superset.IN_PASSING           0.02    Part of the usual work after
                                                     are told in any case.
 decomposition.singular_points.SURELY        10      Errors of a point that it may be off a linear
                                                     equation, and be a point of the component.
-decomposition.excluded.FORBIDDEN            1e-8    Values, beside their terms, of polynomials that
+decomposition.ends.FORBIDDEN                1e-8    Values, beside their terms, of polynomials that
                                                     must not vanish and may: looked at more closely.
 decomposition.branch_points.NOTHING         -90     Decimal logarithm of a pivot of the Loewner
                                                     matrix that is zero, of 200 digits.
@@ -403,7 +403,7 @@ solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING, WI
 solving.isolated_zero: ROUNDING; solving.branch_solutions: ROUGH; solving.missing_zeros: NEAR;
 solving.solution_classes: STEP; solving.start.choice: WORK; solving.start.family_monodromy: SHARP,
 ARRIVED; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
-solving.start.target: HALF_UNIT; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt: EXACT,
+solving.start.target: HALF_UNIT; solving.tropical_zeros: ARRIVED, NEAR; witness.membership: EXACT,
 INEXACT; witness.close_points: STEEPEST; witness.close_to_sets: ROUNDED; witness.cutting: FLAT,
 ROUNDED, ROUNDING, LOSS; witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP,
 BITS_PER_DIGIT, SPLITTER; witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE,
@@ -411,7 +411,7 @@ FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, ARRIVED, NEARLY; witness.real_
 SHORTEST, STILL; decomposition.curve_genus: NEAR, OUTSIDE,
 SHRINK, LEAST_RADIUS; decomposition.discovery: ROUNDED, DEEP, MULTIPLE; decomposition.given_points:
 ROUGH; decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROUNDED;
-decomposition.excluded: ROUNDED; decomposition.superset: REGULAR; decomposition.power_sums:
+decomposition.ends: ROUNDED; decomposition.superset: REGULAR; decomposition.power_sums:
 EQUATIONS, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
 interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
 mechanism.framework_decomposition: ROUNDED; files.export: ROUNDED; files.json_values: AGREES;

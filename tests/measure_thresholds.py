@@ -277,7 +277,7 @@ def watched_decomposition(measured: Measured) -> ExitStack:
     stack.enter_context(
         patch.object(trace.Trace, "_decided", around(trace.Trace._decided, straight))
     )
-    everywhere(stack, splitting.split, loops)
+    everywhere(stack, splitting.split_points, loops)
     everywhere(stack, splitting._run_loop, turned)
     watch_digits(measured, stack)
     return stack

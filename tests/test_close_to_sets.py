@@ -5,7 +5,7 @@ import pytest
 
 import nag
 from nag.numerics.zero_values import possible_zeros, vanishes_at
-from nag.witness.close_to_sets import meant
+from nag.witness.close_to_sets import find_nearby_zeros
 from nag.witness.cutting import Equations
 
 NO_SLICE = np.zeros((0, 4))
@@ -26,7 +26,7 @@ def _beside_a_line(distance):
 def test_an_end_known_in_each_coordinate_is_told_from_a_line_however_near(k):
     equations = Equations(_beside_a_line(f"10^-{k}"), 3)
     end = np.array([10.0**-k, 1, 0], dtype=complex)
-    found = meant([(end, 1e-15)], equations, NO_SLICE, np.random.default_rng(0))
+    found = find_nearby_zeros([(end, 1e-15)], equations, NO_SLICE, np.random.default_rng(0))
     assert found.decided
     assert [zero.multiplicity for zero in found.zeros] == [1]
     assert abs(found.zeros[0].point[0]) == pytest.approx(10.0**-k, rel=1e-12)
@@ -35,7 +35,7 @@ def test_an_end_known_in_each_coordinate_is_told_from_a_line_however_near(k):
 def test_an_end_on_the_line_stands_for_no_isolated_zero():
     equations = Equations(_beside_a_line("10^-29"), 3)
     end = np.array([0, 2, 0], dtype=complex)
-    found = meant([(end, 1e-15)], equations, NO_SLICE, np.random.default_rng(0))
+    found = find_nearby_zeros([(end, 1e-15)], equations, NO_SLICE, np.random.default_rng(0))
     assert found.decided
     assert not found.zeros
 

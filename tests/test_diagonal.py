@@ -7,7 +7,7 @@ import pytest
 from systems import system
 
 from nag.decomposition.components import decompose
-from nag.decomposition.diagonal import Intersected, intersected
+from nag.decomposition.diagonal import DiagonalSection, meet_on_diagonal
 from nag.decomposition.factor import Factor
 from nag.decomposition.intersection import intersect_components
 from nag.decomposition.reduction import Reduction
@@ -18,7 +18,7 @@ SPHERE = "x^2 + y^2 + z^2 - 1"
 
 def met(
     first: str, second: str, seed: int = 0, *, nonzero: tuple[str, ...] = ()
-) -> tuple[Intersected, Reduction]:
+) -> tuple[DiagonalSection, Reduction]:
     """The meeting of two surfaces in space, and the coordinates that its points have."""
     factors = []
     for equation in (first, second):
@@ -26,15 +26,15 @@ def met(
         (component,) = decompose(of).components
         factors.append(Factor.of(of, component))
     common = Reduction.of(system("x y z", first, second, nonzero=nonzero))
-    return intersected(*factors, common, np.random.default_rng(seed), Run()), common
+    return meet_on_diagonal(*factors, common, np.random.default_rng(seed), Run()), common
 
 
-def points(found: Intersected, common: Reduction) -> np.ndarray:
+def points(found: DiagonalSection, common: Reduction) -> np.ndarray:
     """The points of a curve, in space."""
     return common.frame.points(np.vstack([fibre.x for fibre in found.fibres[1]]))
 
 
-def sizes(found: Intersected) -> dict[int, int]:
+def sizes(found: DiagonalSection) -> dict[int, int]:
     return {d: sum(map(len, fibres)) for d, fibres in found.fibres.items() if fibres}
 
 

@@ -64,6 +64,6 @@ def test_no_paths_are_tracked_to_isolated_realisations_where_there_are_none(monk
 def test_paths_that_only_said_that_a_set_is_finite_are_counted():
     system = model(general_loop(6, 4), "H").system
     finite, spent = is_finite(system, np.random.default_rng(0), Run())
-    points = isolated.solved_at_once(system, np.random.default_rng(0), Run(), (), True)
+    points = isolated.solve_at_once(system, np.random.default_rng(0), Run(), (), True)
     assert finite and points is not None and spent.tracked > 0
     assert decompose(system).paths.tracked == spent.tracked + points.paths.tracked

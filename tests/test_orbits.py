@@ -12,7 +12,7 @@ from systems import system
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.decomposition.components import decompose
-from nag.decomposition.monodromy import places_among
+from nag.decomposition.monodromy import locate_points
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.superset import Ambient, witness_superset
 from nag.files.cases import read_case
@@ -171,9 +171,9 @@ def test_a_missing_point_is_noticed() -> None:
 
 def test_ends_are_located_only_where_that_is_clear() -> None:
     points = np.array([[0.0], [1.0]])
-    assert places_among(np.array([[1 + 1e-9], [5.0]]), points).tolist() == [1, -1]
-    assert places_among(np.array([[1e-5]]), points) is None
-    assert places_among(np.array([[1e-8]]), np.array([[0.0], [3e-8]])) is None
+    assert locate_points(np.array([[1 + 1e-9], [5.0]]), points).tolist() == [1, -1]
+    assert locate_points(np.array([[1e-5]]), points) is None
+    assert locate_points(np.array([[1e-8]]), np.array([[0.0], [3e-8]])) is None
 
 
 def test_ends_are_located_among_many_points_as_among_few() -> None:
@@ -181,10 +181,10 @@ def test_ends_are_located_among_many_points_as_among_few() -> None:
     parts = rng.normal(size=(2, 400, 3)) * rng.lognormal(sigma=3, size=(400, 1))
     points, chosen = parts[0] + 1j * parts[1], rng.permutation(400)[:200]
     ends = np.vstack([points[chosen] * (1 + 1e-12), 1.1 * points[:5]])
-    assert places_among(ends, points).tolist() == [*chosen.tolist(), *[-1] * 5]
+    assert locate_points(ends, points).tolist() == [*chosen.tolist(), *[-1] * 5]
     size = 1 + np.linalg.norm(points[7])
     for error, apart in ((1e-8, 3e-8), (1e-5, 1.0), (3e-7, 1e-4)):
         beside = np.vstack([points, points[7] + np.array([apart * size, 0, 0])])
         off = points[7] + np.array([0, 1j * error * size, 0])
-        assert places_among(np.vstack([ends, off]), beside) is None
-        assert places_among(off[None], points[:5]).tolist() == [-1]
+        assert locate_points(np.vstack([ends, off]), beside) is None
+        assert locate_points(off[None], points[:5]).tolist() == [-1]

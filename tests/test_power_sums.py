@@ -10,7 +10,7 @@ from cuts import fibre
 
 from nag.decomposition import trace
 from nag.decomposition.power_sums import PowerSums
-from nag.decomposition.splitting import LOST, split
+from nag.decomposition.splitting import LOST, split_points
 from nag.decomposition.trace import EVIDENCE
 from nag.tracking.run import Run
 from nag.witness.fibres import PathEnds
@@ -93,7 +93,7 @@ def test_a_path_that_was_lost_in_the_trace_joins_nothing(
         return [replace(there, points=there.points[places])]
 
     monkeypatch.setattr(trace, "move", swapping)
-    found = split(points, EVIDENCE, rng, Run())
+    found = split_points(points, EVIDENCE, rng, Run())
     reasons = {tuple(c.indices.tolist()): c.reason for c in found.classes}
     assert all(set(own) in map(set, curves) for own in reasons if not reasons[own])
     assert {reason for reason in reasons.values() if reason} == {LOST}

@@ -16,10 +16,10 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition import monodromy, splitting
 from nag.decomposition.components import decompose
-from nag.decomposition.final_checks import Examined, checked_witness_set
-from nag.decomposition.monodromy import Looped, loop
+from nag.decomposition.final_checks import Examined, check_class
+from nag.decomposition.monodromy import LoopEnds, run_loop
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.splitting import Class, split
+from nag.decomposition.splitting import Class, split_points
 from nag.decomposition.trace import EVIDENCE, Trace
 from nag.files.cases import read_case
 from nag.tracking.run import Run
@@ -80,7 +80,7 @@ def test_the_smallest_unions_of_classes_with_linear_traces_are_found() -> None:
 def test_points_fall_into_the_irreducible_curves(seed: int) -> None:
     rng = np.random.default_rng(seed)
     points = on_line(f"{UNION}*({CUBIC})", rng)
-    found = split(points, EVIDENCE, rng, TRACKER)
+    found = split_points(points, EVIDENCE, rng, TRACKER)
     assert [c.reason for c in found.classes] == ["", "", ""]
     classes = {frozenset(c.indices.tolist()) for c in found.classes}
     curves = {frozenset(np.flatnonzero(on(points.x, e)).tolist()) for e in (CIRCLE, LINE, CUBIC)}
@@ -91,10 +91,10 @@ def test_points_fall_into_the_irreducible_curves(seed: int) -> None:
 
 
 def test_few_points_fall_into_components_without_loops(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(splitting, "loop", None)
+    monkeypatch.setattr(splitting, "run_loop", None)
     rng = np.random.default_rng(4)
     points = on_line(f"{UNION}*({CUBIC})*(x + y - 7)*(y^4 - x - 2)", rng)
-    found = split(points, EVIDENCE, rng, TRACKER)
+    found = split_points(points, EVIDENCE, rng, TRACKER)
     assert sorted(len(c.indices) for c in found.classes) == [1, 1, 2, 3, 4]
     assert found.counts.tracked == 2 * len(points)
 
@@ -110,18 +110,18 @@ def test_what_a_loop_joined_wrongly_is_taken_back(
     tracked = []
 
     def swaps_first(*arguments):
-        found, counts = loop(*arguments)
+        found, counts = run_loop(*arguments)
         tracked.append(found)
         if len(tracked) > 1:
             return found, counts
         places = np.arange(len(points))
         places[swapped] = swapped[::-1]
-        return Looped(np.arange(len(points)), points, places), counts
+        return LoopEnds(np.arange(len(points)), points, places), counts
 
-    monkeypatch.setattr(splitting, "loop", swaps_first)
+    monkeypatch.setattr(splitting, "run_loop", swaps_first)
     for name, most in (("FEW_CLASSES", 2), ("MOST_IN_LATTICE", 2), ("MOST_CLASSES", 3)):
         monkeypatch.setattr(splitting, name, most)
-    found = split(points, EVIDENCE, rng, TRACKER)
+    found = split_points(points, EVIDENCE, rng, TRACKER)
     curves = {frozenset(np.flatnonzero(on(points.x, e)).tolist()) for e in (CIRCLE, LINE, CUBIC)}
     assert {frozenset(c.indices.tolist()) for c in found.classes} == curves
     assert not any(c.reason for c in found.classes)
@@ -130,9 +130,9 @@ def test_what_a_loop_joined_wrongly_is_taken_back(
 
 def test_classes_are_what_pairs_join() -> None:
     rng = np.random.default_rng(2)
-    assert splitting.joined_labels(4, []).tolist() == [0, 1, 2, 3]
+    assert splitting.join_labels(4, []).tolist() == [0, 1, 2, 3]
     for pairs in (rng.integers(0, 60, (2, 20, 2)), [np.column_stack([range(59), range(1, 60)])]):
-        labels = splitting.joined_labels(60, pairs)
+        labels = splitting.join_labels(60, pairs)
         graph = np.eye(60, dtype=bool)
         graph[tuple(np.concatenate(pairs).T)] = True
         reached = np.linalg.matrix_power((graph | graph.T).astype(float), 60) > 0
@@ -172,7 +172,7 @@ def test_a_point_that_is_missing_is_found_by_loops() -> None:
     rows = random_rows(rng, 1, 2)
     whole = fibre(CUBIC, rows[0])
     less = Points.of([whole.only(np.arange(3) > 0)])
-    found = split(less, EVIDENCE, rng, TRACKER)
+    found = split_points(less, EVIDENCE, rng, TRACKER)
     assert [(len(c.indices), c.reason) for c in found.classes] == [(3, "")]
     gaps = np.linalg.norm(found.points.x[:, None] - whole.x[None], axis=2)
     assert sorted(gaps.argmin(axis=1)) == [0, 1, 2] and gaps.min(axis=1).max() < 1e-12
@@ -181,7 +181,7 @@ def test_a_point_that_is_missing_is_found_by_loops() -> None:
 def test_isolated_points_are_components_by_themselves() -> None:
     cut = fibre(CIRCLE, ROWS[0]).cut
     points = Points.of([Fibre(cut, np.zeros((0, 3), dtype=complex), np.eye(2))])
-    found = split(points, EVIDENCE, np.random.default_rng(0), TRACKER)
+    found = split_points(points, EVIDENCE, np.random.default_rng(0), TRACKER)
     assert [c.indices.tolist() for c in found.classes] == [[0], [1]]
     assert found.counts.tracked == 0
 
@@ -192,7 +192,7 @@ def checked(points: np.ndarray, reduction: Reduction, reason: str = "") -> Witne
     found = Class(np.arange(len(points)), reason)
     rng = np.random.default_rng(0)
     examined = Examined.of(own, [found], reduction, rng)
-    return checked_witness_set(found, examined, rng, TRACKER)[0]
+    return check_class(found, examined, rng, TRACKER)[0]
 
 
 POINTS = points_on(curve(CUBIC), ROWS[0])

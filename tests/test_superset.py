@@ -14,7 +14,7 @@ from nag.decomposition import superset
 from nag.decomposition.components import decompose
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.tracking.run import Run
-from nag.witness.close_to_sets import Meant
+from nag.witness.close_to_sets import NearbyZeros
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre
@@ -135,8 +135,8 @@ def test_an_end_that_is_no_known_zero_is_not_taken_for_a_point_of_a_set(
     located: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Where its zero is known, and multiple, it is what the paths of the set lead to."""
-    monkeypatch.setattr(superset, "meant", lambda *_: Meant((), False, located))
-    monkeypatch.setattr(superset, "admit", lambda *_, **__: False)
+    monkeypatch.setattr(superset, "find_nearby_zeros", lambda *_: NearbyZeros((), False, located))
+    monkeypatch.setattr(superset, "admit_end", lambda *_, **__: False)
     member = (Membership.MEMBER, PathCounts())
     monkeypatch.setattr(superset, "is_on_larger_set", lambda *_: member)
     none = superset.Superset({}, PathCounts(), ())

@@ -87,7 +87,7 @@ def run(arguments: argparse.Namespace) -> Answer:
     problem = _in_coordinates(arguments, case, problem)
     if arguments.modes == "all":
         return _all_modes(arguments, case)
-    from nag.decomposition.through import accounted, through_points
+    from nag.decomposition.through import note_doubts, through_points
     from nag.files.export import Origin, document
     from nag.report.answer import answer_lines
     from nag.witness.frame import expanded
@@ -96,7 +96,7 @@ def run(arguments: argparse.Namespace) -> Answer:
     if arguments.expand:
         decomposition = expanded(decomposition)
     points = through_points(decomposition, problem.named, arguments.threads)
-    decomposition = accounted(decomposition, points)
+    decomposition = note_doubts(decomposition, points)
     return Answer(
         answer_lines(decomposition, case, problem, points, run_row(arguments)),
         decomposition.complete,

@@ -39,8 +39,7 @@ def run(options: argparse.Namespace) -> Answer:
     from nag.algebra.evaluation import Evaluator
     from nag.algebra.number import is_zero, number_text
     from nag.algebra.system import values_text
-    from nag.witness.at_prompt import EXACT, INEXACT, ROUNDED
-    from nag.witness.membership import Membership, memberships
+    from nag.witness.membership import EXACT, INEXACT, ROUNDED, Membership, memberships
 
     if (options.point is None) == (options.at is None):
         raise UsageError(ONE_POINT)
@@ -91,7 +90,7 @@ def run(options: argparse.Namespace) -> Answer:
 
 def _equations_text(exact: bool, residual: float) -> str:
     from nag.text.table import magnitude
-    from nag.witness.at_prompt import ROUNDED
+    from nag.witness.membership import ROUNDED
 
     if exact:
         return "hold exactly"

@@ -5,7 +5,7 @@ Read in this order: `components` (the list of methods) on `method` (what one is)
 `branch_components` (factors); without paths: `one_equation` and `rational_curve` on `roots`; with
 paths: `several_equations` on `isolated` (finite sets, solved at once), `toric_section` (linkages,
 cut by a slice at once) and `superset` (equation by equation) on `hypersurface` (one step) and
-`ends` (sorted out, `excluded`). Then `splitting` on `trace` (by `zero_sums`), `power_sums` and
+`ends` (sorted out). Then `splitting` on `trace` (by `zero_sums`), `power_sums` and
 `monodromy`, `orbits` (the same up to symmetry); `final_checks` and `assembly`, which put the
 answer together. `discovery`, `given_points` and `intersection` (on
 `diagonal` and `factor`) begin elsewhere and end alike. `through` says which components a case's

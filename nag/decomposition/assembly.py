@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.decomposition.final_checks import Examined, checked_witness_set
+from nag.decomposition.final_checks import Examined, check_class
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.trace import digits_of_evidence
@@ -82,7 +82,7 @@ class Assembly:
         return not (undecided or self.notes)
 
 
-def assembled(
+def assemble_components(
     points: Mapping[int, Points],
     reduction: Reduction,
     rng: np.random.Generator,
@@ -113,7 +113,7 @@ def assembled(
                     notes.append(f"whether a component of dimension {d} is one was not decided")
                 if answer is Membership.MEMBER:
                     continue
-            component, spent = checked_witness_set(own, examined, rng, run, known.scheme)
+            component, spent = check_class(own, examined, rng, run, known.scheme)
             counts += spent
             size = 1 + len(orbit.carriers)
             component = replace(component, orbit=size, images=orbit.carriers)

@@ -19,9 +19,9 @@ from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.final_checks import judged
+from nag.decomposition.final_checks import judge_components
 from nag.decomposition.method import Others, Task
-from nag.decomposition.orbits import in_orbits
+from nag.decomposition.orbits import group_into_orbits
 from nag.numerics.branch_union import (
     BranchZeros,
     GenericPoint,
@@ -38,7 +38,7 @@ from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut
-from nag.witness.exact_points import exact_zeros, framed, sharpened
+from nag.witness.exact_points import carry_radii, exact_zeros, sharpen_fibre
 from nag.witness.fibres import Fibre
 from nag.witness.frame import Frame
 from nag.witness.membership import Membership, is_on_one_of
@@ -193,7 +193,7 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     answers = [part.answer for part in parts if part.answer is not None]
     notes += [note for answer in answers for note in answer.notes]
     paths = sum((answer.paths for answer in answers), counts)
-    answer = judged(given, components, paths, run.settings, notes, seed=run.seed)
+    answer = judge_components(given, components, paths, run.settings, notes, seed=run.seed)
     return replace(answer, algebraic=not counts.tracked and all(a.algebraic for a in answers))
 
 
@@ -280,7 +280,7 @@ def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchCo
     d = elimination.system.n
     rows = random_rows(rng, d, d)
     point = np.linalg.solve(rows[:, 1:], -rows[:, 0])[None]
-    sharp = sharpened(Fibre(Cut(d, 0, ()), rows, point))
+    sharp = sharpen_fibre(Fibre(Cut(d, 0, ()), rows, point))
     x = frame.points(sharp.fibre.x)
     evaluator = Evaluator.of(system.polynomials, system.n)
     cut = Cut(system.n, 0, tuple(independent_polynomials(system.polynomials)))
@@ -291,7 +291,7 @@ def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchCo
         multiplicity=1,
         status=Status.IRREDUCIBLE,
         residual=float(evaluator.residuals(x).max(initial=0.0)),
-        radii=framed(frame, sharp.fibre.x, sharp.radii),
+        radii=carry_radii(frame, sharp.fibre.x, sharp.radii),
         digits=sharp.digits,
         corank=d,
         fibres=(Fibre(cut, own.rows, x),),
@@ -406,6 +406,6 @@ def _in_orbits(
         for c in whole
     ]
     moved = PathCounts(sum(c.degree for c in whole if c.dimension))
-    orbits, counts = in_orbits(system, whole, symmetries, run=run)
+    orbits, counts = group_into_orbits(system, whole, symmetries, run=run)
     others = [c for c in components if c.status is not Status.IRREDUCIBLE]
     return [*orbits, *others], moved + counts

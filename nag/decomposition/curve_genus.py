@@ -22,7 +22,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_points import BranchPointError, Sheets, branch_points
 from nag.decomposition.factor import IntersectionError
-from nag.decomposition.monodromy import places_among
+from nag.decomposition.monodromy import locate_points
 from nag.decomposition.rank_drop import rank_drop, rank_drop_points
 from nag.errors import ComponentError, NagError
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -215,7 +215,7 @@ class _Cover:
             # Near a cusp sheets are closer to each other than to the value.
             fibres = with_fine(there)
         start = np.vstack([fibre.x for fibre in self.sheets.fibres])
-        images = places_among(np.vstack([fibre.x for fibre in fibres]), start)
+        images = locate_points(np.vstack([fibre.x for fibre in fibres]), start)
         if images is None or sorted(images.tolist()) != list(range(len(start))):
             raise GenusError("sheets were mixed up on the way")
         return images

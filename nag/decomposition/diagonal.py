@@ -17,8 +17,8 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.excluded import ROUNDED, forbidden
-from nag.decomposition.factor import NOT_MOVED, Factor, on_flag
+from nag.decomposition.ends import ROUNDED, seem_excluded
+from nag.decomposition.factor import NOT_MOVED, Factor, move_to_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import are_new_alone
@@ -28,11 +28,11 @@ from nag.numerics.digits import bits_of
 from nag.numerics.zero_values import possible_zeros, vanishes_at, vanishes_at_all
 from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, Fine, in_words
-from nag.witness.close_to_sets import among, meant
+from nag.witness.close_to_sets import find_nearby_zeros, is_among_points
 from nag.witness.confirm import find_vanishing, zero_in_digits
 from nag.witness.cutting import Cut, is_end, regular_on, sharpen
 from nag.witness.cutting_in_digits import admit_zero
-from nag.witness.fibres import STEEPER, Fibre, PathEnds, admit
+from nag.witness.fibres import STEEPER, Fibre, PathEnds, admit_end
 from nag.witness.membership import Membership, is_on_larger_set
 from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.points import with_fine
@@ -41,7 +41,7 @@ from nag.witness.witness import PathCounts
 
 
 @dataclass(eq=False)
-class Intersected:
+class DiagonalSection:
     """Points of an intersection, by dimension.
 
     Attributes:
@@ -143,19 +143,19 @@ def _pair(
     return Fine(words, max(each.curvature for each in both))
 
 
-def intersected(
+def meet_on_diagonal(
     first: Factor,
     second: Factor,
     common: Reduction,
     rng: np.random.Generator,
     run: Run,
-) -> Intersected:
+) -> DiagonalSection:
     """The points of the intersection of two components on generic slices of all dimensions.
 
     Raises:
         nag.decomposition.factor.IntersectionError: if witness points are none.
     """
-    product, result = _Product(first, second), Intersected()
+    product, result = _Product(first, second), DiagonalSection()
     flag = random_rows(rng, product.n, product.n)
     equations = product.differences(rng)
     try:
@@ -164,7 +164,7 @@ def intersected(
         # Drawn in the units of one component, it may hardly depend on some coordinates in others.
         result.notes.append("a component's slice is too far from generic beside the other one")
         return result
-    fibres, result.counts = on_flag(fibres, flag, rng, run)
+    fibres, result.counts = move_to_flag(fibres, flag, rng, run)
     if fibres is None:
         result.notes.append(NOT_MOVED)
         return result
@@ -241,7 +241,7 @@ class _Diagonal:
     product: _Product
     common: Reduction
     flag: np.ndarray
-    result: Intersected
+    result: DiagonalSection
     rng: np.random.Generator
     run: Run
 
@@ -322,7 +322,7 @@ class _Diagonal:
     def allowed(self, x: np.ndarray, accuracy: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """At which points nothing vanishes that must not; decided in digits at those near it."""
         reduced, unclear = self.common.reduced, 0
-        result = ~forbidden(self.common.nonzero, x, accuracy)
+        result = ~seem_excluded(self.common.nonzero, x, accuracy)
         for i in np.flatnonzero(~result):
             error, slices = max(float(accuracy[i]), ROUNDED), padded(rows, 1 + x.shape[1])
             rng = np.random.default_rng(0)
@@ -357,9 +357,9 @@ class _Diagonal:
             ends = [(x[i], float(accuracy[i])) for i in cluster]
             best, error = ends[0]
             simple = list(fibres)
-            if admit(best, error, simple, *place, deflate=False):
+            if admit_end(best, error, simple, *place, deflate=False):
                 for end in ends[1:]:
-                    admit(*end, simple, *place, deflate=False)
+                    admit_end(*end, simple, *place, deflate=False)
                 # To a regular zero of all equations one path leads.
                 if sum(map(len, simple)) - sum(map(len, fibres)) == len(ends):
                     fibres[:] = simple
@@ -374,7 +374,7 @@ class _Diagonal:
             if answer is not Membership.FOREIGN:
                 continue
             deflated = list(fibres)
-            admitted = admit(best, error, deflated, *place, deflate=True)
+            admitted = admit_end(best, error, deflated, *place, deflate=True)
             alone = admitted and are_new_alone(fibres, deflated, common.equations)
             if not alone and self.admit_close_ones(ends, fibres, rows):
                 continue
@@ -398,12 +398,12 @@ class _Diagonal:
         To a zero lead no more paths than its multiplicity says.
         """
         equations, own = self.common.equations, list(fibres)
-        found = meant(ends, equations, rows, self.rng, whole=True)
+        found = find_nearby_zeros(ends, equations, rows, self.rng, whole=True)
         total = sum(zero.multiplicity for zero in found.zeros)
         if not found.decided or (len(found.zeros) != 1 and total != len(ends)):
             return False
         for zero in found.zeros:
-            known = among(zero, own)
+            known = is_among_points(zero, own)
             if known is None or not (known or admit_zero(zero, own, equations, rows, self.rng)):
                 return False
         fibres[:] = own

@@ -17,11 +17,11 @@ import numpy as np
 from nag.algebra.given import check_listed, check_whole
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.assembly import Assembly, Known, assembled
-from nag.decomposition.excluded import forbidden
-from nag.decomposition.final_checks import judged
+from nag.decomposition.assembly import Assembly, Known, assemble_components
+from nag.decomposition.ends import seem_excluded
+from nag.decomposition.final_checks import judge_components
 from nag.decomposition.given_points import CommonSlices, Start
-from nag.decomposition.orbits import in_orbits
+from nag.decomposition.orbits import group_into_orbits
 from nag.decomposition.reduction import Reduction
 from nag.numerics.double_ranks import NEARLY_SINGULAR
 from nag.numerics.zero_values import LEAST
@@ -87,14 +87,14 @@ def discover(
     reduction = Reduction.of(system, scaled=True)
     search = _Search(reduction, CommonSlices.random(reduction.equations, rng), rng, run)
     search.from_random_points(starts)
-    found = assembled(search.slices.points, reduction, rng, run, Known(embedded=True))
+    found = assemble_components(search.slices.points, reduction, rng, run, Known(embedded=True))
     notes = search.notes(starts, found)
     components, counts = list(found.components), search.counts + found.counts
     if symmetries:
         components, more, spent = _with_orbits(system, components, symmetries, run)
         notes, counts = notes + more, counts + spent
     notes += found.notes
-    return judged(system, components, counts, run.settings, notes, seed=run.seed)
+    return judge_components(system, components, counts, run.settings, notes, seed=run.seed)
 
 
 @dataclass(eq=False)
@@ -122,7 +122,7 @@ class _Search:
             self.run.tell("sampling", k, starts)
             start = complex_normal(rng, (reduction.n,)) * 2 ** rng.uniform(-2, 1)
             x = descend(reduction.equations.evaluator, start)
-            if x is None or forbidden(reduction.nonzero, x[None], np.array([CLOSE]))[0]:
+            if x is None or seem_excluded(reduction.nonzero, x[None], np.array([CLOSE]))[0]:
                 continue
             place = self._simple(x)
             if place is None and self.refused < MOST_REFUSALS:
@@ -189,7 +189,7 @@ def _with_orbits(
     if not whole:
         return list(components), [], PathCounts()
     try:
-        orbits, counts = in_orbits(system, whole, symmetries, run=run)
+        orbits, counts = group_into_orbits(system, whole, symmetries, run=run)
     except ValueError as error:
         notes = [f"orbits of the symmetries are not known: {error}"]
         return list(components), notes, PathCounts()

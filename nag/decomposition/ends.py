@@ -1,20 +1,31 @@
-"""Ends of paths sorted out: regular ones, clusters of singular ones, and where lost paths lead."""
+"""Ends of paths sorted out: regular ones, clusters of singular ones, and where lost paths lead.
+
+Those that lie where a polynomial does that must not vanish are left out, as digits decide.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.excluded import excluded
-from nag.numerics.coincidence import clusters, coincident
+from nag.numerics.coincidence import SAFETY, clusters, coincident
+from nag.numerics.zero_values import ON, possible_zeros, vanishes_at
+from nag.witness.confirm import find_vanishing
+from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, PathEnds
+from nag.witness.slices import padded
 
 # Failed paths that are known to lead next to a point are known to so much of it, no better: what
 # they were seen to go to is the limit of several branches that are one to the digits they had.
 ASTRAY = 1e-6
+# Values of polynomials that must not vanish, at points where they seem to.
+FORBIDDEN = 1e-8
+# Doubles are no more accurate than this, relative to the point.
+ROUNDED = 1e-15
 Cluster = list[tuple[np.ndarray, float]]
 
 
@@ -47,7 +58,7 @@ def collect(pieces: Sequence[PathEnds], nonzero: Sequence[Polynomial]) -> Candid
     failed, every = [np.zeros((0, n), dtype=complex)], []
     for ends in pieces:
         x = ends.x
-        left_out, doubtful = excluded(nonzero, ends)
+        left_out, doubtful = find_excluded(nonzero, ends)
         allowed, unclear = ends.finite & ~left_out, unclear + doubtful
         # The tracker has seen that ends of one piece are distinct.
         chosen = [
@@ -79,3 +90,68 @@ def _crowds(lost: np.ndarray, every: Sequence[np.ndarray]) -> list[tuple[Cluster
         near = np.any([coincident(ends, lost[i], ASTRAY) for i in own], axis=0)
         found.append(([(lost[i], ASTRAY) for i in own], int(near.sum())))
     return found
+
+
+def seem_excluded(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
+    """Which points seem to lie where a polynomial that must not vanish does."""
+    residuals = nonzero.residuals(x)
+    limit = np.maximum(FORBIDDEN, SAFETY * accuracy)
+    return (residuals < limit[:, None]).any(axis=1)
+
+
+def find_excluded(nonzero: Sequence[Polynomial], ends: PathEnds) -> tuple[np.ndarray, int]:
+    """Which ends lie where a polynomial that must not vanish does, decided in digits.
+
+    Also of how many of these that is not known; they are left out.
+    """
+    cut, rows, result, unclear = ends.cut, ends.rows, ends.finite.copy(), 0
+    if not nonzero or not result.any():
+        return np.zeros(len(result), dtype=bool), unclear
+    evaluator = Evaluator.of(nonzero, cut.n)
+    result[result] = seem_excluded(evaluator, ends.x[result], ends.accuracy[result])
+    regular = np.flatnonzero(result & ends.regular)
+    small = (evaluator.residuals(ends.x[regular]) < ON).any(axis=0)
+    at_regular = ends.fibre(regular)
+    each = [find_vanishing(at_regular, g) for g, may in zip(nonzero, small, strict=True) if may]
+    for k, i in enumerate(regular):
+        answers = [own[k] for own in each]
+        result[i] = True in answers or None in answers
+        unclear += True not in answers and None in answers
+    singular = np.flatnonzero(result & ~ends.regular)
+    # The least accurate first: what it may stand for, others of its place may as well.
+    doubtful: dict[int, bool] = {}
+    for i in singular[np.argsort(-ends.accuracy[singular], kind="stable")].tolist():
+        twin = _twin(ends, i, doubtful, real=not len(rows))
+        known = doubtful.get(twin) if twin is not None else None
+        if known is None:
+            known = _beside(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
+        doubtful[i] = known
+    return result, unclear + sum(doubtful.values())
+
+
+def _twin(ends: PathEnds, i: int, others: Iterable[int], real: bool) -> int | None:
+    """The end among ``others`` that an end is as well, or whose conjugate, as far as is known.
+
+    Several paths end at a singular zero. Equations are real, and what is true of a zero of theirs
+    alone is of its conjugate as well: so with ``real``, where no slice passes through it.
+    """
+    z = ends.points[i]
+    for j in others:
+        error = max(ends.accuracy[j], ROUNDED) * (1 + np.linalg.norm(z))
+        for same in (z, z.conj()) if real else (z,):
+            if np.linalg.norm(ends.points[j] - same) <= error:
+                return j
+    return None
+
+
+def _beside(
+    nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, z: np.ndarray, accuracy: float
+) -> bool:
+    """Whether an isolated zero that ``z`` may be lies beside what is excluded, and not on it.
+
+    Ill-conditioned zeros pass for singular ones, and may be so close to it that doubles can neither
+    tell them from it nor hold a cut that makes them regular.
+    """
+    slices, rng = padded(rows, 1 + len(z)), np.random.default_rng(0)
+    zeros = possible_zeros(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices, True)
+    return not all(any(vanishes_at(zero, g) for g in nonzero) for zero in zeros)

@@ -121,7 +121,7 @@ class Factor:
         return Fibre(Cut(self.n, aux, tuple(f for f in left if f)), rows, points, fine)
 
 
-def on_flag(
+def move_to_flag(
     fibres: list[Fibre], flag: np.ndarray, rng: np.random.Generator, run: Run
 ) -> tuple[list[Fibre] | None, PathCounts]:
     """Fibres carried to the leading rows of a generic flag; None if a path fails."""

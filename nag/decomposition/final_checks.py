@@ -18,7 +18,7 @@ from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, CLOSE_AFAR, close_pairs, follow_slice
 from nag.witness.confirm import is_confirmed, zero_in_digits
 from nag.witness.cutting import Equations
-from nag.witness.exact_points import Sharp, framed, in_order, sharpened
+from nag.witness.exact_points import Sharp, carry_radii, order_points, sharpen_fibre
 from nag.witness.fibres import Fibre, move
 from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity
@@ -30,7 +30,7 @@ from nag.witness.witness import Decomposition, PathCounts, Slice, Status, Witnes
 MOST_MULTIDEGREES = 100
 
 
-def judged(
+def judge_components(
     system: PolynomialSystem,
     components: Sequence[WitnessSet],
     paths: PathCounts,
@@ -127,7 +127,7 @@ class _Part:
         asked = np.zeros(1 + max(self.own.max(initial=-1), max(indices, default=-1)), dtype=bool)
         asked[np.asarray(indices, dtype=int)] = True
         places = np.flatnonzero(asked[self.own])
-        places = places[in_order(self.sharp.fibre.points[places])]
+        places = places[order_points(self.sharp.fibre.points[places])]
         return _Part(
             self.own[places],
             self.sharp.only(places),
@@ -172,7 +172,7 @@ class Examined:
             near = reduction.natural.without_scales.points(far)
             points = points.with_digits([*close_pairs(near), *close_pairs(far, close)])
         by_cuts = points.fibres(np.concatenate([each.indices for each in classes]))
-        inner = [sharpened(fibre, points.exact.only(own)) for fibre, own in by_cuts]
+        inner = [sharpen_fibre(fibre, points.exact.only(own)) for fibre, own in by_cuts]
         lifted = [_lifted(sharp.fibre, cut.rows, reduction) for sharp in inner]
         if not frame.is_plain:
             lifted = with_fine(lifted, close)
@@ -180,9 +180,9 @@ class Examined:
             if not frame.exact:
                 fibre = _on_slice(fibre)
             if not frame.is_plain:
-                there = sharpened(fibre)
+                there = sharpen_fibre(fibre)
             else:
-                there = Sharp(fibre, framed(frame, sharp.fibre.x, sharp.radii), sharp.digits)
+                there = Sharp(fibre, carry_radii(frame, sharp.fibre.x, sharp.radii), sharp.digits)
             coranks = np.array(_coranks(reduction.equations, sharp.fibre, rng))
             residuals = reduction.original.residuals(there.fibre.x).max(axis=1, initial=0.0)
             parts.append(_Part(own, sharp, there, coranks, residuals))
@@ -212,7 +212,7 @@ def _smallest(fibres: Sequence[Fibre]) -> np.ndarray | Sequence[flint.acb]:
     return fibre.x[i] if digits is None else digits.first(fibre.cut.n).centre
 
 
-def checked_witness_set(
+def check_class(
     found: Class,
     examined: Examined,
     rng: np.random.Generator,

@@ -14,15 +14,15 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.assembly import assembled
-from nag.decomposition.final_checks import judged
-from nag.decomposition.orbits import in_orbits
+from nag.decomposition.assembly import assemble_components
+from nag.decomposition.final_checks import judge_components
+from nag.decomposition.orbits import group_into_orbits
 from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import coincident
 from nag.numerics.zero_values import LEAST, ON
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.cutting import Cut, Equations
-from nag.witness.fibres import Fibre, admit, move
+from nag.witness.fibres import Fibre, admit_end, move
 from nag.witness.gauss_newton import polish
 from nag.witness.points import Points
 from nag.witness.slices import random_rows, rows_through, unit_complex
@@ -109,7 +109,7 @@ class CommonSlices:
             rows = rows_through(rng, d, start.x)
             cuts = self.points[d].cuts if d in self.points else ()
             fibres = [Fibre(c, rows, np.zeros((0, c.n + c.aux), dtype=complex)) for c in cuts]
-            if admit(start.x, start.accuracy, fibres, self.equations, rows, rng, start.deflate):
+            if admit_end(start.x, start.accuracy, fibres, self.equations, rows, rng, start.deflate):
                 (fibre,) = (f for f in fibres if len(f))
                 return fibre
         return None
@@ -160,19 +160,21 @@ def components_through_points(
     rng = run.random(11)
     reduction = Reduction.of(system, scaled=True)
     slices, counts, notes = _on_common_slices(starts, reduction, rng, run)
-    found = assembled(slices.points, reduction, rng, run)
+    found = assemble_components(slices.points, reduction, rng, run)
     counts += found.counts
     components: list[WitnessSet] = []
     for piece in found.pieces:
         component, d = piece.component, piece.component.dimension
         if component.status is Status.IRREDUCIBLE and symmetries:
             try:
-                (component,), spent = in_orbits(system, [component], symmetries, run=run)
+                (component,), spent = group_into_orbits(system, [component], symmetries, run=run)
                 counts += spent
             except ValueError:
                 notes.append(f"the orbit of a component of dimension {d} is not known")
         components.append(component)
-    return judged(system, components, counts, run.settings, (*notes, *found.notes), seed=run.seed)
+    return judge_components(
+        system, components, counts, run.settings, (*notes, *found.notes), seed=run.seed
+    )
 
 
 def _on_common_slices(

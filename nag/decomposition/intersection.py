@@ -13,9 +13,9 @@ import numpy as np
 
 from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.assembly import Known, assembled
-from nag.decomposition.diagonal import intersected
-from nag.decomposition.factor import NOT_MOVED, Factor, IntersectionError, on_flag
+from nag.decomposition.assembly import Known, assemble_components
+from nag.decomposition.diagonal import meet_on_diagonal
+from nag.decomposition.factor import NOT_MOVED, Factor, IntersectionError, move_to_flag
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import (
     Ambient,
@@ -30,7 +30,7 @@ from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import Equations
-from nag.witness.fibres import Fibre, admit
+from nag.witness.fibres import Fibre, admit_end
 from nag.witness.given_component import check_component, check_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.points import Points
@@ -108,7 +108,7 @@ def intersect_factors(first: Factor, second: Factor, *, run: Run) -> Decompositi
         nothing = _intersection(common, {}, PathCounts(), (), rng, run)
         return _carry_back(nothing, (), whole, natural, run)
     first, second = first.carry(natural), second.carry(natural)
-    found = intersected(first, second, common, rng, run)
+    found = meet_on_diagonal(first, second, common, rng, run)
     points = {d: Points.of(fibres) for d, fibres in found.fibres.items() if fibres}
     result = _intersection(common, points, found.counts, found.notes, rng, run)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
@@ -176,7 +176,7 @@ def intersect_equations(
     common = Reduction.of(natural.system(whole))
 
     rng = run.random(6)
-    superset = _met(factor, natural.system(equations), rng, run)
+    superset = _meet_equations(factor, natural.system(equations), rng, run)
     notes = list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
@@ -193,7 +193,7 @@ def intersect_equations(
     return _carry_back(answer, answer.components, whole, natural, run)
 
 
-def _met(
+def _meet_equations(
     factor: Factor, equations: PolynomialSystem, rng: np.random.Generator, run: Run
 ) -> Superset:
     """Witness points of all dimensions where a component meets equations, in its coordinates."""
@@ -201,7 +201,7 @@ def _met(
     further = [f for f in dict.fromkeys(further) if f]
     further = [further[i] for i in intersection_order(further)]
     flag = random_rows(rng, factor.n, factor.n)
-    start, spent = on_flag(factor.fibres(rng), flag, rng, run)
+    start, spent = move_to_flag(factor.fibres(rng), flag, rng, run)
     if start is None:
         return Superset({}, spent, (NOT_MOVED,))
     reduced, d = factor.reduction.reduced, factor.component.dimension
@@ -252,7 +252,7 @@ def _intersection(
     run: Run,
 ) -> Decomposition:
     """The points of all dimensions, split into irreducible components."""
-    found = assembled(points, reduction, rng, run, Known(scheme=False))
+    found = assemble_components(points, reduction, rng, run, Known(scheme=False))
     return Decomposition(
         system=reduction.system,
         components=found.components,
@@ -291,7 +291,7 @@ def _with_cuts(
     fibres: list[Fibre] = []
     lost = 0
     for x in points:
-        if admit(x, LEAST, fibres, equations, rows, rng, deflate=False):
+        if admit_end(x, LEAST, fibres, equations, rows, rng, deflate=False):
             continue
-        lost += not admit(x, LEAST, fibres, equations, rows, rng, deflate=True)
+        lost += not admit_end(x, LEAST, fibres, equations, rows, rng, deflate=True)
     return fibres, lost

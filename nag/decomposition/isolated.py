@@ -19,9 +19,9 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import Completeness, most_zeros
-from nag.decomposition.final_checks import judged
+from nag.decomposition.final_checks import judge_components
 from nag.decomposition.method import Task
-from nag.decomposition.orbits import in_orbits
+from nag.decomposition.orbits import group_into_orbits
 from nag.errors import StartError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import coincident
@@ -69,14 +69,14 @@ def is_finite(
     spent = PathCounts(found.paths.tracked, 0, found.paths.at_infinity)
     last = system.polynomials[hardest]
     near = Evaluator.of([last], n).residuals(found.points)[:, 0] <= NONZERO
-    met = any(_met(cut, last, x) for x in found.points[near])
+    met = any(_meets_last(cut, last, x) for x in found.points[near])
     if found.complete and not found.perhaps_infinite and not met:
         return True, spent
     # What paths leave open may be proved.
     return not met and most_zeros(system.polynomials) is not None, spent
 
 
-def _met(cut: PolynomialSystem, last: Polynomial, x: np.ndarray) -> bool:
+def _meets_last(cut: PolynomialSystem, last: Polynomial, x: np.ndarray) -> bool:
     """Whether the last equation vanishes, or may do so, at a zero of the others on the plane."""
     *others, plane = cut.polynomials
     row = np.array([[float(plane.terms.get(e, 0)) for e in _linear(cut.n)]])
@@ -117,7 +117,7 @@ def solve_at_once(task: Task, finite: bool = False) -> Decomposition | None:
         return None
     components = _components(found, system, task.symmetries)
     paths = PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity)
-    return judged(system, components, paths, task.run.settings, seed=task.run.seed)
+    return judge_components(system, components, paths, task.run.settings, seed=task.run.seed)
 
 
 def solve_for_points(answer: Decomposition, task: Task) -> Decomposition | None:
@@ -142,7 +142,7 @@ def solve_for_points(answer: Decomposition, task: Task) -> Decomposition | None:
         complete=True,
         notes=(),
     )
-    return whole if contains(whole, _only_points(answer)) else None
+    return whole if contains_points(whole, _only_points(answer)) else None
 
 
 def _only_points(answer: Decomposition) -> Decomposition:
@@ -183,7 +183,7 @@ def _components(
 ) -> list[WitnessSet]:
     evaluator = Evaluator.of(system.polynomials, system.n)
     points = [_component(s, evaluator, system) for s in found.solutions]
-    return in_orbits(system, points, symmetries)[0] if symmetries else points
+    return group_into_orbits(system, points, symmetries)[0] if symmetries else points
 
 
 def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSystem) -> WitnessSet:
@@ -204,7 +204,7 @@ def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSyste
     )
 
 
-def contains(answer: Decomposition, other: Decomposition) -> bool:
+def contains_points(answer: Decomposition, other: Decomposition) -> bool:
     """Whether all points that ``other`` is sure of are points of ``answer`` as well."""
     points = np.vstack([c.points for c in answer.components] or [np.zeros((0, answer.system.n))])
     error = max((c.accuracy for c in answer.components), default=0.0)

@@ -28,7 +28,7 @@ NOTHING: Mapping[int, Fine] = MappingProxyType({})
 
 
 @dataclass(frozen=True, eq=False)
-class Looped:
+class LoopEnds:
     """Where a loop led.
 
     Attributes:
@@ -42,12 +42,12 @@ class Looped:
     places: np.ndarray | None
 
 
-def located(ends: Points, points: Points) -> np.ndarray | None:
+def locate_ends(ends: Points, points: Points) -> np.ndarray | None:
     """Indices of the ``points`` that ``ends`` are, -1 for none; None if that is not clear."""
-    return places_among(ends.x, points.x, ends.fine, points.fine)
+    return locate_points(ends.x, points.x, ends.fine, points.fine)
 
 
-def places_among(
+def locate_points(
     ends: np.ndarray,
     points: np.ndarray,
     fine_ends: Mapping[int, Fine] = NOTHING,
@@ -123,13 +123,13 @@ def _of_all(ends: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarra
     return nearest, closest, distances.min(axis=1)
 
 
-def loop(
+def run_loop(
     points: Points,
     start: Sequence[int],
     rng: np.random.Generator,
     run: Run,
     scaled: bool = False,
-) -> tuple[Looped, PathCounts]:
+) -> tuple[LoopEnds, PathCounts]:
     """Carry some points round a random loop of slices.
 
     Args:
@@ -145,10 +145,10 @@ def loop(
     out, back = (complex(g) for g in unit_complex(rng, 2))
     half, origins, counts = move_points(points, start, middle, out, run)
     again, order, spent = move_points(half, range(len(half)), points.rows, back, run)
-    places = located(again, points)
+    places = locate_ends(again, points)
     if places is not None and not ends_are_distinct(again, places):
         places = None
-    return Looped(origins[order], again, places), counts + spent
+    return LoopEnds(origins[order], again, places), counts + spent
 
 
 def ends_are_distinct(ends: Points, places: np.ndarray) -> bool:
@@ -162,7 +162,7 @@ def ends_are_distinct(ends: Points, places: np.ndarray) -> bool:
         return False
     for k in range(1, len(new)):
         earlier, last = ends.only(new[:k]), ends.only(new[k : k + 1])
-        among = located(last, earlier)
+        among = locate_ends(last, earlier)
         if among is None or (among >= 0).any():
             return False
     return True

@@ -23,10 +23,15 @@ import numpy as np
 from nag.algebra.exact_ranks import null_space
 from nag.algebra.factoring import factored, most_absolute_factors
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.final_checks import MOST_MULTIDEGREES, Examined, checked_witness_set, judged
+from nag.decomposition.final_checks import (
+    MOST_MULTIDEGREES,
+    Examined,
+    check_class,
+    judge_components,
+)
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.method import Task
-from nag.decomposition.orbits import in_orbits
+from nag.decomposition.orbits import group_into_orbits
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.roots import BITS, line, points_in_balls, zeros_on
 from nag.decomposition.splitting import Class
@@ -78,13 +83,13 @@ def decompose_one_equation(task: Task) -> Decomposition | None:
     moving = [g for g in task.symmetries if not g.is_identity]
     if moving and total > 1:
         try:
-            components, counts = in_orbits(task.system, components, moving, run=run)
+            components, counts = group_into_orbits(task.system, components, moving, run=run)
         except SliceError:
             return None
         # An image is one of the factors, so that there are no more.
         if sum(c.orbit for c in components) != total:
             return None
-    answer = judged(task.system, components, counts, str(run.settings), order=(0,))
+    answer = judge_components(task.system, components, counts, str(run.settings), order=(0,))
     return replace(answer, seed=run.seed, algebraic=not counts.tracked)
 
 
@@ -109,7 +114,7 @@ def _components(
     whole = [Class(np.array(own)) for own in classes]
     examined = Examined.of(points, whole, plain, rng)
     for own in whole:
-        found, _ = checked_witness_set(own, examined, rng, run, scheme)
+        found, _ = check_class(own, examined, rng, run, scheme)
         if multidegree is not None:
             found = replace(found, multidegree=multidegree // len(classes))
         result.append(found)

@@ -3,7 +3,7 @@
 A symmetry g carries the points on the slice L to points on g(L); moved back to L, they are some of
 the points. One point of each component shows which component that is carried to. Where the points
 on L are all known, classes of them are carried (`irreducible_orbits`); else components, which may
-be carried to others that were not known (`in_orbits`).
+be carried to others that were not known (`group_into_orbits`).
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.monodromy import places_among
-from nag.decomposition.splitting import Class, split
+from nag.decomposition.monodromy import locate_points
+from nag.decomposition.splitting import Class, split_points
 from nag.numerics.coincidence import coincident
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import Frame, image
@@ -101,7 +101,7 @@ def irreducible_orbits(
     Args:
         evidence: digits to which traces must be linear.
     """
-    found = split(points, evidence, rng, run)
+    found = split_points(points, evidence, rng, run)
     firsts = np.unique(found.labels).tolist()
     used, counts, notes = _images_of(found.points, firsts, actions, rng, run)
     counts += found.counts
@@ -176,7 +176,7 @@ def _places(
         there = moved.x
     if len(there) < len(indices):
         return None, counts
-    places = places_among(action(there), points.x)
+    places = locate_points(action(there), points.x)
     if places is None or len(np.unique(places[places >= 0])) < (places >= 0).sum():
         return None, counts
     return places, counts
@@ -224,7 +224,7 @@ def find_orbit(
 
 
 @takes_run
-def in_orbits(
+def group_into_orbits(
     system: PolynomialSystem,
     components: Sequence[WitnessSet],
     symmetries: Sequence[SignedPermutation],

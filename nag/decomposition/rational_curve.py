@@ -13,7 +13,7 @@ import flint
 import numpy as np
 
 from nag.algebra.elimination import eliminate_linear, linear_variables
-from nag.decomposition.final_checks import Examined, checked_witness_set, judged
+from nag.decomposition.final_checks import Examined, check_class, judge_components
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.roots import BITS, ball, points_at_roots, points_in_balls
@@ -66,7 +66,7 @@ def decompose_rational_curve(
     points = points_in_balls(Cut(n, 0, reduced.polynomials), rows, balls)
     whole = Class(np.arange(degree))
     examined = Examined.of(points, [whole], reduction, rng)
-    found, counts = checked_witness_set(whole, examined, rng, run, scheme)
+    found, counts = check_class(whole, examined, rng, run, scheme)
     settings, order = str(run.settings), range(n - 1)
-    answer = judged(reduction.system, [found], counts, settings, order=order)
+    answer = judge_components(reduction.system, [found], counts, settings, order=order)
     return replace(answer, seed=run.seed, algebraic=True)

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from nag.decomposition.assembly import Known, assembled
-from nag.decomposition.final_checks import judged
+from nag.decomposition.assembly import Known, assemble_components
+from nag.decomposition.final_checks import judge_components
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.isolated import (
-    contains,
+    contains_points,
     count_points,
     is_finite,
     solve_at_once,
@@ -79,8 +79,8 @@ def _settle(
     points = {d: Points.of(fibres) for d, fibres in superset.fibres.items() if fibres}
     moving = [g for g in task.symmetries if not g.is_identity]
     known = Known(actions=[Action.of(g, task.reduction.frame) for g in moving], scheme=task.scheme)
-    found = assembled(points, task.reduction, rng, task.run, known)
-    answer = judged(
+    found = assemble_components(points, task.reduction, rng, task.run, known)
+    answer = judge_components(
         task.system,
         found.components,
         superset.counts + found.counts,
@@ -95,7 +95,7 @@ def _settle(
         answer = solve_for_points(answer, task) or answer
     if not answer.complete and answer.dimension <= 0:
         isolated = solve_at_once(task)
-        if isolated is not None and contains(isolated, answer):
+        if isolated is not None and contains_points(isolated, answer):
             answer = replace(isolated, paths=_add_tracked(isolated.paths, answer.paths))
     return replace(answer, seed=task.run.seed, settings=task.run.settings)
 

@@ -294,7 +294,7 @@ def singular_locus(
         search.on_component(i)
     search.of_pairs(chosen)
     rng = run.random(7)
-    sets = _judged_sets(search, rng, run)
+    sets = _judge_candidates(search, rng, run)
     if not natural.is_identity:
         sets = tuple(_carry_back(one, natural, given.system) for one in sets)
     notes = tuple(dict.fromkeys(search.notes))
@@ -346,7 +346,9 @@ def _own_equations(
     return [within_hull(system, c, rng, run) for system, c in found]
 
 
-def _judged_sets(search: _Search, rng: np.random.Generator, run: Run) -> tuple[SingularSet, ...]:
+def _judge_candidates(
+    search: _Search, rng: np.random.Generator, run: Run
+) -> tuple[SingularSet, ...]:
     points: list[SingularSet] = []
     known, errors = np.zeros((0, search.whole.system.n), dtype=complex), np.zeros(0)
     seen: list[_Candidate] = []
@@ -357,7 +359,7 @@ def _judged_sets(search: _Search, rng: np.random.Generator, run: Run) -> tuple[S
             same = np.flatnonzero(coincident(known, x, np.maximum(errors, found.error))).tolist()
             if not all(candidate.is_apart_from(seen[i]) for i in same):
                 continue
-        judged = _judged(search, candidate, rng, run)
+        judged = _judge_candidate(search, candidate, rng, run)
         if judged is None:
             continue
         if found.dimension == 0:
@@ -373,7 +375,7 @@ def _judged_sets(search: _Search, rng: np.random.Generator, run: Run) -> tuple[S
     return (*sets, *points)
 
 
-def _judged(
+def _judge_candidate(
     search: _Search, candidate: _Candidate, rng: np.random.Generator, run: Run
 ) -> SingularSet | None:
     """What a candidate is; None if the components are smooth there and do not meet."""

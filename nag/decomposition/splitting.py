@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from nag.decomposition.monodromy import loop
+from nag.decomposition.monodromy import run_loop
 from nag.decomposition.power_sums import PowerSums
 from nag.decomposition.trace import Trace
 from nag.tracking.run import Run
@@ -106,10 +106,10 @@ class _State:
     def labels(self, without: int = -1) -> np.ndarray:
         """Labels of the classes that loops join, perhaps without one of them."""
         pairs = [each for k, each in enumerate(self.loops) if k != without]
-        return joined_labels(len(self.points), pairs)
+        return join_labels(len(self.points), pairs)
 
 
-def split(points: Points, evidence: int, rng: np.random.Generator, run: Run) -> Split:
+def split_points(points: Points, evidence: int, rng: np.random.Generator, run: Run) -> Split:
     """Split points on a generic slice into irreducible components.
 
     Args:
@@ -122,7 +122,7 @@ def split(points: Points, evidence: int, rng: np.random.Generator, run: Run) -> 
     state = _State(points, rng, Trace.of(points, evidence, rng))
     idle = 0
     for _ in range(MOST_LOOPS):
-        if not _found_components(state, run):
+        if not _find_components(state, run):
             break
         open_points = state.open_points()
         if not len(open_points) or state.lost:
@@ -130,12 +130,12 @@ def split(points: Points, evidence: int, rng: np.random.Generator, run: Run) -> 
         idle = 0 if _run_loop(state, open_points, run, idle >= IDLE_LOOPS) else idle + 1
     known = state.points if state.trace is None else state.trace.sharper(state.points)
     pairs = [*state.loops, *(np.column_stack([np.full(len(w), w[0]), w]) for w in state.whole)]
-    labels = joined_labels(len(known), pairs)
+    labels = join_labels(len(known), pairs)
     classes = tuple(_classes(state, labels))
     return Split(known, labels, classes, state.counts, state.discarded)
 
 
-def joined_labels(total: int, pairs: Sequence[np.ndarray]) -> np.ndarray:
+def join_labels(total: int, pairs: Sequence[np.ndarray]) -> np.ndarray:
     """For each of ``total`` points the smallest one of its class, shape ``(total,)``.
 
     Args:
@@ -160,7 +160,7 @@ def _by_label(labels: np.ndarray, among: np.ndarray) -> list[np.ndarray]:
     return np.split(order, np.flatnonzero(np.diff(labels[order])) + 1) if len(order) else []
 
 
-def _found_components(state: _State, run: Run) -> bool:
+def _find_components(state: _State, run: Run) -> bool:
     """Find components among open points, as far as traces and loops tell; False if a path fails."""
     while True:
         open_points = state.open_points()
@@ -174,13 +174,13 @@ def _found_components(state: _State, run: Run) -> bool:
         if found is not None:
             state.whole += found
             break
-        if not _took_back(state, classes):
+        if not _take_back_loops(state, classes):
             break
-    _doubt(state)
+    _doubt_components(state)
     return True
 
 
-def _took_back(state: _State, classes: Sequence[np.ndarray]) -> bool:
+def _take_back_loops(state: _State, classes: Sequence[np.ndarray]) -> bool:
     """Confirm unions of classes of loops; whether loops turned out to be wrong, and are gone."""
     unions = None if state.growing else _smallest_unions(state, classes)
     if unions is None:
@@ -189,7 +189,7 @@ def _took_back(state: _State, classes: Sequence[np.ndarray]) -> bool:
         parts = _parts(state, union)
         if parts is not None and len(parts) == 1:
             state.whole.append(union)
-        elif parts is not None and _discarded(state, parts):
+        elif parts is not None and _discard_loops(state, parts):
             return True
     return False
 
@@ -260,7 +260,7 @@ def _is_linear(state: _State, indices: np.ndarray) -> bool | None:
     return state.tested[key]
 
 
-def _discarded(state: _State, parts: Sequence[np.ndarray]) -> bool:
+def _discard_loops(state: _State, parts: Sequence[np.ndarray]) -> bool:
     """Discard loops that join points of different sets; whether there were any."""
     part = np.full(len(state.points), -1)
     for k, own in enumerate(parts):
@@ -277,7 +277,7 @@ def _joins_parts(first: np.ndarray, second: np.ndarray) -> bool:
     return bool(((first != second) & (first >= 0) & (second >= 0)).any())
 
 
-def _doubt(state: _State) -> None:
+def _doubt_components(state: _State) -> None:
     """Open components again that only seemed to be linear, where the other points are not together.
 
     All points of a set together have a linear trace; what others bend, these bend as well.
@@ -296,7 +296,7 @@ def _doubt(state: _State) -> None:
 
 def _run_loop(state: _State, open_points: np.ndarray, run: Run, scaled: bool) -> bool:
     """Track a random loop from open points; whether it joined some or found any."""
-    found, spent = loop(state.points, open_points, state.rng, run, scaled)
+    found, spent = run_loop(state.points, open_points, state.rng, run, scaled)
     state.counts += spent
     new = None if found.places is None else found.places < 0
     if new is None or not np.isin(found.places[~new], open_points).all():

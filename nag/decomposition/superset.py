@@ -18,10 +18,10 @@ from nag.decomposition.hypersurface import HypersurfaceSection, hypersurface_sec
 from nag.numerics.coincidence import SAFETY, coincident
 from nag.numerics.zero_values import ON, vanishes_at
 from nag.tracking.run import Run
-from nag.witness.close_to_sets import Meant, among, meant
+from nag.witness.close_to_sets import NearbyZeros, find_nearby_zeros, is_among_points
 from nag.witness.cutting import Cut, Equations, dyadic, leading_power
 from nag.witness.cutting_in_digits import admit_zero, is_alone
-from nag.witness.fibres import Fibre, admit
+from nag.witness.fibres import Fibre, admit_end
 from nag.witness.membership import Membership, is_on_larger_set
 from nag.witness.witness import PathCounts
 
@@ -169,11 +169,11 @@ class _Stage:
         rows: np.ndarray,
         patience: float = 1.0,
         whole: bool = False,
-    ) -> tuple[list[str], Meant]:
+    ) -> tuple[list[str], NearbyZeros]:
         """Add the isolated zeros that ends in doubles may stand for; doubts, and what was found."""
-        notes, found = [], meant(cluster, so_far, rows, self.rng, patience, whole)
+        notes, found = [], find_nearby_zeros(cluster, so_far, rows, self.rng, patience, whole)
         for zero in found.zeros:
-            known = among(zero, own)
+            known = is_among_points(zero, own)
             if known or any(vanishes_at(zero, g) for g in self.avoid):
                 continue
             if known is None or not admit_zero(zero, own, so_far, rows, self.rng):
@@ -191,10 +191,10 @@ class _Stage:
         """Add what singular ends stand for, unless larger sets hold them; what is in doubt."""
         (x, accuracy), d, rng = cluster[0], len(rows), self.rng
         simple = list(kept[d])
-        if admit(x, accuracy, simple, so_far, rows, rng, deflate=False):
+        if admit_end(x, accuracy, simple, so_far, rows, rng, deflate=False):
             # Ends that seemed to be one may be simple zeros close together.
             for other, error in cluster[1:]:
-                admit(other, error, simple, so_far, rows, rng, deflate=False)
+                admit_end(other, error, simple, so_far, rows, rng, deflate=False)
             if not are_new_alone(kept[d], simple, so_far):
                 doubts, found = self.beside(cluster, so_far, kept[d], rows)
                 if found.decided and found.zeros and not doubts:
@@ -214,7 +214,7 @@ class _Stage:
                     doubts.append(f"a point of dimension {d} could not be told from a larger set")
                 return doubts, counts
         holding = self.holding(so_far, x, accuracy)
-        if answer is Membership.FOREIGN and admit(
+        if answer is Membership.FOREIGN and admit_end(
             x, accuracy, kept[d], holding, rows, rng, deflate=False
         ):
             return [], counts
@@ -224,7 +224,7 @@ class _Stage:
             return [f"a point of dimension {d} could not be told from a larger set"], counts
         own = list(kept[d])
         admitted = any(
-            admit(x, accuracy, own, each, rows, rng, deflate=True)
+            admit_end(x, accuracy, own, each, rows, rng, deflate=True)
             for each in dict.fromkeys((holding, so_far))
         )
         if admitted and are_new_alone(kept[d], own, so_far):
@@ -305,7 +305,7 @@ def are_new_alone(before: Sequence[Fibre], after: Sequence[Fibre], so_far: Equat
     )
 
 
-def _not_all_found(cluster: Cluster, found: Meant, so_far: Equations, d: int) -> list[str]:
+def _not_all_found(cluster: Cluster, found: NearbyZeros, so_far: Equations, d: int) -> list[str]:
     """A doubt where fewer zeros were found, with multiplicities, than paths ended there.
 
     Further equations than cut a set may make it less multiple than the paths show.

@@ -87,7 +87,7 @@ def sweep(
         system = system_at(value)
         starts, paths, why = [], 0, reason
         if general is not None:
-            starts, paths, why = _followed(general, system, value, run)
+            starts, paths, why = _follow_components(general, system, value, run)
         if not why:
             answer = components_through_points(system, starts, run=run)
             paths += answer.paths.tracked
@@ -164,7 +164,7 @@ def _cut_family(
     return Family(system.variables, ("parameter",), tuple(equations))
 
 
-def _followed(
+def _follow_components(
     general: _General, system: PolynomialSystem, value: Fraction, run: Run
 ) -> tuple[list[tuple[int, np.ndarray]], int, str]:
     """The components' points at a value; the number of paths; why it is special, if it is."""

@@ -44,7 +44,7 @@ def through_points(
         at = np.array([complex(float(x)) for x in point])
         known: dict[str, Any] = {"exact": point}
         if not all(is_zero(value) for value in decomposition.system(point)):
-            from nag.witness.at_prompt import rounded_error
+            from nag.witness.membership import rounded_error
 
             known = {"accuracy": rounded_error(decomposition.system, at)}
             if known["accuracy"] is None:
@@ -97,7 +97,7 @@ def _is_on_the_only_one(decomposition: Decomposition, point: Sequence[Number]) -
     )
 
 
-def accounted(decomposition: Decomposition, points: Sequence[Through]) -> Decomposition:
+def note_doubts(decomposition: Decomposition, points: Sequence[Through]) -> Decomposition:
     """The decomposition, incomplete if it leaves doubt about one of ``points``."""
     doubts = tuple(f"{point.name}: {point.doubt}" for point in points if point.doubt)
     if not doubts:

@@ -19,7 +19,7 @@ from nag.decomposition.zero_sums import smallest_zero_sums
 from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
-from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
+from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, join_points
 from nag.witness.fibres import Fibre, join_fibres, move
 from nag.witness.points import Points
 from nag.witness.slices import padded, unit_complex
@@ -149,7 +149,7 @@ class Trace:
         """The points with the digits that were found, if all of them were carried."""
         if not len(points) or set(self.exact) != set(range(len(points))):
             return points
-        return replace(points, known=together([self.exact[i] for i in range(len(points))]))
+        return replace(points, known=join_points([self.exact[i] for i in range(len(points))]))
 
     def linear(self, points: Points, indices: Sequence[int]) -> tuple[bool | None, Trace]:
         """Whether the trace of points that were carried is linear; None if digits do not say.

@@ -21,7 +21,7 @@ from nag.interpolation.vanishing import DIGITS, InterpolationError
 from nag.numerics.digits import bits_of, in_bits
 from nag.numerics.rational_relations import TooFewDigitsError, recognised
 from nag.tracking.run import Run
-from nag.witness.moving import arrival
+from nag.witness.moving import move_and_sharpen
 from nag.witness.projection import SHARP
 from nag.witness.slices import random_rows
 
@@ -85,7 +85,7 @@ class RationalSlice:
         target[:r, [0, *(1 + i for i in self.coordinates)]] = self.rows
         sizes = source.fibres[0].sizes
         target[r:] = random_rows(rng, source.dimension - r, n) / sizes
-        there = arrival(source.fibres, target, rng, run)
+        there = move_and_sharpen(source.fibres, target, rng, run)
         if there.irregular or not there.accuracy < SHARP:
             raise SourceError("a path to a rational slice failed")
         found = []

@@ -1,6 +1,6 @@
 """Witness sets and what is done with one of them.
 
-Read in this order: `witness` (the data; `at_prompt` and `shown` for users), `slices`, `cutting`
+Read in this order: `witness` (the data; `shown` for users), `slices`, `cutting`
 (the local equations that cut a set at its points) on `isosingular` (deflation), `fibres` and
 `points` (points on a slice, tracked to another in coordinates of comparable sizes),
 `component_equations` (held, or found anew), `exact_points` (found in as many digits as are asked

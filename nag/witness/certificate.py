@@ -150,7 +150,7 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
         for points, cut in counted:
             key = component.dimension, _signature(equations, points)
             on_slice = apart.setdefault(key, {}).setdefault(cut.rows.tobytes(), [])
-            on_slice.append(_allowed(system, points, cut))
+            on_slice.append(_without_excluded(system, points, cut))
     bounds = dict.fromkeys((c.dimension for c in decomposition.components), 0)
     for (dimension, signature), slices in apart.items():
         if signature is not None:
@@ -203,15 +203,15 @@ def _certify_component(
     points = certify_witness_points(system, component)
     same, unknown = find_overlaps(points.boxes)
     bare = replace(component, fibres=())
-    there = [_moved(system, bare, target, points)]
+    there = [_certify_moved(system, bare, target, points)]
     for symmetry in component.images:
-        there.append(_moved(system, image(bare, symmetry), target))
+        there.append(_certify_moved(system, image(bare, symmetry), target))
     return ComponentCertificate(
         component, points, not (same or unknown), there[0], tuple(there[1:])
     )
 
 
-def _moved(
+def _certify_moved(
     system: PolynomialSystem,
     component: WitnessSet,
     target: Slice,
@@ -233,7 +233,9 @@ def _moved(
     return certify_witness_points(system, there)
 
 
-def _allowed(system: PolynomialSystem, points: CertifiedPoints, cut: Slice) -> CertifiedPoints:
+def _without_excluded(
+    system: PolynomialSystem, points: CertifiedPoints, cut: Slice
+) -> CertifiedPoints:
     """The points, those unproved where something may vanish that must not."""
     if not system.nonzero:
         return points

@@ -79,7 +79,7 @@ def prove_monodromy(
         places, spent = _loop(fibres, component.slice.rows, middle, turns)
         steps += spent
         permutations.append(places)
-        orbits = _joined(orbits, places)
+        orbits = _join_orbits(orbits, places)
     return ProvedMonodromy(tuple(permutations), orbits, steps, zeros)
 
 
@@ -96,7 +96,7 @@ def prove_all(decomposition: Decomposition, seed: int = 0) -> tuple[ProvedMonodr
     return tuple(found)
 
 
-def _joined(orbits: np.ndarray, places: np.ndarray) -> np.ndarray:
+def _join_orbits(orbits: np.ndarray, places: np.ndarray) -> np.ndarray:
     """Orbits under one more partial permutation."""
     orbits = orbits.copy()
     for i in np.flatnonzero(places >= 0).tolist():
@@ -115,9 +115,9 @@ def _loop(
         back = moving_slice(fibre, middle, rows, turns[1])
         starts = located(out, fibre.points.astype(complex), 1.0, NEAR)
         there = certified_paths(out, starts)
-        half = _arrived(there.ends, there.reached)
+        half = _keep_arrived(there.ends, there.reached)
         again = certified_paths(back, half)
-        ends = _arrived(again.ends, again.reached)
+        ends = _keep_arrived(again.ends, again.reached)
         # Points of another fibre may be zeros of this one's equations as well.
         known, begin = starts, first
         if not fibre.cut.aux:
@@ -131,7 +131,7 @@ def _loop(
     return np.array(places, dtype=int), steps
 
 
-def _arrived(ends: Located, reached: np.ndarray) -> Located:
+def _keep_arrived(ends: Located, reached: np.ndarray) -> Located:
     """The ends of the paths that got to t = 0."""
     outer = np.where(reached[:, None] == 0, ends.outer, -1.0)
     return Located(ends.centres, ends.inner, outer)

@@ -31,7 +31,7 @@ from nag.witness.close_points import (
     in_words,
 )
 from nag.witness.cutting import Cut
-from nag.witness.exact_points import EPS, sharpened
+from nag.witness.exact_points import EPS, sharpen_fibre
 from nag.witness.fibres import Fibre
 from nag.witness.points import Points, with_fine
 from nag.witness.slices import to_slice
@@ -71,7 +71,7 @@ def carry_component(
     digits = component.digits
     fibres = carry_fibres(component.fibres, natural, rows, back)
     if not natural.is_exact_in_doubles and fibres:
-        sharp = [sharpened(fibre) for fibre in fibres]
+        sharp = [sharpen_fibre(fibre) for fibre in fibres]
         known = np.vstack([each.radii for each in sharp])
         good = np.isfinite(known).all(axis=1)
         fibres = [each.fibre for each in sharp]

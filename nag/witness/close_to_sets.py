@@ -31,7 +31,7 @@ REACH = 10.0
 
 
 @dataclass(frozen=True, eq=False)
-class Meant:
+class NearbyZeros:
     """What ends may stand for: isolated zeros, each once, and whether that is known of all ends.
 
     ``located``: whether at least the exact zero is known that each end leads to.
@@ -42,14 +42,14 @@ class Meant:
     located: bool
 
 
-def meant(
+def find_nearby_zeros(
     ends: Iterable[tuple[np.ndarray, float]],
     equations: Equations,
     rows: np.ndarray,
     rng: np.random.Generator,
     patience: float = 1.0,
     whole: bool = False,
-) -> Meant:
+) -> NearbyZeros:
     """The isolated zeros on the slice ``rows`` that ends may stand for; others lie on larger sets.
 
     Args:
@@ -78,10 +78,10 @@ def meant(
             if zero.precise is not None and not any(are_same(zero.precise, z) for z in met):
                 zeros.append(zero)
                 met.append(zero.precise)
-    return Meant(tuple(zeros), decided, located)
+    return NearbyZeros(tuple(zeros), decided, located)
 
 
-def among(zero: SingularEnd, fibres: Sequence[Fibre]) -> bool | None:
+def is_among_points(zero: SingularEnd, fibres: Sequence[Fibre]) -> bool | None:
     """Whether a zero is one of the points of fibres, in digits; None if left open."""
     unknown, here = False, zero.precise
     if here is None:

@@ -19,10 +19,10 @@ from nag.numerics.digits import bits_of, in_bits, middle
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import is_negligible, vanish
 from nag.witness.close_points import CLOSE, Fine, in_words, rated
-from nag.witness.close_to_sets import meant
+from nag.witness.close_to_sets import find_nearby_zeros
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import MOST_DEFLATIONS, Cut, Equations, dyadic
-from nag.witness.fibres import Fibre, admit
+from nag.witness.fibres import Fibre, admit_end
 from nag.witness.isosingular import Deflated
 from nag.witness.slices import padded
 
@@ -54,9 +54,9 @@ def cut_fibres(
     # Null vectors are read best at a small point, and serve the others as well.
     for i in np.argsort(np.linalg.norm(points, axis=1), kind="stable"):
         x = points[i]
-        if admit(x, accuracy, fibres, equations, rows, rng, deflate):
+        if admit_end(x, accuracy, fibres, equations, rows, rng, deflate):
             continue
-        zeros = meant([(x, accuracy)], equations, rows, rng, whole=True).zeros
+        zeros = find_nearby_zeros([(x, accuracy)], equations, rows, rng, whole=True).zeros
         if len(zeros) != 1 or (zeros[0].multiplicity != 1) != deflate:
             return None
         if not admit_zero(zeros[0], fibres, equations, rows, rng):
@@ -74,7 +74,7 @@ def admit_zero(
     """Put an isolated zero on ``rows`` into the fibre whose cut makes it regular.
 
     A cut is found if there is none: some of the equations, of a deflation if the zero is multiple.
-    As `nag.witness.fibres.admit`, for zeros that doubles need not tell from others.
+    As `nag.witness.fibres.admit_end`, for zeros that doubles need not tell from others.
     """
     if zero.precise is None:
         return False

@@ -73,7 +73,7 @@ class ExactPoints:
         )
 
 
-def together(parts: Sequence[ExactPoints]) -> ExactPoints:
+def join_points(parts: Sequence[ExactPoints]) -> ExactPoints:
     """Points of the same unit, one part after the other."""
     values, radii, balls = (
         np.concatenate([getattr(part, name) for part in parts])
@@ -237,7 +237,7 @@ class Sharp:
         return Sharp(fibre, self.radii[places], self.digits[places])
 
 
-def sharpened(fibre: Fibre, known: ExactPoints | None = None) -> Sharp:
+def sharpen_fibre(fibre: Fibre, known: ExactPoints | None = None) -> Sharp:
     """The regular points of a fibre, to rounding.
 
     Args:
@@ -303,7 +303,7 @@ def _close_in_digits(component: WitnessSet, index: int) -> PrecisePoint | None:
     return None
 
 
-def in_order(points: np.ndarray) -> np.ndarray:
+def order_points(points: np.ndarray) -> np.ndarray:
     """Places of points, shape ``(P, n)``, in an order that does not depend on their own."""
     if not points.shape[1]:
         return np.arange(len(points))
@@ -346,7 +346,7 @@ def _rounded(exact: ExactPoints, i: int) -> np.ndarray:
     return parts[:n] + 1j * parts[n:]
 
 
-def framed(frame: Frame, y: np.ndarray, radii: np.ndarray) -> np.ndarray:
+def carry_radii(frame: Frame, y: np.ndarray, radii: np.ndarray) -> np.ndarray:
     """Radii of the points that a frame makes of ``y``: those of ``y``, and what rounding adds."""
     terms = 4 + np.count_nonzero(frame.T, axis=1)
     rounding = EPS * (np.abs(y) @ np.abs(frame.T).T + np.abs(frame.t))

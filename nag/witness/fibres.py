@@ -397,7 +397,7 @@ def move_regular(
     return result, counts
 
 
-def admit(
+def admit_end(
     x: np.ndarray,
     accuracy: float,
     fibres: list[Fibre],

@@ -6,13 +6,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
+from typing import Any
 
 import flint
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.from_python import coordinates
 from nag.algebra.given import check_error
-from nag.algebra.number import Number, is_zero
+from nag.algebra.number import Irrational, Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
@@ -38,6 +40,10 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 SPREAD = 10.0
 # Digits in which exact points are compared with zeros that are known to 100.
 EXACTLY = 150
+# A point that satisfies the equations so well, relative to their terms, is taken for a rounded one.
+ROUNDED = 1e-9
+# Relative error of an exact point that is rounded to doubles, and least one of others.
+EXACT, INEXACT = 1e-15, 1e-12
 
 
 class Membership(Enum):
@@ -558,3 +564,39 @@ def components_through(
     if undecided:
         raise UndecidedError(found, undecided)
     return found
+
+
+def rounded_error(system: PolynomialSystem, at: np.ndarray) -> float | None:
+    """The relative error that a zero known to rounding may have; None if the point is none."""
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    residual = float(evaluator.residuals(at[None]).max(initial=0.0))
+    return max(INEXACT, 10 * residual) if residual < ROUNDED else None
+
+
+def is_on_component(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    point: Any,
+    accuracy: float | None,
+    run: Run,
+) -> bool:
+    """Whether a point lies on a component, see `WitnessSet.contains`."""
+    entries = coordinates(point, system.variables)
+    exact = all(isinstance(e, Fraction | Irrational) for e in entries)
+    at = rounded(entries)
+    if exact:
+        if not all(is_zero(value) for value in system(entries)):
+            return False
+        accuracy = EXACT
+    else:
+        evaluator = Evaluator.of(system.polynomials, system.n)
+        residual = float(evaluator.residuals(at[None]).max(initial=0.0))
+        if residual > max(ROUNDED, accuracy or 0.0):
+            return False
+        accuracy = max(INEXACT, 10 * residual) if accuracy is None else accuracy
+    alone = Decomposition(system, (component,), PathCounts(), 0, "default", (), False)
+    known = entries if exact else ()
+    (answer,) = memberships(alone, at, accuracy=accuracy, exact=known, run=run)
+    if answer is Membership.UNDECIDED:
+        raise UndecidedError([], [0])
+    return answer is Membership.MEMBER

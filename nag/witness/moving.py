@@ -15,7 +15,7 @@ from nag.numerics.zero_values import ON
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
-from nag.witness.exact_points import Sharp, in_order, sharpened
+from nag.witness.exact_points import Sharp, order_points, sharpen_fibre
 from nag.witness.fibres import Fibre, move
 from nag.witness.given_component import check_component
 from nag.witness.slices import to_slice, unit_complex
@@ -81,7 +81,7 @@ class Arrival:
         return float(errors.max(initial=np.finfo(float).eps))
 
 
-def arrival(
+def move_and_sharpen(
     fibres: Sequence[Fibre],
     target: np.ndarray,
     rng: np.random.Generator,
@@ -90,13 +90,13 @@ def arrival(
 ) -> Arrival:
     """What becomes of fibres when their slice moves to ``target``."""
     if not len(target):
-        return Arrival([sharpened(fibre) for fibre in fibres], 0, 0)
+        return Arrival([sharpen_fibre(fibre) for fibre in fibres], 0, 0)
     found, infinite, irregular = [], 0, 0
     gamma = complex(unit_complex(rng))
     for ends in move(fibres, target, gamma, run, endgame=endgame):
         infinite += ends.counts.at_infinity
         irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
-        found.append(sharpened(ends.fibre(np.flatnonzero(ends.regular))))
+        found.append(sharpen_fibre(ends.fibre(np.flatnonzero(ends.regular))))
     return Arrival(found, infinite, irregular)
 
 
@@ -151,8 +151,8 @@ def witness_at(
     here = carry_component(component, natural, own)
     fibres, rows = component_fibres(own, here), natural.rows(goal)
     evaluator = Evaluator.of(own.polynomials, own.n)
-    there = arrival(fibres, rows, rng, run)
-    found = [each.only(in_order(each.fibre.points)) for each in there.sharp]
+    there = move_and_sharpen(fibres, rows, rng, run)
+    found = [each.only(order_points(each.fibre.points)) for each in there.sharp]
     points = np.vstack([each.fibre.x for each in found])
     residual = float(evaluator.residuals(points).max(initial=0.0))
     if len(points) < component.degree or not np.isfinite(there.accuracy) or residual >= ON:

@@ -20,7 +20,7 @@ from nag.witness.close_points import (
     zero_from,
 )
 from nag.witness.cutting import Cut
-from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
+from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, join_points
 from nag.witness.fibres import STEEPER, Fibre, move
 from nag.witness.witness import PathCounts
 
@@ -145,7 +145,7 @@ class Points:
         fibres = self.fibres(range(len(self)))
         parts = [exact_points(fibre, FEWEST) for fibre, _ in fibres]
         order = np.concatenate([own for _, own in fibres])
-        return together(parts).only(np.argsort(order))
+        return join_points(parts).only(np.argsort(order))
 
     def with_point(self, cut: Cut, z: np.ndarray, fine: Fine | None = None) -> Points:
         """One point more, at the end."""

@@ -29,7 +29,7 @@ from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre
 from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
-from nag.witness.moving import Arrival, arrival
+from nag.witness.moving import Arrival, move_and_sharpen
 from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import Slice, WitnessSet, relative_errors
 
@@ -181,7 +181,7 @@ def _pseudo_witness(
     """Degrees of the image and of the fibre, the slice's rows, and the points on it."""
     sizes, d = fibres[0].sizes, fibres[0].dimension
     target = _special_rows(rng, sizes, coordinates, r, d - r)
-    there = arrival(fibres, target, rng, run)
+    there = move_and_sharpen(fibres, target, rng, run)
     # Finite points of a generic slice are regular (Bertini's theorem).
     if there.irregular or not there.accuracy < SHARP:
         raise ProjectionError("paths failed; the component may not be irreducible")

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import numbers
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
-from nag.errors import ComponentError
+from nag.errors import ComponentError, NagError
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.zero_values import ON
@@ -21,7 +22,7 @@ from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre
 from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
-from nag.witness.moving import Arrival, arrival
+from nag.witness.moving import Arrival, move_and_sharpen
 from nag.witness.slices import random_rows
 from nag.witness.witness import WitnessSet, relative_errors
 
@@ -142,7 +143,7 @@ def at_random(fibres: Sequence[Fibre], rng: np.random.Generator, run: Run) -> Ar
         chosen -= len(fibre)
     one = fibre.only(np.arange(len(fibre)) == chosen)
     target = random_rows(rng, fibre.dimension, fibre.cut.n) / fibre.sizes
-    return arrival([one], target, rng, run, endgame=False)
+    return move_and_sharpen([one], target, rng, run, endgame=False)
 
 
 def _samples(
@@ -152,3 +153,22 @@ def _samples(
     residual = float(evaluator.residuals(y).max(initial=0.0))
     points, radii = carry_points(y, radii, natural.inverse)
     return Samples(points, residual, float(relative_errors(points, radii).max(initial=EPS)))
+
+
+def sample_points(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    rng: np.random.Generator | int,
+    count: int,
+    run: Run,
+) -> np.ndarray:
+    """Points of a component, see `WitnessSet.sample`."""
+    check_whole(count, "count")
+    if isinstance(rng, numbers.Integral) and not isinstance(rng, bool) and rng >= 0:
+        seed = int(rng)
+    elif isinstance(rng, np.random.Generator):
+        seed = int(rng.integers(2**63))
+    else:
+        raise NagError(f"rng: {rng!r} is given; give numpy.random.default_rng(), or a seed")
+    found = sample(system, component, int(count), run=replace(run, seed=seed))
+    return found.points

@@ -229,9 +229,9 @@ class WitnessSet:
         >>> bool(abs((points**2).sum(axis=1) - 1).max() < 1e-10)
         True
         """
-        from nag.witness.at_prompt import sampled
+        from nag.witness.sampling import sample_points
 
-        return sampled(self._known_system(), self, rng, count, run)
+        return sample_points(self._known_system(), self, rng, count, run)
 
     @takes_run
     def contains(
@@ -264,10 +264,10 @@ class WitnessSet:
         >>> curve.contains([2, 2])
         False
         """
-        from nag.witness.at_prompt import contains
+        from nag.witness.membership import is_on_component
 
         check_error(accuracy, "accuracy")
-        return contains(
+        return is_on_component(
             self._known_system(),
             self,
             point,
