@@ -14,6 +14,7 @@ from nag.decomposition import superset
 from nag.decomposition.components import decompose
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.tracking.run import Run
+from nag.witness import membership
 from nag.witness.close_to_sets import NearbyZeros
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut, Equations
@@ -143,3 +144,19 @@ def test_an_end_that_is_no_known_zero_is_not_taken_for_a_point_of_a_set(
     stage = superset._Stage((), (), none, (), np.random.default_rng(0), Run())
     doubts, _ = stage.add([(np.zeros(3), 1e-15)], {0: []}, Equations((), 3), np.zeros((0, 4)), True)
     assert bool(doubts) is not located
+
+
+@pytest.mark.parametrize(
+    ("answers", "whole"), [("UM", "M"), ("UF", "U"), ("FU", "U"), ("FF", "F"), ("", "F")]
+)
+def test_a_point_is_on_larger_sets_if_it_is_on_one_whatever_others_leave_open(
+    answers: str, whole: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = {each.name[0]: each for each in Membership}
+    given = iter(answers)
+    one = PathCounts(1)
+    monkeypatch.setattr(membership, "is_member", lambda *_: (words[next(given)], one))
+    sets = {k: [] for k in range(len(answers) + 1)}
+    rng = np.random.default_rng(0)
+    found, counts = membership.is_on_larger_set(np.zeros(1), 1e-15, sets, 0, rng, Run())
+    assert found is words[whole] and counts.tracked == len(answers)
