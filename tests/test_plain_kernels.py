@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from systems import system
 
 from nag.machine_code import plain
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import LANES, aligned, load, store
+from nag.machine_code.lanes import LANES, aligned, load, scratch, store
 from nag.machine_code.processor import processor
 from nag.machine_code.records import Reals, Table, Wholes
 from nag.solving.solve import solve
@@ -83,6 +83,22 @@ def test_paths_to_singular_ends_are_the_same(compared: Counter[str]) -> None:
     )
     assert sorted(s.multiplicity for s in result.solutions) == [1, 1, 2]
     assert "follow_batch.2_words" in compared
+
+
+class Shaped(NamedTuple):
+    point: Annotated[Reals, "2 variables"]
+    matrix: Annotated[Reals, "variables variables"]
+    accepted: Annotated[Reals, "1"]
+
+
+def test_scratch_is_as_large_as_its_fields_say_and_apart() -> None:
+    made = scratch(Shaped, variables=3)
+    for k, (field, count) in enumerate(zip(made, (6, 9, 1), strict=True)):
+        assert len(field) == LANES * count and not field.any()
+        store(field, count - 1, load(field, count - 1) + k + 1.0)
+    assert [field[-1] for field in made] == [1.0, 2.0, 3.0] and made.matrix[0] == 0.0
+    with pytest.raises(KeyError, match="variables"):
+        scratch(Shaped)
 
 
 class Vectors(NamedTuple):

@@ -13,7 +13,8 @@ import ctypes
 from collections.abc import Sequence
 from functools import cache
 from itertools import accumulate, pairwise
-from typing import Any
+from math import prod
+from typing import Any, get_type_hints
 
 import numpy as np
 
@@ -100,3 +101,24 @@ def separate(vectors: np.ndarray, sizes: Sequence[int]) -> list[np.ndarray]:
     """Parts of an `aligned` array with that many vectors each, one after the other."""
     ends = [0, *accumulate(sizes)]
     return [vectors[LANES * a : LANES * b] for a, b in pairwise(ends)]
+
+
+@cache
+def _shapes(record: type) -> tuple[tuple[str, ...], ...]:
+    """The dimensions that the fields of a record name."""
+    hints = get_type_hints(record, include_extras=True)
+    return tuple(tuple(hint.__metadata__[0].split()) for hint in hints.values())
+
+
+def scratch(record: Any, **dimensions: int) -> Any:
+    """A record of scratch vectors of zeros, one field after the other in memory.
+
+    Args:
+        record: a NamedTuple; a field ``Annotated[Reals, "2 rows"]`` has twice ``rows`` vectors.
+        dimensions: what the names stand for.
+    """
+    sizes = [
+        prod(int(name) if name.isdigit() else dimensions[name] for name in shape)
+        for shape in _shapes(record)
+    ]
+    return record(*separate(aligned(sum(sizes)), sizes))

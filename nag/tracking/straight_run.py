@@ -17,9 +17,20 @@ from nag.machine_code.records import Complexes, Reals, Wholes
 from nag.tracking.kernel_arrays import SCALARS, System, Work
 from nag.tracking.linear_algebra import factorize, substitute
 from nag.tracking.predictor import (
+    ACCURACY,
     CORRECT,
+    FIRST,
+    GOAL,
+    GROWTH,
+    H_USED,
+    LAST,
     OVERLONG,
     PREDICT,
+    SEEN_RADIUS,
+    SEEN_T,
+    THETA,
+    H,
+    T,
     estimate_radius,
     next_step,
     next_t,
@@ -48,8 +59,6 @@ OVERSTEPPED, REJECTED, UNFINISHED, ACCEPTED = range(4)
 ARRIVED, STEP_SIZE, STEPS, START, NOT_FINITE = 0, 1, 2, 3, 5
 # Rows of the lanes' counters.
 PATH, ROUNDS, TAKEN, FAILURES, STATE, STRAIGHT = range(6)
-# Rows of the lanes' scalars.
-T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH, SEEN_T, SEEN_RADIUS, LAST = range(SCALARS)
 # A path of which a step is rejected after so many tries behind the radius is left to others: they
 # take a tenth of the time that its end then takes.
 PATIENCE = 48

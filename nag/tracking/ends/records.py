@@ -5,12 +5,12 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import cache
 from math import factorial
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from nag.algebra.number import Irrational, Number, rounded_fraction
-from nag.machine_code.lanes import aligned, separate
+from nag.machine_code.lanes import scratch
 from nag.machine_code.records import Reals, Wholes
 from nag.tracking.ends.lane_scalars import SCALARS
 from nag.tracking.homotopy import Homotopy
@@ -66,6 +66,10 @@ class Equations(NamedTuple):
 class Room(NamedTuple):
     """Scratch for eight paths, vectors of lanes; numbers are laid out as in `Equations`.
 
+    Each field says how many vectors it has, see `nag.machine_code.lanes.scratch`: a real number has
+    ``words`` of them, a complex one twice as many; ``orders`` are those of Taylor coefficients, and
+    ``terms`` these with order 0.
+
     ``t``: where the lanes are. ``slots``: coordinates, 1 and products at the point; ``series``:
     their Taylor coefficients in the logarithm of t, order by order from 1 on; ``change``: what a
     coordinate's coefficient adds to them. ``factor``: of the parts at t. ``sums, lines``: Taylor
@@ -85,43 +89,43 @@ class Room(NamedTuple):
     `nag.tracking.ends.branch.extrapolate`.
     """
 
-    t: Reals
-    slots: Reals
-    series: Reals
-    change: Reals
-    factor: Reals
-    sums: Reals
-    lines: Reals
-    matrix: Reals
-    right: Reals
-    noise: Reals
-    pivots: Reals
-    columns: Reals
-    scales: Reals
-    sizes: Reals
-    patch: Reals
-    levels: Reals
-    base: Reals
-    time: Reals
-    safe: Reals
-    safe_time: Reals
-    coordinates: Reals
-    logarithms: Reals
-    fresh: Reals
-    plain: Reals
-    logs: Reals
-    weights: Reals
-    least: Reals
-    floors: Reals
-    errors: Reals
-    base_sizes: Reals
-    base_weights: Reals
-    base_errors: Reals
-    met: Reals
-    scalars: Reals
-    measures: Reals
-    accepted: Reals
-    limits: Reals
+    t: Annotated[Reals, "words"]
+    slots: Annotated[Reals, "complex slots"]
+    series: Annotated[Reals, "orders complex value_slots"]
+    change: Annotated[Reals, "complex changes"]
+    factor: Annotated[Reals, "complex parts"]
+    sums: Annotated[Reals, "terms complex blocks"]
+    lines: Annotated[Reals, "terms complex linear"]
+    matrix: Annotated[Reals, "complex variables variables"]
+    right: Annotated[Reals, "complex variables"]
+    noise: Annotated[Reals, "complex variables"]
+    pivots: Annotated[Reals, "variables"]
+    columns: Annotated[Reals, "variables"]
+    scales: Annotated[Reals, "variables"]
+    sizes: Annotated[Reals, "variables"]
+    patch: Annotated[Reals, "2 variables"]
+    levels: Annotated[Reals, "complex groups"]
+    base: Annotated[Reals, "complex variables"]
+    time: Annotated[Reals, "words"]
+    safe: Annotated[Reals, "complex variables"]
+    safe_time: Annotated[Reals, "words"]
+    coordinates: Annotated[Reals, "orders complex variables"]
+    logarithms: Annotated[Reals, "orders complex variables"]
+    fresh: Annotated[Reals, "orders complex variables"]
+    plain: Annotated[Reals, "2 terms variables"]
+    logs: Annotated[Reals, "2 terms variables"]
+    weights: Annotated[Reals, "variables"]
+    least: Annotated[Reals, "variables"]
+    floors: Annotated[Reals, "variables"]
+    errors: Annotated[Reals, "variables"]
+    base_sizes: Annotated[Reals, "variables"]
+    base_weights: Annotated[Reals, "variables"]
+    base_errors: Annotated[Reals, "variables"]
+    met: Annotated[Reals, "variables"]
+    scalars: Annotated[Reals, "scalars"]
+    measures: Annotated[Reals, "4"]
+    accepted: Annotated[Reals, "1"]
+    limits: Annotated[Reals, "4 complex variables"]
 
 
 # Inverses of whole numbers.
@@ -267,27 +271,19 @@ def room(homotopy: Homotopy, count: int, order: int) -> Room:
     """Scratch for eight paths of ``homotopy`` in numbers of ``count`` words."""
     N, tape = homotopy.N, homotopy.rows.tape
     value_slots = N + 1 + tape.value_products
-    numbers = [
-        N + 1 + len(tape.first),
-        order * value_slots,
-        max(value_slots, order + 1),
-        len(homotopy.factors),
-        (order + 1) * len(tape.value_place),
-        (order + 1) * len(homotopy.A0),
-        N * N,
-        N,
-        N,
-    ]
-    sizes = [count, *(2 * count * k for k in numbers), N, N, N, N, 2 * N]
-    sizes += [2 * count * len(homotopy.groups)]
-    sizes += [
-        2 * count * N,
-        count,
-        2 * count * N,
-        count,
-        2 * count * order * N,
-        2 * count * order * N,
-        2 * count * order * N,
-    ]
-    sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 8, SCALARS, 4, 1, 8 * count * N]
-    return Room(*separate(aligned(sum(sizes)), sizes))
+    return scratch(
+        Room,
+        words=count,
+        complex=2 * count,
+        variables=N,
+        linear=len(homotopy.A0),
+        groups=len(homotopy.groups),
+        parts=len(homotopy.factors),
+        blocks=len(tape.value_place),
+        slots=N + 1 + len(tape.first),
+        value_slots=value_slots,
+        changes=max(value_slots, order + 1),
+        orders=order,
+        terms=order + 1,
+        scalars=SCALARS,
+    )
