@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import flint
 import numpy as np
@@ -16,6 +16,8 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import in_bits
 from nag.numerics.newton import Functions, inverse_of, newton_step, newton_to_rest
 
+# Bits of a word of the machine.
+WORD = 64
 # Bits of the balls, one after the other, and Newton steps in each.
 BITS = (128, 256, 512)
 STEPS = 12
@@ -104,9 +106,9 @@ def ball_box(system: Functions, x: list[flint.acb], bits: int) -> FineBox | None
                 outer = [(size * part).mid() for size in sizes]
                 if not all(a < r for a, r in zip(about.far, outer, strict=True)):
                     continue
-                image = about.image(outer)
-                if all(a < r for a, r in zip(image, outer, strict=True)):
-                    return FineBox(tuple(x), tuple(outer), about.shrink(image))
+                inner = about.zero_in(outer)
+                if inner is not None:
+                    return FineBox(tuple(x), tuple(outer), inner)
                 if not about.may_contract:
                     return None
     return None
@@ -129,7 +131,8 @@ class BallOperator:
     @classmethod
     def about(cls, system: Functions, x: list[flint.acb], bits: int) -> BallOperator | None:
         """None where the Jacobian has no inverse."""
-        inverse = inverse_of(system.jacobian(x, bits), bits)
+        # Any matrix near the inverse will do, and words that are not full cost as much.
+        inverse = inverse_of(system.jacobian(x, bits), bits // WORD * WORD)
         if inverse is None:
             return None
         step = newton_step(system, x, bits, inverse.mid())
@@ -148,38 +151,50 @@ class BallOperator:
         Each such box holds the one as large as Newton's step. The smaller a box is, the smaller are
         all entries of its slopes, and the spectral radius of one with its image inside is below 1.
         """
-        entries = [[float(z.mid()) for z in row] for row in self.slopes(self.far)]
+        entries = [[float(z.mid()) for z in row] for row in self.slopes(self.far).tolist()]
         if not np.isfinite(entries).all():
             return False
         return bool(np.abs(np.linalg.eigvals(entries)).max(initial=0.0) < EXPANDING)
 
-    def slopes(self, sides: Sequence[flint.arb]) -> list[list[flint.arb]]:
+    def slopes(self, sides: Sequence[flint.arb]) -> flint.arb_mat:
         """Absolute values of the entries of ``1 - Y F'(X)`` for discs X of these radii."""
+        n = len(self.x)
         with in_bits(self.bits):
-            box = [
-                z + flint.acb(flint.arb(0, r), flint.arb(0, r))
-                for z, r in zip(self.x, sides, strict=True)
-            ]
-            product = (self.inverse * self.system.jacobian(box, self.bits)).tolist()
-            return [
-                [abs(z - int(i == j)) for j, z in enumerate(row)] for i, row in enumerate(product)
-            ]
+            discs = [flint.acb(d, d) for d in (flint.arb(0, r) for r in sides)]
+            box = [z + d for z, d in zip(self.x, discs, strict=True)]
+            rest = self.inverse * self.system.jacobian(box, self.bits) - _identity(n)
+            return flint.arb_mat(n, n, [abs(z) for z in rest.entries()])
 
-    def image(self, sides: Sequence[flint.arb]) -> list[flint.arb]:
-        """Upper bounds of the distances of K(X) from ``x``, for discs X of these radii about it."""
+    def image(self, slopes: flint.arb_mat, sides: Sequence[flint.arb]) -> list[flint.arb]:
+        """Upper bounds of the distances of K(X) from ``x``, for discs X of these radii about it.
+
+        Args:
+            slopes: over these discs, or over larger ones.
+        """
+        with in_bits(self.bits):
+            moved = (slopes * flint.arb_mat(len(sides), 1, list(sides))).entries()
+            return [(a + b).upper() for a, b in zip(self.far, moved, strict=True)]
+
+    def zero_in(self, sides: Sequence[flint.arb]) -> tuple[flint.arb, ...] | None:
+        """Radii of the smallest discs that the one zero in larger ones is seen in; None if not one.
+
+        Args:
+            sides: the radii of those, shape ``(n,)``.
+        """
         slopes = self.slopes(sides)
-        with in_bits(self.bits):
-            found = []
-            for total, row in zip(self.far, slopes, strict=True):
-                for entry, side in zip(row, sides, strict=True):
-                    total = total + entry * side
-                found.append(flint.acb(total).abs_upper())
-            return found
-
-    def shrink(self, sides: Sequence[flint.arb]) -> tuple[flint.arb, ...]:
-        """Sides of the smallest box about ``x`` that a zero in discs of these radii is seen in."""
+        image = self.image(slopes, sides)
+        if not all(a < r for a, r in zip(image, sides, strict=True)):
+            return None
         for _ in range(SMALLER):
-            last, sides = sides, self.image(sides)
-            if not any(2 * a < b for a, b in zip(sides, last, strict=True)):
+            # Smaller discs have smaller slopes, but images are never below Newton's step.
+            if not all(a < 2 * b for a, b in zip(image, self.far, strict=True)):
+                slopes = self.slopes(image)
+            last, image = image, self.image(slopes, image)
+            if not any(2 * a < b for a, b in zip(image, last, strict=True)):
                 break
-        return tuple(sides)
+        return tuple(image)
+
+
+@lru_cache
+def _identity(n: int) -> flint.acb_mat:
+    return flint.acb_mat(n, n, [int(i == j) for i in range(n) for j in range(n)])

@@ -1,9 +1,9 @@
 """Newton's method in balls: to so many digits, or until rounding governs what is left.
 
-A step at an exact point x is ``Y F(x)`` for the inverse Y of the Jacobian there, or near there: by
-least squares where there are more equations than unknowns, the shortest where there are fewer.
-Values are balls, and so is the step: how wide it is says what rounding may have made of it. Where
-that governs a step, the next one is made in more bits; no other estimate of an error is needed.
+A step at an exact point x solves ``F'(x) s = F(x)``: by least squares where there are more
+equations than unknowns, the shortest where there are fewer. Values and slopes are balls, and so is
+the step: how wide it is says what rounding and conditions may have made of it. Where that governs a
+step, the next one is made in more bits; no other estimate of an error is needed.
 """
 
 from __future__ import annotations
@@ -56,9 +56,9 @@ class Converged:
 
 
 def inverse_of(matrix: flint.acb_mat, bits: int) -> flint.acb_mat | None:
-    """The inverse of a matrix's middles, or their pseudo-inverse, in balls; None if singular."""
+    """The inverse of a matrix, or its pseudo-inverse, in balls; None if it may be singular."""
+    rows, columns = matrix.nrows(), matrix.ncols()
     with in_bits(bits):
-        matrix, rows, columns = matrix.mid(), matrix.nrows(), matrix.ncols()
         try:
             if rows == columns:
                 return matrix.inv()
@@ -66,6 +66,26 @@ def inverse_of(matrix: flint.acb_mat, bits: int) -> flint.acb_mat | None:
             if rows > columns:
                 return (across * matrix).solve(across)
             return across * (matrix * across).inv()
+        except ZeroDivisionError:
+            return None
+
+
+def solve_equations(
+    matrix: flint.acb_mat, right: flint.acb_mat, bits: int
+) -> list[flint.acb] | None:
+    """What a matrix multiplies to a column, in balls; None if it may be singular.
+
+    By least squares where it has more rows than columns, the shortest where it has fewer.
+    """
+    rows, columns = matrix.nrows(), matrix.ncols()
+    with in_bits(bits):
+        try:
+            if rows == columns:
+                return matrix.solve(right).entries()
+            across = matrix.conjugate().transpose()
+            if rows > columns:
+                return (across * matrix).solve(across * right).entries()
+            return (across * (matrix * across).solve(right)).entries()
         except ZeroDivisionError:
             return None
 
@@ -78,12 +98,11 @@ def newton_step(
     Args:
         inverse: a matrix near that of the Jacobian, if one is known.
     """
+    values = system.values(x, bits)
     if inverse is None:
-        inverse = inverse_of(system.jacobian(x, bits), bits)
-    if inverse is None:
-        return None
+        return solve_equations(system.jacobian(x, bits), values, bits)
     with in_bits(bits):
-        return list((inverse * system.values(x, bits)).entries())
+        return (inverse * values).entries()
 
 
 def move_point(
@@ -96,7 +115,8 @@ def move_point(
 
 def subtract_step(x: Sequence[flint.acb], step: Sequence[flint.acb], bits: int) -> list[flint.acb]:
     """The point that a step of Newton's method leads to."""
-    return move_point(x, step, bits, -1.0)
+    with in_bits(bits):
+        return [(a - b).mid() for a, b in zip(x, step, strict=True)]
 
 
 def find_zero(
@@ -120,10 +140,11 @@ def find_zero(
     """
     x, size = list(map(middle, start)), max(0.0, log_norm(start))
     most = MOST_BITS + MOST_TIMES * bits_of(digits)
-    bits, last, inverse = FIRST_BITS, inf, None
+    bits, clear, last, inverse = FIRST_BITS, FIRST_BITS, inf, None
     for count in range(STEPS):
+        new = inverse is None
         if inverse is None:
-            inverse = _clear_inverse(system, x, bits)
+            inverse = inverse_of(system.jacobian(x, clear), clear)
         step = None if inverse is None else newton_step(system, x, bits, inverse)
         length, rounding = (inf, inf) if step is None else _lengths(step)
         error = max(length, rounding)
@@ -132,33 +153,33 @@ def find_zero(
             # What is left is rounding, or all that there is: more bits of the same point.
             if bits > most:
                 return None
-            bits, inverse = 2 * bits, None
+            bits, clear, inverse = 2 * bits, 2 * clear, None
             continue
-        lost = max(0.0, rounding - size + LOG10_2 * bits)
         x = subtract_step(x, step, max(bits, bits_of(digits) + MORE_BITS))
         slow = count >= FIRST_STEPS and length > last - gain
         if (slow and not done) or not _is_within(x, start, size + within):
             return None
         if done and (last < inf or length == -inf):
             return Converged(x, error, inverse)
+        rounded = max(size - LOG10_2 * bits, length - LOG10_2 * clear if new else -inf)
+        lost = max(0.0, rounding - rounded)
         left = length - size + digits
         # A first step that is short beside the point is by slopes as near to those at the zero.
         if min(last, size) - length < max(FAST, LEFT * left):
             inverse = None
-        last = length
+        elif new:
+            # How wide it is has been seen: any matrix near the inverse leads to the zero.
+            inverse = inverse.mid()
         known = min(4 * (size - length), digits) if length > -inf else digits
-        bits = max(bits, UNIT_BITS * -(-(bits_of(known + lost) + MORE_BITS) // UNIT_BITS))
+        bits = max(bits, _whole_bits(known + lost))
+        # Of the digits after a step, half are those of the point that it starts from.
+        clear, last = max(clear, _whole_bits(known / 2 + lost)), length
     return None
 
 
-def _clear_inverse(system: Functions, x: Sequence[flint.acb], bits: int) -> flint.acb_mat | None:
-    """The inverse Jacobian, in balls; None where rounding of slopes may have made it."""
-    slopes = system.jacobian(x, bits)
-    inverse = inverse_of(slopes, bits)
-    if inverse is None:
-        return None
-    rounding = log_norm(flint.acb(z.rad()) for z in slopes.entries())
-    return inverse if log_norm(inverse.entries()) + rounding < -GAIN else None
+def _whole_bits(digits: float) -> int:
+    """Bits to work in for so many digits."""
+    return UNIT_BITS * -(-(bits_of(digits) + MORE_BITS) // UNIT_BITS)
 
 
 def _is_within(x: Sequence[flint.acb], start: Sequence[flint.acb], most: float) -> bool:
@@ -168,7 +189,7 @@ def _is_within(x: Sequence[flint.acb], start: Sequence[flint.acb], most: float) 
 
 def _lengths(step: Sequence[flint.acb]) -> tuple[float, float]:
     """Decimal logarithms of a step's largest middle, and of its largest radius."""
-    return log_norm(map(middle, step)), log_norm(flint.acb(z.rad()) for z in step)
+    return log_norm(step), log_norm(z.rad() for z in step)
 
 
 def newton_to_rest(

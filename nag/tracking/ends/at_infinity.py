@@ -20,7 +20,7 @@ from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.projective import ROUNDING
 
 # Digits that zeros are worked out to, and bits of the patches through the points they are near.
-DIGITS, BITS = 160, 700
+DIGITS, BITS = 152, 700
 # Decimal logarithm of coordinates that are zero, beside the largest.
 ZERO = -150.0
 # Errors of coordinates of size one in two words.

@@ -95,9 +95,5 @@ def _radii_of_box(about: BallOperator, most: np.ndarray, least: float) -> np.nda
     """
     # The box must not be larger than Newton's step asks for.
     part = min(1.0, STEPS * _largest_part(about.step, most) + least)
-    radii = [part * r for r in most.tolist()]
-    sides = [flint.arb(r) for r in radii]
-    image = about.image(sides)
-    if not all(a < r for a, r in zip(image, sides, strict=True)):
-        return None
-    return np.array([round_up(r) for r in about.shrink(image)])
+    radii = about.zero_in([flint.arb(part * r) for r in most.tolist()])
+    return None if radii is None else np.array([round_up(r) for r in radii])
