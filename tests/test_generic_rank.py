@@ -11,10 +11,12 @@ from nag.algebra.number import Irrational
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition import isolated
 from nag.decomposition.components import decompose
-from nag.decomposition.isolated import is_finite
+from nag.decomposition.isolated import is_finite, solve_at_once
+from nag.decomposition.method import Task
 from nag.mechanism.framework import placed_framework
 from nag.mechanism.framework_model import framework_model
 from nag.mechanism.model import model
+from nag.numerics.system_facts import SystemFacts
 from nag.tracking.run import Run
 from nag.witness.witness import PathCounts
 
@@ -54,16 +56,16 @@ def test_no_paths_are_tracked_to_isolated_realisations_where_there_are_none(monk
     system = framework_model(placed_framework(3, places, bars)).system
     assert len(system.polynomials) == system.n
 
-    def tracked(*_):
+    def solve(*_, **__):
         raise AssertionError("paths were tracked")
 
-    monkeypatch.setattr(isolated, "_solved", tracked)
+    monkeypatch.setattr(isolated, "solve", solve)
     assert is_finite(system, np.random.default_rng(0), Run()) == (False, PathCounts())
 
 
 def test_paths_that_only_said_that_a_set_is_finite_are_counted():
-    system = model(general_loop(6, 4), "H").system
-    finite, spent = is_finite(system, np.random.default_rng(0), Run())
-    points = isolated.solve_at_once(system, np.random.default_rng(0), Run(), (), True)
+    task = Task(SystemFacts(model(general_loop(6, 4), "H").system), (), Run())
+    finite, spent = is_finite(task.reduction.reduced, task.rng, task.run)
+    points = solve_at_once(task, finite=True)
     assert finite and points is not None and spent.tracked > 0
-    assert decompose(system).paths.tracked == spent.tracked + points.paths.tracked
+    assert decompose(task.system).paths.tracked == spent.tracked + points.paths.tracked
