@@ -181,6 +181,8 @@ class BallOperator:
         Args:
             sides: the radii of those, shape ``(n,)``.
         """
+        if not all(a < r for a, r in zip(self.far, sides, strict=True)):
+            return None
         slopes = self.slopes(sides)
         image = self.image(slopes, sides)
         if not all(a < r for a, r in zip(image, sides, strict=True)):

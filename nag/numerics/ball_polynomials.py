@@ -84,12 +84,12 @@ class Slopes:
     """The derivatives of a row: a matrix of coefficients times a column of monomials.
 
     Attributes:
-        variables: in the row.
-        monomials: in its derivatives, as places.
+        places: in the Jacobian matrix, row by row, one for each variable.
+        monomials: in the derivatives, as places; that of one alone where the row is linear.
         entries: the matrix row by row, each a coefficient of the row and a factor, or None.
     """
 
-    variables: tuple[int, ...]
+    places: tuple[int, ...]
     monomials: tuple[int, ...]
     entries: tuple[tuple[Any, int] | None, ...]
 
@@ -106,7 +106,7 @@ class BallPolynomials:
     rows: tuple[tuple[tuple[Any, Factors], ...], ...]
     above: BallPolynomials | None = None
     _terms: dict[int, list[list[tuple[flint.acb, int]]]] = field(default_factory=dict, repr=False)
-    _matrices: dict[int, list[flint.acb_mat]] = field(default_factory=dict, repr=False)
+    _constants: dict[int, _Constants] = field(default_factory=dict, repr=False)
     _parts: dict[tuple[int, ...], BallPolynomials] = field(default_factory=dict, repr=False)
 
     @classmethod
@@ -183,21 +183,23 @@ class BallPolynomials:
 
     def _jacobian(self, x: Sequence[flint.acb], bits: int) -> list[flint.acb]:
         monomials, slopes = self._slopes
-        if bits not in self._matrices:
-            self._matrices[bits] = self._matrices_in(bits)
-        at = monomials.values(x)
-        entries = [flint.acb(0)] * (len(self.rows) * self.n)
-        for r, (row, matrix) in enumerate(zip(slopes, self._matrices[bits], strict=True)):
+        if bits not in self._constants:
+            self._constants[bits] = self._constants_in(bits)
+        constants = self._constants[bits]
+        entries = list(constants.entries)
+        at = monomials.values(x) if constants.matrices else []
+        for k, matrix in constants.matrices:
+            row = slopes[k]
             column = flint.acb_mat(len(row.monomials), 1, [at[m] for m in row.monomials])
-            for i, slope in zip(row.variables, (matrix * column).entries(), strict=True):
-                entries[r * self.n + i] = slope
+            for place, slope in zip(row.places, (matrix * column).entries(), strict=True):
+                entries[place] = slope
         return entries if self.above is None else self.above._jacobian(x, bits) + entries
 
-    def _matrices_in(self, bits: int) -> list[flint.acb_mat]:
-        for fewer, matrices in self._matrices.items():
-            if fewer < bits and all(c.is_exact() for each in matrices for c in each.entries()):
-                return matrices
-        return [_matrix(slopes) for slopes in self._slopes[1]]
+    def _constants_in(self, bits: int) -> _Constants:
+        for fewer, constants in self._constants.items():
+            if fewer < bits and constants.exact:
+                return constants
+        return _constants_of(self._slopes[1], len(self.rows) * self.n)
 
     @cached_property
     def _monomials(self) -> MonomialProducts:
@@ -214,7 +216,7 @@ class BallPolynomials:
             [(i, made.place(_lower(f, at)), (c, k)) for c, f in row for at, (i, k) in enumerate(f)]
             for row in self.rows
         ]
-        return made, [_slopes_of(row) for row in derivatives]
+        return made, [_slopes_of(row, r * self.n) for r, row in enumerate(derivatives)]
 
 
 @lru_cache(maxsize=KEPT)
@@ -230,7 +232,8 @@ def _lower(factors: Factors, place: int) -> Factors:
     return factors[:place] + (((i, k - 1),) if k > 1 else ()) + factors[place + 1 :]
 
 
-def _slopes_of(derivatives: Sequence[tuple[int, int, tuple[Any, int]]]) -> Slopes:
+def _slopes_of(derivatives: Sequence[tuple[int, int, tuple[Any, int]]], first: int) -> Slopes:
+    """The derivatives of a row whose place in the Jacobian matrix begins at ``first``."""
     variables = {i: v for v, i in enumerate(sorted({i for i, _, _ in derivatives}))}
     columns: dict[int, int] = {}
     for _, place, _ in derivatives:
@@ -238,12 +241,36 @@ def _slopes_of(derivatives: Sequence[tuple[int, int, tuple[Any, int]]]) -> Slope
     entries: list[tuple[Any, int] | None] = [None] * (len(variables) * len(columns))
     for i, place, entry in derivatives:
         entries[variables[i] * len(columns) + columns[place]] = entry
-    return Slopes(tuple(variables), tuple(columns), tuple(entries))
+    return Slopes(tuple(first + i for i in variables), tuple(columns), tuple(entries))
 
 
-def _matrix(slopes: Slopes) -> flint.acb_mat:
-    entries = [flint.acb(0) if e is None else in_ball(e[0]) * e[1] for e in slopes.entries]
-    return flint.acb_mat(len(slopes.variables), len(slopes.monomials), entries)
+@dataclass(frozen=True, eq=False)
+class _Constants:
+    """What is constant in a Jacobian matrix, in some bits.
+
+    Attributes:
+        entries: of the matrix, row by row; 0 where they are not constant.
+        matrices: for rows that are not linear, by their indices: those that monomials are
+            multiplied by.
+        exact: whether nothing is rounded.
+    """
+
+    entries: list[flint.acb]
+    matrices: list[tuple[int, flint.acb_mat]]
+    exact: bool
+
+
+def _constants_of(rows: Sequence[Slopes], size: int) -> _Constants:
+    entries, matrices, exact = [flint.acb(0)] * size, [], True
+    for k, row in enumerate(rows):
+        values = [flint.acb(0) if e is None else in_ball(e[0]) * e[1] for e in row.entries]
+        exact = exact and all(c.is_exact() for c in values)
+        if row.monomials == (0,):
+            for place, c in zip(row.places, values, strict=True):
+                entries[place] = c
+        elif values:
+            matrices.append((k, flint.acb_mat(len(row.places), len(row.monomials), values)))
+    return _Constants(entries, matrices, exact)
 
 
 def in_ball(c: Any) -> flint.acb:
@@ -251,7 +278,7 @@ def in_ball(c: Any) -> flint.acb:
     kind = type(c)
     if kind is Fraction:
         return flint.acb(to_rational(c))
-    if kind is complex:
+    if kind is complex or kind is flint.acb:
         return flint.acb(c)
     if kind is tuple:
         if type(c[0]) is type(c[1]) is Fraction:

@@ -73,10 +73,12 @@ def _next_if_convergent(about: BallOperator, most: np.ndarray) -> list[flint.acb
 
     Steps to a regular zero shrink with the distance from it; to a multiple one, by a constant.
     """
+    first = _largest_part(about.step, most)
+    if first >= 1:
+        return None
     near = subtract_step(about.x, about.step, about.bits)
     next_step = newton_step(about.system, near, about.bits, about.inverse)
-    first, second = (_largest_part(step, most) for step in (about.step, next_step))
-    return near if second < SHRINKS * first < SHRINKS else None
+    return near if _largest_part(next_step, most) < SHRINKS * first else None
 
 
 def _largest_part(step: list[flint.acb], most: np.ndarray) -> float:
