@@ -180,6 +180,9 @@ tracking.ends.limits.BEYOND                 30      Error of a limit in last ter
 tracking.ends.runs.TAIL                     1e-11   Last terms of a path's power series that is
                                                     taken to converge, for the winding number in
                                                     question.
+tracking.ends.limits.FALLEN                 0.5     Last terms of a power series over those that
+                                                    were left further out: branches that are not
+                                                    one leave more on the way in.
 tracking.ends.limits.WHOLE *                1e-3    How far an order of a coordinate may be from a
                                                     rational number.
 tracking.ends.inclusion.WIDER               64      Rounding errors in the radius of the box in

@@ -324,17 +324,22 @@ def _limit(
     limit = limits.of(states.where[path], found, known, states.t[path], w)
     need = needs[(w & -w).bit_length() - 1]
     noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
-    residual = np.inf if limit is None else limits.doubt(limit)
-    if limit is not None and residual <= need and limits.exists(limit, noise):
-        states.limits[path] = limit
-        if limit.winding > 1:
-            return end_run.LIMIT
-        # No branch point at t = 0: Newton's method is tried at the limit before it counts.
-        states.ends[path], states.tried[path] = limit.centre, 0
+    before = states.last.get(path)
+    if limit is not None and limit.residual <= need and limits.exists(limit, noise):
+        if limits.is_believed(limit, before, need):
+            states.limits[path] = limit
+            if limit.winding > 1:
+                return end_run.LIMIT
+            # No branch point at t = 0: Newton's method is tried at the limit before it counts.
+            states.ends[path], states.tried[path] = limit.centre, 0
+            return end_run.OPEN
+        states.last[path] = limit
+        shrink = (need / limit.tail) ** (w / limits.order)
+        states.latest[path] = t * min(0.1, max(FURTHEST, shrink))
         return end_run.OPEN
     # Where no digits are gained on the way in, rounding errors are what is left.
-    before = states.last.get(path)
-    further = np.inf if before is None else limits.doubt(before)
+    further = np.inf if before is None else before.residual
+    residual = np.inf if limit is None else limit.residual
     if limit is not None:
         states.last[path] = limit
     stuck = noise > NOISE * need or GAINED * further < residual < NEARLY
@@ -344,7 +349,7 @@ def _limit(
     shrink = FURTHER
     if limit is not None:
         # The last term of the series is about the power of r of its order.
-        shrink = min(0.1, max(FURTHEST, (need / residual) ** (w / limits.order)))
+        shrink = min(0.1, max(FURTHEST, (need / limit.residual) ** (w / limits.order)))
     states.latest[path] = t * shrink
     return end_run.OPEN
 

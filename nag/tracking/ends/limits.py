@@ -9,6 +9,7 @@ than the coefficients have.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -32,6 +33,8 @@ LARGEST = 100
 LOG_2 = 0.6931471805599453
 # The error of a limit, in last terms of its power series.
 BEYOND = 30.0
+# What is left of a power series nearer to its limit, over what was left further out.
+FALLEN = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +54,7 @@ class Limit:
         leading: leading coefficients, in FLINT's ``acb``, 0 for coordinates that are not known.
         tail: size of the last terms of the power series.
         residual: largest value of an initial form over the sum of its terms.
+        seen_from: the t of the point that it was found from.
     """
 
     orders: tuple[int, ...]
@@ -62,6 +66,12 @@ class Limit:
     leading: tuple[Any, ...]
     tail: float
     residual: float
+    seen_from: float
+
+    @property
+    def direction(self) -> tuple[Fraction, ...]:
+        """The orders of the coordinates."""
+        return tuple(Fraction(order, self.winding) for order in self.orders)
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,15 +91,21 @@ class Limits:
     def _fine(self) -> InitialForms:
         return InitialForms(self.terms, FINE)
 
-    def doubt(self, limit: Limit) -> float:
-        """How far off a limit may be: by its tail too at infinity, where nothing else looks at it.
+    def is_believed(self, limit: Limit, before: Limit | None, need: float) -> bool:
+        """Whether a branch that seems to lead to infinity does so from nearer as well.
 
-        The forms at a multiple zero are as small as a power of the distance from it; what several
-        branches look like together from afar is told by what is left of the power series.
+        Forms at a multiple zero are as small as a power of the distance from it, and several
+        branches look like one from afar that part further in. What is left of their power series
+        then grows on the way in, and of a branch that is one it falls.
+
+        Args:
+            before: what was found before, of which only what was found further out counts.
         """
-        if (limit.point[list(self.terms.homotopy.infinity)] != 0).all():
-            return limit.residual
-        return max(limit.residual, limit.tail)
+        if (limit.point[list(self.terms.homotopy.infinity)] != 0).all() or limit.tail <= need:
+            return True
+        if before is None or before.seen_from <= limit.seen_from:
+            return False
+        return before.direction == limit.direction and limit.tail < FALLEN * before.tail
 
     def exists(self, limit: Limit, noise: float) -> bool:
         """Whether a limit at infinity is one exactly: what finite ones are is decided elsewhere.
@@ -166,7 +182,7 @@ class Limits:
         branch = self._branch(orders, leading)
         return Limit(
             *(tuple(orders), winding, point, centre, branch, bends),
-            *(tuple(leading), tail, residual),
+            *(tuple(leading), tail, residual, float(t[0])),
         )
 
     def _centre(self, orders: list[int], leading: list[Any]) -> np.ndarray:

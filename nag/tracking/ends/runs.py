@@ -34,9 +34,9 @@ CLOSE_ORDER = {2: 14, 4: 28, 8: 28}
 # Steps to an end that must hold to the least number of digits, and those of a path that is lost on
 # the way there.
 MAX_STEPS, MOST_STEPS = 300, 3000
-# Steps of a path in 120 digits: ends that these decide take ten, or ten more where they are looked
-# for once more further in, and each is some 50 times as dear.
-LAST_STEPS = 30
+# Steps of a path in 120 digits: ends that these decide take ten, and ten more each time that they
+# are looked for once more further in; each is some 50 times as dear.
+LAST_STEPS = 40
 MAX_WINDING = 40
 # Expected error of a prediction, and largest contraction of Newton's method after it, as parts of
 # those of the settings.
