@@ -10,6 +10,9 @@ import pytest
 
 import nag
 from nag.decomposition import witness_at
+from nag.numerics.precise_point import PrecisePoint
+from nag.numerics.singular_point import Place, SingularEnd
+from nag.numerics.zero_values import choose_alike
 from nag.witness.membership import Membership, memberships
 
 PAIRS = {
@@ -135,6 +138,33 @@ def test_which_zero_of_the_same_equations_a_point_is_takes_exact_coordinates(dig
         not c.points.any() for c in answer.components
     ]
     assert sum(m is Membership.FOREIGN for m in found) == 2
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-300, 1e-250, 1e-130])
+def test_the_origin_is_the_zero_whose_error_holds_it(off: float) -> None:
+    # What Newton's method leaves of the origin depends on its last step.
+    zeros = [
+        SingularEnd(x, Place.ISOLATED, 1, 2e-16, 1.0, precise=PrecisePoint.of_doubles(x, error))
+        for x, error in [
+            (np.array([0, -off], complex), np.full(2, 1e-120)),
+            (np.array([3e-16, 1e-16], complex), np.full(2, 1e-115)),
+        ]
+    ]
+    assert choose_alike(zeros, np.zeros(2, complex)) == (zeros[0],)
+    assert choose_alike(zeros, np.array([3e-16, 1e-16], complex)) == (zeros[1],)
+    assert choose_alike(zeros, np.array([0, 1e-100], complex)) == tuple(zeros)
+
+
+@pytest.mark.parametrize("digits", [16, 25])
+def test_the_origin_is_told_from_two_zeros_beside_it(digits: int) -> None:
+    answer = nag.decompose([f"x*(x - 1/10^{digits})*(x - 2/10^{digits})*(x - 3)", "y - x/3"])
+    for k in range(3):
+        exact = (Fraction(k, 10**digits), Fraction(k, 3 * 10**digits))
+        point = np.array([complex(v) for v in exact])
+        found = memberships(answer, point, accuracy=1e-15, exact=exact)
+        assert sorted(m.value for m in found) == ["foreign", "foreign", "foreign", "member"]
+        own = answer.components[found.index(Membership.MEMBER)]
+        assert np.allclose(own.points[0], point, rtol=1e-12, atol=0)
 
 
 @pytest.mark.parametrize("digits", [6, 8, 10])

@@ -65,11 +65,18 @@ def possible_zeros(
 
 
 def choose_alike(zeros: Sequence[SingularEnd], x: np.ndarray) -> tuple[SingularEnd, ...]:
-    """The one of several zeros that a point agrees with in each coordinate; all if none does."""
+    """The one of several zeros that a point agrees with in each coordinate; all if none does.
+
+    What lies within a zero's error agrees with it: where all coordinates are zero, none of them is
+    small beside the largest, and what is left of them depends on the last of Newton's steps.
+    """
     chosen = []
     for zero in zeros:
         sizes = np.maximum(np.abs(zero.point), np.abs(x))
-        if (np.abs(zero.point - x) <= np.maximum(ALIKE * sizes, NOTHING * sizes.max())).all():
+        same = np.maximum(ALIKE * sizes, NOTHING * sizes.max())
+        if zero.precise is not None:
+            same = np.maximum(same, zero.precise.radii)
+        if (np.abs(zero.point - x) <= same).all():
             chosen.append(zero)
     return tuple(chosen) if len(chosen) == 1 else tuple(zeros)
 
