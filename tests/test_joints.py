@@ -10,11 +10,11 @@ from solved import components_of
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
-from nag.errors import MechanismError
+from nag.errors import MechanismError, NagError
 from nag.mechanism.axes import space_of
 from nag.mechanism.euler import euler_parameters, prime_component
 from nag.mechanism.graph import Joint, Mechanism
-from nag.mechanism.joint_types import JOINT_TYPES
+from nag.mechanism.joint_types import JOINT_TYPES, LINE, JointType
 from nag.mechanism.loops import loop_structure
 from nag.mechanism.model import ModelError, formulations, model
 from nag.mechanism.quaternion import norm_squared
@@ -157,3 +157,40 @@ def test_a_type_of_joint_is_its_record_and_nothing_asks_for_its_name(name, monke
         one, other = (model(m, formulation) for m in (given, replace(given, joints=joints)))
         assert (other.system, other.space) == (one.system, one.space)
         assert other.unreduced == one.unreduced
+
+
+@pytest.mark.parametrize(
+    ("numbers", "text"),
+    [
+        ((LINE, (), 1, 2, 1, ("turn",)), "6 conditions and 1 freedoms; 6 in all"),
+        ((LINE, (), 1, 2, 0, ("screw",)), "'screw' is unknown; there are turn, slide, ball, plane"),
+        (((*LINE, "pitch"), (), 1, 2, 0, ("turn",)), "'pitch' is unknown; there are point, axis"),
+        ((LINE, (), 0, 4, 1, ("turn",)), "4 orthogonalities; at most 3"),
+        ((LINE, (), 1, 1, 0, ("turn", "turn")), "second axis"),
+    ],
+)
+def test_a_type_of_joint_whose_numbers_do_not_fit_is_refused(numbers, text):
+    with pytest.raises(NagError, match=text):
+        JointType(*numbers)
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("formulation", ["E", "H"])
+def test_a_slide_whose_axis_turns_is_carried_by_the_first_body(formulation, swapped, monkeypatch):
+    groove = JointType(LINE, (), 0, 0, 2, ("slide", "ball"))
+    types = {**JOINT_TYPES, "sphere in a groove": groove}
+    monkeypatch.setattr("nag.mechanism.graph.JOINT_TYPES", types)
+    joints = closed_chain(
+        ("sphere in a groove", (0, 0, 0), (1, 2, 2)),
+        ("revolute", (1, 0, 0), (0, 1, 2)),
+        ("revolute", (1, 2, 0), (1, 1, 1)),
+    ).joints
+    bodies = joints[0].bodies
+    assert "B0" in bodies
+    first = replace(joints[0], bodies=bodies[::-1]) if swapped else joints[0]
+    m = model(Mechanism("B0", (first, *joints[1:])), formulation)
+    answer = components_of(m.system, tuple(m.symmetries))
+    assert answer.complete and {c.dimension for c in answer.components} == {0}
+    for point in (p for c in answer.components for p in c.points):
+        at = [complex(x) for x in m.unreduced_point(m.lift(point))]
+        assert residual(m.unreduced, at) < 1e-12

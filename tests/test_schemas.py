@@ -20,6 +20,7 @@ from nag.files.json_schema import find_problem, schema
 from nag.files.json_values import ExportError
 from nag.files.solutions_export import document as solutions_document
 from nag.files.solutions_export import solutions_of
+from nag.solving.start import KINDS
 
 FOLDER = Path(nag.__file__).parent / "files" / "schema"
 CASES = Path(__file__).parents[1] / "cases"
@@ -231,3 +232,8 @@ def test_what_does_not_fit_the_schema_is_refused_with_its_place(k: int) -> None:
 def test_a_keyword_that_is_not_known_is_no_schema() -> None:
     with pytest.raises(KeyError, match="pattern"):
         find_problem("x", {"type": "string", "pattern": "a"})
+
+
+def test_the_schema_of_solutions_names_every_start_system():
+    named_there = schema("nag-solutions")["properties"]["start"]["enum"]
+    assert set(named_there) == {"none", "parameter", *KINDS} - {"auto"}

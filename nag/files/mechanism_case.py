@@ -11,13 +11,12 @@ from nag.errors import MechanismError
 from nag.files.case_table import ReadNumber, Table
 from nag.mechanism.axes import Vector, cross, difference, dot, nearest, vanishes
 from nag.mechanism.graph import ORIGIN, Body, Joint, Mechanism
-from nag.mechanism.joint_types import JOINT_TYPES, SYNONYMS
+from nag.mechanism.joint_types import JOINT_TYPES, SYNONYMS, VECTORS
 
 LINE_KEYS = ("through", "line")
 SECOND_KEYS = ("second_through", "second_line")
 # A point and a direction.
 Line = tuple[Vector, Vector]
-VECTORS = ("point", "axis", "second_axis")
 
 
 def read_mechanism(top: Table, number: ReadNumber) -> Mechanism:

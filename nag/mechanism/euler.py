@@ -279,8 +279,13 @@ def slide_directions(joint: Joint) -> tuple[Vector, ...]:
 
 
 def slide_carrier(structure: LoopStructure, joint: Joint) -> str:
-    """The body whose axes the slides of a joint are given in: the base, where it is one."""
-    return structure.base if structure.base in joint.bodies else joint.bodies[0]
+    """The body whose axes the slides of a joint are given in.
+
+    It is the base, where that is one of the two and the axis keeps its direction in both, which
+    makes loop equations shorter; else the first body, in which the gaps are given.
+    """
+    either = joint.of_type.keeps_axis and structure.base in joint.bodies
+    return structure.base if either else joint.bodies[0]
 
 
 def loop_closure(

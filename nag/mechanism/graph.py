@@ -12,7 +12,7 @@ from nag.algebra.from_python import exact_vector
 from nag.algebra.given import check_listed, check_type, is_a, shown
 from nag.algebra.number import Number, is_zero, number_text
 from nag.errors import MechanismError
-from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS, JointType
+from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS, VECTORS, JointType
 from nag.text.table import one_line
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ class Joint:
     def __post_init__(self) -> None:
         object.__setattr__(self, "type", SYNONYMS.get(self.type, self.type))
         object.__setattr__(self, "bodies", _as_tuple(self.bodies, "bodies", joint=self.name))
-        for field in ("point", "axis", "second_axis"):
+        for field in VECTORS:
             value = getattr(self, field)
             if value is not None:
                 object.__setattr__(self, field, _exact(value, field, joint=self.name))
@@ -294,7 +294,7 @@ def _check_joint(joint: Joint) -> None:
             joint=joint.name,
             key="bodies",
         )
-    for key in ("point", "axis", "second_axis"):
+    for key in VECTORS:
         _check_vector(joint, key)
     if joint.second_axis is not None and _parallel(joint.axis, joint.second_axis):
         raise MechanismError(

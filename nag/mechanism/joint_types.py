@@ -8,8 +8,13 @@ an eigenspace of Tuomela 2025 (T25), lemma 2.1.
 
 A new type is a new entry of `JOINT_TYPES`. Formulation E and the unreduced model read its numbers
 of constraints, formulations H and S its factors, case files and graphs what must be given of it.
-Only a factor of a kind that is not there yet asks for more: generators and letters in
-`joint_factors`.
+What is wrong with an entry by itself it says when it is made. Two rules bind constraints and
+factors: directions of gaps, and of the first factor, are those of ``axis`` in the first body; and
+planar mechanisms have only joints that are one turn or one slide.
+
+A factor of a kind that is not there yet asks for its freedoms here, and in `joint_factors` for
+`Kind`, generators, letters, the number of coordinates that turn, and `Factor.norm`. A vector that
+no type has had is a field of `nag.mechanism.graph.Joint` and one of `VECTORS`.
 """
 
 from __future__ import annotations
@@ -17,6 +22,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from nag.errors import NagError
+
+# What may be given of a joint.
+VECTORS = ("point", "axis", "second_axis")
 # Freedoms of each kind of factor of a joint's displacement (`nag.mechanism.joint_factors`).
 FACTOR_FREEDOMS = MappingProxyType({"turn": 1, "slide": 1, "ball": 3, "plane": 3})
 
@@ -54,14 +63,18 @@ class JointType:
     """What a type of joint asks for, and what it leaves free.
 
     Attributes:
-        fields: what must be given of it: ``point``, ``axis``, ``second_axis``.
+        fields: what must be given of it, of `VECTORS`.
         optional: what may be given and changes nothing (a place where the joint is drawn).
         coincidences: number of C constraints, three conditions each, at its point.
         orthogonalities: number of SO constraints: one between its two axes; two that keep its axis;
             three that keep all directions.
         gaps: number of O constraints: one along its axis, or two across it.
         factors: kinds of the factors whose product is its displacement, in order: keys of
-            `FACTOR_FREEDOMS`. The first turn is about ``axis``, the second about ``second_axis``.
+            `FACTOR_FREEDOMS`. The first of a kind is about or along ``axis``, a second one about or
+            along ``second_axis``.
+
+    Raises:
+        NagError: if these do not fit each other.
     """
 
     fields: tuple[str, ...]
@@ -70,6 +83,30 @@ class JointType:
     orthogonalities: int
     gaps: int
     factors: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        fault = self._find_fault()
+        if fault is not None:
+            raise NagError(f"a joint type of factors {self.factors}: {fault}")
+
+    def _find_fault(self) -> str | None:
+        """What of it does not fit the rest."""
+        for words, known in (
+            ((*self.fields, *self.optional), VECTORS),
+            (self.factors, tuple(FACTOR_FREEDOMS)),
+        ):
+            for word in words:
+                if word not in known:
+                    return f"{word!r} is unknown; there are {', '.join(known)}"
+        for name, most in (("orthogonalities", len(PRIME_COMPONENTS) - 1), ("gaps", 2)):
+            if not 0 <= getattr(self, name) <= most:
+                return f"{getattr(self, name)} {name}; at most {most}"
+        if self.conditions + self.freedoms != 6:
+            return f"{self.conditions} conditions and {self.freedoms} freedoms; 6 in all"
+        two_axes = self.orthogonalities == 1 or len(set(self.factors)) < len(self.factors)
+        if two_axes != ("second_axis" in self.fields):
+            return "a second axis has who has one orthogonality, or two factors of a kind"
+        return None
 
     @property
     def conditions(self) -> int:
@@ -115,6 +152,11 @@ class JointType:
     def turns_about_point(self) -> bool:
         """Whether it moves and its point stays where it is."""
         return self.coincidences > 0 and not self.is_rigid
+
+    @property
+    def keeps_axis(self) -> bool:
+        """Whether its axis has one and the same direction in both bodies."""
+        return self.orthogonalities >= 2
 
     @property
     def keeps_line(self) -> bool:
