@@ -32,7 +32,7 @@ from nag.files.cases import Truth, read_case
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.problem import problem_of
 from nag.report.agreement import Verdict, compare
-from nag.witness.shown import in_words, kinds
+from nag.witness.shown import kinds, kinds_text
 from nag.witness.witness import Status
 
 CASES = Path(__file__).resolve().parent.parent / "cases"
@@ -125,7 +125,7 @@ def decomposed(of: Subject, seed: int, threads: int, settings: str) -> Result:
     text = ""
     if wrong or not answer.complete:
         reasons = [*answer.notes, *(c.note for c in answer.components if c.note)]
-        text = f"{in_words(kinds(answer.components))} {answer.paths} {'; '.join(reasons)}"
+        text = f"{kinds_text(kinds(answer.components))} {answer.paths} {'; '.join(reasons)}"
     return Result(of.name, seed, wrong, not answer.complete, undecided, spent, text)
 
 

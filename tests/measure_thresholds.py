@@ -175,7 +175,7 @@ def watched(measured: Measured) -> ExitStack:
         (limits, "_denominator", denominator),
         (path_ends, "_residuals", values),
         (path_ends, "_solutions", real),
-        (jumps, "coinciding", met),
+        (jumps, "coinciding_pairs", met),
     ]:
         stack.enter_context(patch.object(owner, name, around(getattr(owner, name), note)))
     watch_digits(measured, stack)
@@ -214,11 +214,13 @@ def watched_decomposition(measured: Measured) -> ExitStack:
 
     def coincident(_: Any, points: np.ndarray, x: np.ndarray, error: Any) -> None:
         distances = np.linalg.norm(points - x, axis=1)
-        measured.add("coincident (over LEAST)", 1.0, distances / coincidence.reach(x[None], error))
+        measured.add(
+            "coincident (over LEAST)", 1.0, distances / coincidence.radii_of_balls(x[None], error)
+        )
 
     def clusters(_: Any, points: np.ndarray, accuracy: np.ndarray) -> None:
         if len(points) < MOST_PAIRED:
-            radii = coincidence.reach(points, accuracy)
+            radii = coincidence.radii_of_balls(points, accuracy)
             distances = np.linalg.norm(points[:, None] - points[None], axis=2)
             ratios = distances / np.maximum(radii[:, None], radii[None])
             pairs = np.triu_indices(len(points), 1)
@@ -269,7 +271,7 @@ def watched_decomposition(measured: Measured) -> ExitStack:
     turns, stack = [0.0], ExitStack()
     everywhere(stack, coincidence.coincident, coincident)
     everywhere(stack, coincidence.clusters, clusters)
-    everywhere(stack, coincidence.compared, compared)
+    everywhere(stack, coincidence.classify_arrivals, compared)
     everywhere(stack, confirm.find_vanishing, vanishing)
     everywhere(stack, double_ranks.numerical_corank, corank)
     everywhere(stack, cutting.sharpen, sharpened)

@@ -43,7 +43,7 @@ from nag.solving.parameter_line import parameter_line
 from nag.solving.solve import solve
 from nag.solving.start.family_monodromy import first_solution
 from nag.tracking.paths import PathStatus
-from nag.tracking.settings import Settings, named
+from nag.tracking.settings import Settings, find_settings
 from nag.tracking.track import track
 from nag.witness.moving import witness_at
 from nag.witness.witness import WitnessSet
@@ -252,7 +252,7 @@ def _zero(
 ) -> np.ndarray:
     """Where a zero for the first parameters leads to."""
     line = parameter_line(family, first, values)
-    paths = track(line.homotopy, line.starts(start[None]), named("fast"), endgame=False)
+    paths = track(line.homotopy, line.starts(start[None]), find_settings("fast"), endgame=False)
     assert paths.status[0] == PathStatus.REGULAR
     return line.affine(paths.points)
 

@@ -25,7 +25,7 @@ from nag.files.solutions_export import write_solutions
 from nag.numerics.discs import DiscPolynomials, Discs
 from nag.solving.certified_paths import prove_paths
 from nag.solving.solve import solve
-from nag.tracking.certified_paths import certified_paths, distinct, located
+from nag.tracking.certified_paths import are_distinct, certified_paths, prove_zeros_near
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.moving_discs import MovingSystem, series_product, values_along
@@ -92,11 +92,11 @@ CHART = np.array([[1.0, 0.0]], dtype=complex)
 def test_a_tracker_with_long_steps_jumps_where_tubes_do_not() -> None:
     homotopy = avoided(GAP)
     system = MovingSystem.of(homotopy, CHART)
-    starts = located(system, ends_of(GAP, 1), 1.0)
-    assert distinct(starts)
+    starts = prove_zeros_near(system, ends_of(GAP, 1), 1.0)
+    assert are_distinct(starts)
     found = certified_paths(system, starts)
     assert found.reached.tolist() == [0.0, 0.0]
-    known = located(system, ends_of(GAP, 0), 0.0)
+    known = prove_zeros_near(system, ends_of(GAP, 0), 0.0)
     assert found.ends.same(known).all()
     # The same paths with steps that nothing holds back.
     careless = Settings(
@@ -112,7 +112,7 @@ def test_a_tracker_with_long_steps_jumps_where_tubes_do_not() -> None:
 
 def test_paths_that_meet_are_not_proved_beyond_where_they_do() -> None:
     system = MovingSystem.of(avoided(Fraction(0)), CHART)
-    starts = located(system, ends_of(Fraction(0), 1), 1.0)
+    starts = prove_zeros_near(system, ends_of(Fraction(0), 1), 1.0)
     found = certified_paths(system, starts)
     assert (found.reached > 0.5).all()
     assert (found.reached < 0.51).all()
@@ -121,7 +121,7 @@ def test_paths_that_meet_are_not_proved_beyond_where_they_do() -> None:
 def test_a_double_zero_and_what_is_no_zero_are_not_located() -> None:
     system = MovingSystem.of(avoided(Fraction(0)), CHART)
     points = np.array([[1, 0.5], [1, 0.25]], dtype=complex)
-    assert not located(system, points, 0.5).proved.any()
+    assert not prove_zeros_near(system, points, 0.5).proved.any()
 
 
 def test_all_paths_of_katsura_are_proved_and_lead_to_all_solutions() -> None:

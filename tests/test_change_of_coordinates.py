@@ -13,7 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition import genus, project, sample, singular_locus, witness_at
 from nag.decomposition.trace import linear_traces
 from nag.interpolation.precise_samples import samples, source_of_component
-from nag.numerics.digits import number
+from nag.numerics.digits import to_ball
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
@@ -126,7 +126,7 @@ def test_points_far_from_the_origin_are_sampled_to_many_digits() -> None:
         for found in samples(source, 3, np.random.default_rng(1), Run()):
             with flint.ctx.workdps(150):
                 point = found.balls(60)
-                values = [f(point, number) for f in system.polynomials]
+                values = [f(point, to_ball) for f in system.polynomials]
                 sizes = [float(abs(z).upper()) for z in values]
             assert all(z.contains(0) for z in values)
             assert max(sizes) < 1e-40

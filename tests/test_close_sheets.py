@@ -14,7 +14,13 @@ from nag.decomposition import witness_at
 from nag.decomposition.components import decompose
 from nag.files.export import read_decomposition, write_decomposition
 from nag.tracking.paths import Ball
-from nag.witness.close_points import Fine, distance, in_words, rated, zero_from
+from nag.witness.close_points import (
+    PointInWords,
+    distance,
+    fine_of_balls,
+    with_newton_constant,
+    zero_from,
+)
 from nag.witness.fibres import _words
 from nag.witness.membership import UndecidedError
 from nag.witness.slices import random_rows, to_slice
@@ -171,17 +177,18 @@ def test_newtons_constant_is_the_inverse_distance_of_two_zeros() -> None:
     for k in (3, 10, 20):
         f = nag.system(f"x^2 - 1/10^{2 * k}", "x").polynomials
         with flint.ctx.workdps(100):
-            point = in_words([flint.acb(1) / flint.arb(10) ** k], 1.0)
-        found = rated(f, np.zeros((0, 2), dtype=complex), point).curvature
+            point = fine_of_balls([flint.acb(1) / flint.arb(10) ** k], 1.0)
+        found = with_newton_constant(f, np.zeros((0, 2), dtype=complex), point).curvature
         assert 0.3 < found / (0.5 * 10.0**k) < 3
 
 
 def test_distances_of_close_points_are_those_of_all_digits() -> None:
     with flint.ctx.workdps(100):
         x, y = (
-            in_words([flint.acb(1) / 3 + e, flint.acb(2)], 1.0) for e in (0, flint.arb("3e-30"))
+            fine_of_balls([flint.acb(1) / 3 + e, flint.acb(2)], 1.0)
+            for e in (0, flint.arb("3e-30"))
         )
-    assert isinstance(x, Fine) and np.array_equal(x.rounded, y.rounded)
+    assert isinstance(x, PointInWords) and np.array_equal(x.rounded, y.rounded)
     assert distance(x.rounded, None, y.rounded, None) == 0
     assert abs(distance(x.rounded, x, y.rounded, y) - 3e-30) < 1e-40
 
@@ -220,7 +227,7 @@ def test_close_zeros_are_known_to_as_many_digits_as_are_asked_for(e: int, power:
     (f,) = nag.system(f"x^{power} - 2/10^{e * power}", "x").polynomials
     with flint.ctx.workdps(400):
         exact = flint.arb(2) ** flint.fmpq(1, power) / flint.arb(10) ** e
-        start = in_words([flint.acb(exact)], 10.0**e)
+        start = fine_of_balls([flint.acb(exact)], 10.0**e)
         found = zero_from([f], np.zeros((0, 2), dtype=complex), start, 150)
         assert found is not None and abs(found.centre[0] - exact) < flint.arb(10) ** -150
 

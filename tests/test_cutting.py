@@ -44,7 +44,9 @@ def is_alone(distance: Fraction) -> bool:
 
 
 def test_doubles_are_enough_to_see_that_no_other_zero_is_near(monkeypatch) -> None:
-    monkeypatch.setattr(cutting_in_digits, "rated", lambda *_: pytest.fail("digits were asked"))
+    monkeypatch.setattr(
+        cutting_in_digits, "with_newton_constant", lambda *_: pytest.fail("digits were asked")
+    )
     assert is_alone(Fraction(1))
     assert is_alone(Fraction(1, 100))
 

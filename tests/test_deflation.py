@@ -13,7 +13,7 @@ from nag.numerics import deflation
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.deflation import NotDeflated, deflate
 from nag.numerics.descent import Round, descend
-from nag.numerics.digits import log_norm, working
+from nag.numerics.digits import log_norm, working_digits
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import find_zero
 from nag.numerics.second_round import SecondRound
@@ -33,7 +33,7 @@ def test_the_order_at_a_rough_point_needs_no_longer_series(monkeypatch: pytest.M
     monkeypatch.setattr(deflation, "descend", recorded)
     given = polynomials("x y z w", *QUARTICS.split(", "), "w + w^2 - x*y*z")
     system = ExactSystem.of(given, np.zeros(4))
-    with working(DIGITS):
+    with working_digits(DIGITS):
         rough = [flint.acb(c) for c in (1e-3, -2e-3, 1.5e-3, 1e-4)]
         found = deflate(system, rough, -2.5, np.random.default_rng(0))
     assert (found.rounds[0].order, found.free, found.exact) == (4, 0, True)
@@ -53,7 +53,7 @@ def test_newton_s_method_that_leads_away_is_given_up(monkeypatch: pytest.MonkeyP
 
     sharpen = deflation.sharpen
     monkeypatch.setattr(deflation, "sharpen", recorded)
-    with working(DIGITS):
+    with working_digits(DIGITS):
         with pytest.raises(NotDeflated, match="away"):
             deflate(system, [flint.acb(0)] * 2, -3.0, np.random.default_rng(0))
         assert sharpened == [1]
@@ -62,7 +62,7 @@ def test_newton_s_method_that_leads_away_is_given_up(monkeypatch: pytest.MonkeyP
 
 def test_all_equations_together_lead_to_their_common_zero() -> None:
     """From there, Newton's method for the first one alone leads to another zero of it."""
-    with working(DIGITS):
+    with working_digits(DIGITS):
         two = polynomials("x", "x*(x - 1/10^6)", "x*(x - 2/10^6)")
         start = [flint.acb("6e-7")]
         found = find_zero(BallPolynomials.of(two), start, DIGITS, -6.0)
@@ -73,7 +73,7 @@ def test_all_equations_together_lead_to_their_common_zero() -> None:
 
 
 def test_a_multiple_zero_is_none_that_all_equations_make_regular() -> None:
-    with working(DIGITS):
+    with working_digits(DIGITS):
         double = BallPolynomials.of(polynomials("x y", "x^2", "x*y", "y - x^2"))
         assert find_zero(double, [flint.acb("1e-3"), flint.acb("1e-4")], DIGITS, -1.0) is None
 
@@ -91,7 +91,7 @@ def test_newton_s_step_of_two_rounds_is_the_same_by_jacobians_and_by_series(left
     given = ("w + x^2 - y*z + w^3", "x^2 - 2*y^2 + 3*z*w", "x*y + w^2 + z*x - z^2")
     system = ExactSystem.of(polynomials("x y z w", *given), np.zeros(4))
     rounds = [Round((0,), (3,), 2), Round((2, 1, 3)[left:], (0, 1, 2)[left:])]
-    with working(DIGITS):
+    with working_digits(DIGITS):
         point = [flint.acb(f"{c}e-40") for c in (1, -2, 3, 1)]
         newton = SecondRound.of(system.values_at(DIGITS), len(system.rows), rounds)
         assert newton is not None
@@ -113,7 +113,7 @@ def test_rows_added_to_equations_have_their_values_and_slopes_after_theirs() -> 
     whole = ExactSystem.of(third, np.zeros(2))
     built = ExactSystem.of(third[:2], np.zeros(2)).with_row(whole.rows[2])
     for digits in (50, 150):
-        with working(digits):
+        with working_digits(digits):
             point = [flint.acb("0.3", "1.7"), flint.acb("-2.1", "0.4")]
             one, other = whole.values_at(digits), built.values_at(digits)
             assert (

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from nag.files.cases import read_case
 from nag.solving.solve import solve
-from nag.tracking.evaluations import count, counted
+from nag.tracking.evaluations import count, count_evaluations
 from nag.tracking.settings import NAMED
 
 CASES = Path(__file__).parents[1] / "cases"
@@ -14,7 +14,7 @@ CASES = Path(__file__).parents[1] / "cases"
 
 def test_steps_in_doubles_take_two_values_and_as_many_series_as_the_order() -> None:
     system = read_case(CASES / "benchmarks" / "katsura-6.toml").system
-    with counted() as found:
+    with count_evaluations() as found:
         result = solve(system)
     # No path needs more digits. Sharpening takes three steps, and one value beside each point.
     steps = result.paths.steps * (2 + NAMED["default"].order)
@@ -26,11 +26,11 @@ def test_work_in_more_digits_counts_and_the_number_of_threads_does_not() -> None
     system = read_case(CASES / "hard" / "chemequ.toml").system
     numbers = []
     for threads in (1, 2):
-        with counted() as found:
+        with count_evaluations() as found:
             result = solve(system, threads=threads)
         numbers.append(found.number)
     assert numbers[0] == numbers[1]
-    with counted() as doubles:
+    with count_evaluations() as doubles:
         short = solve(system, settings="fast")
     assert doubles.number != numbers[0]
     assert numbers[0] > result.paths.steps
@@ -38,7 +38,7 @@ def test_work_in_more_digits_counts_and_the_number_of_threads_does_not() -> None
 
 
 def test_nobody_counts_outside_the_block() -> None:
-    with counted() as found:
+    with count_evaluations() as found:
         count(3)
     count(4)
     assert found.number == 3

@@ -18,7 +18,7 @@ from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import find_zero, newton_step
 from nag.numerics.precise_point import PrecisePoint, precise_zero
 from nag.numerics.singular_point import analyse
-from nag.numerics.zero_values import vanishes
+from nag.numerics.zero_values import vanishes_at_point
 
 
 def equations(*texts: str) -> tuple[Polynomial, ...]:
@@ -104,13 +104,17 @@ def test_a_polynomial_vanishes_or_does_not_or_the_digits_leave_it_open() -> None
         )
     ]
     same, differs, close = equations("x^2*y^2 - 6", "x - y + 3/10", "x^2 - 2 - 1/10^70")
-    assert (vanishes(same, zero), vanishes(differs, zero), vanishes(close, zero)) == (
+    assert (
+        vanishes_at_point(same, zero),
+        vanishes_at_point(differs, zero),
+        vanishes_at_point(close, zero),
+    ) == (
         True,
         False,
         False,
     )
     rough = PrecisePoint(zero.centre, np.full(2, 1e-30))
-    assert vanishes(close, rough) is None
+    assert vanishes_at_point(close, rough) is None
 
 
 def test_precise_points_are_pickled_to_the_last_bit() -> None:

@@ -173,7 +173,7 @@ def test_solutions_that_stay_lost_are_an_error(monkeypatch: pytest.MonkeyPatch) 
         return system, 0, False
 
     monkeypatch.setattr("nag.solving.start.polyhedral.by_degeneration", half)
-    monkeypatch.setattr("nag.solving.start.polyhedral.by_monodromy", nothing)
+    monkeypatch.setattr("nag.solving.start.polyhedral.find_by_loops", nothing)
     with pytest.raises(StartError, match="35 of the 70 solutions"):
         start_system("cyclic-5", 0)
 

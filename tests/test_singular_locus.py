@@ -19,7 +19,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.expression import parse_number
 from nag.bench.atlas.linkages import slider_crank
 from nag.cli import main
-from nag.decomposition.linear_hull import within_hull
+from nag.decomposition.linear_hull import add_hull_equations
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.singular_points import SingularLocus, singular_locus
 from nag.files.json_schema import schema
@@ -86,7 +86,7 @@ def test_components_of_two_rhombi_meet_in_circles_and_points() -> None:
 def test_a_component_is_cut_by_the_equations_of_its_linear_hull() -> None:
     answer = nag.decompose(["(x - y)*(x^2 + y^2 - 1)", "z^2 - x^2 - 3*x*(x - y)"])
     rng, tracker = np.random.default_rng(3), Run()
-    found = [within_hull(answer.system, c, rng, tracker) for c in answer.components]
+    found = [add_hull_equations(answer.system, c, rng, tracker) for c in answer.components]
     left = [Reduction.of(system).n for system, _ in found]
     assert sorted(zip(left, [c.degree for c in answer.components], strict=True)) == [
         (1, 1),

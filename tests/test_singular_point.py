@@ -10,7 +10,7 @@ import pytest
 from singular_zeros import ISOLATED, ON_COMPONENTS, Zero, polynomials
 
 from nag.numerics.deflation import deflate
-from nag.numerics.digits import doubles, working
+from nag.numerics.digits import doubles, working_digits
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.rounds_in_doubles import RoundsInDoubles
 from nag.numerics.sharpening import DIGITS, sharpen
@@ -147,7 +147,7 @@ def test_irrational_coefficients_are_taken_to_all_digits() -> None:
 
 def test_a_point_may_be_given_by_more_digits_than_doubles_have() -> None:
     system = polynomials("x", "x*(x - 1/10^20)")
-    with working(DIGITS):
+    with working_digits(DIGITS):
         given = [flint.acb("1e-20")]
     one = analyse(system, given, 1e-30, np.random.default_rng(0))
     assert (one.place, one.multiplicity, one.rational) == (

@@ -16,7 +16,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.bench import peer_components, peer_points, peers, sharpening
 from nag.bench.component_curves import Listed, agreement, witness_section
 from nag.bench.peer_points import forms
-from nag.bench.reference import Reference, ReferenceError, compared, compared_in_balls
+from nag.bench.reference import Reference, ReferenceError, compare_in_balls, compare_points
 from nag.bench.speed_accuracy import chart_of, ratios
 from nag.bench.speed_accuracy_picture import COLOURS, MARKS, PEERS
 from nag.bench.whole_paths import WHOLE_TOLERANCES, WholePaths, tracked_in
@@ -34,7 +34,7 @@ KEPT = Path(__file__).parents[1] / "nag" / "bench" / "charts" / "speed-accuracy.
 
 def test_errors_are_those_beside_the_exact_zeros() -> None:
     reference = Reference.of(SYSTEM, ROOTS, NONE)
-    found = compared(reference, ROOTS + 1e-9)
+    found = compare_points(reference, ROOTS + 1e-9)
     assert (found.share, found.false) == (1.0, 0)
     # Zeros of a size above one: the shift is relative to the largest coordinate.
     size = np.abs(ROOTS).max(axis=1).min()
@@ -44,7 +44,7 @@ def test_errors_are_those_beside_the_exact_zeros() -> None:
 def test_points_that_are_missing_or_false_or_repeated_are_counted() -> None:
     reference = Reference.of(SYSTEM, ROOTS, NONE)
     points = np.vstack([ROOTS[:2], ROOTS[:1], [[7, 7]]])
-    found = compared(reference, points)
+    found = compare_points(reference, points)
     assert (found.share, found.false) == (0.5, 2)
 
 
@@ -115,7 +115,7 @@ def test_errors_in_balls_are_those_in_doubles_and_go_on_beyond_them() -> None:
     for off in (1e-9, 1e-40):
         with flint.ctx.workdps(120):
             points = [[z + off for z in box.centre] for box in reference.boxes]
-        found = compared_in_balls(reference, [*points, points[0], [flint.acb(7)] * 2])
+        found = compare_in_balls(reference, [*points, points[0], [flint.acb(7)] * 2])
         assert (found.share, found.false) == (1.0, 2)
         size = np.abs(ROOTS).max(axis=1).min()
         assert found.largest == pytest.approx(off / size, rel=1e-5)

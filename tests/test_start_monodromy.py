@@ -12,7 +12,7 @@ from systems import benchmark
 
 from nag.errors import StartError
 from nag.solving.start import monodromy as module
-from nag.solving.start.fibre_monodromy import GenericSystem, by_monodromy
+from nag.solving.start.fibre_monodromy import GenericSystem, find_by_loops
 from nag.solving.start.mixed_cells import mixed_cells
 from nag.solving.start.monodromy import (
     Pencil,
@@ -40,7 +40,7 @@ def all_points(name: str, seed: int) -> tuple[Pencil, GenericSystem]:
     assert row is not None
     pencil, system = seed_pencil(each.supports, row, rng)
     volume = mixed_cells(enlarged(each, row), rng).mixed_volume
-    system, _, _ = by_monodromy(system, volume, rng, 1)
+    system, _, _ = find_by_loops(system, volume, rng, 1)
     assert len(system.points) == volume
     return pencil, system
 

@@ -9,7 +9,7 @@ from evaluated import values
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy, straight_line
-from nag.tracking.kernel_arrays import system, work
+from nag.tracking.kernel_arrays import scratch_table, system
 from nag.tracking.straight_run import Batch, track_lanes
 
 ORDER = 5
@@ -20,7 +20,7 @@ SAMPLES = 64
 def taylor_coefficients(homotopy: Homotopy, start: np.ndarray) -> np.ndarray:
     """Coefficients of orders 0 to ORDER of the path at t = 1, shape ``(ORDER + 1, N)``."""
     N = homotopy.N
-    scratch = work(homotopy, ORDER)
+    scratch = scratch_table(homotopy, ORDER)
     reals = [np.zeros(1) for _ in range(2)]
     wholes = [np.zeros(1, dtype=np.int64) for _ in range(2)]
     # The first step of a path corrects its start; the second one fails, as no more are allowed.

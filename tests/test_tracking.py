@@ -20,7 +20,7 @@ from nag.tracking.known import Known
 from nag.tracking.newton import refine
 from nag.tracking.paths import PathStatus, Reason
 from nag.tracking.projective import aligned_difference
-from nag.tracking.settings import Settings, named
+from nag.tracking.settings import Settings, find_settings
 from nag.tracking.track import run_in_doubles, track
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -240,7 +240,7 @@ def test_a_step_that_was_rejected_is_not_tried_again():
     x, y = Polynomial.variables(2)
     for seed in (17, 47, 48):
         homotopy, starts = total_degree([x**2 + y**2 - 1, (y - 1) * (x + y - 3)], seed)
-        raw = run_in_doubles(homotopy, homotopy.normalized(starts), named("fast"), 1, False)
+        raw = run_in_doubles(homotopy, homotopy.normalized(starts), find_settings("fast"), 1, False)
         assert raw.steps.max() < 200
 
 

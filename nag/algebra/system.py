@@ -11,7 +11,7 @@ from nag.algebra.given import check_listed, check_type, shown
 from nag.algebra.number import Number, number_text
 from nag.algebra.polynomial import Polynomial
 from nag.errors import NagError
-from nag.text.table import LINE, counted, html_table, one_line, printable, shortened
+from nag.text.table import LINE, count_text, html_table, one_line, printable, shortened
 
 # Of longer systems the first equations are shown.
 MOST_LINES, MOST_ROWS = 4, 40
@@ -108,7 +108,7 @@ class PolynomialSystem:
         shown = len(self.polynomials) if len(self.polynomials) <= MOST_LINES else MOST_LINES - 1
         lines += [f"  {f.text(self.variables)} = 0" for f in self.polynomials[:shown]]
         if shown < len(self.polynomials):
-            lines.append(f"  and {counted(len(self.polynomials) - shown, 'more equation')}")
+            lines.append(f"  and {count_text(len(self.polynomials) - shown, 'more equation')}")
         return "\n".join(shortened(printable(line)) for line in lines)
 
     def _repr_html_(self) -> str:
@@ -117,7 +117,7 @@ class PolynomialSystem:
         for i, f in enumerate(self.polynomials[:MOST_ROWS]):
             rows.append([str(i), str(f.degree), shortened(f.text(self.variables), 2 * LINE)])
         hidden = len(self.polynomials) - MOST_ROWS
-        note = f"and {counted(hidden, 'more equation')}" if hidden > 0 else ""
+        note = f"and {count_text(hidden, 'more equation')}" if hidden > 0 else ""
         return html_table(f"PolynomialSystem of {system_line(self)}", rows, note)
 
 
@@ -134,7 +134,7 @@ def system_line(system: PolynomialSystem) -> str:
     listed = ", ".join(f"{n} of degree {d}" for d, n in degrees.items())
     names = ", ".join(system.variables)
     text = (
-        f"{counted(system.n, 'variable')}{f' ({names})' if 0 < len(names) <= 60 else ''}, "
-        f"{counted(len(system.polynomials), 'equation')}{f': {listed}' if listed else ''}"
+        f"{count_text(system.n, 'variable')}{f' ({names})' if 0 < len(names) <= 60 else ''}, "
+        f"{count_text(len(system.polynomials), 'equation')}{f': {listed}' if listed else ''}"
     )
     return text if system.exact else f"{text}; not all coefficients are rational"

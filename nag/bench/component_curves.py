@@ -32,7 +32,7 @@ from nag.bench.work_precision import (
 from nag.decomposition.components import decompose
 from nag.numerics.certified_points import independent_equations
 from nag.solving.solve import solve
-from nag.tracking.evaluations import counted
+from nag.tracking.evaluations import count_evaluations
 from nag.tracking.settings import Settings
 
 # Coefficients of a slice are integers up to this.
@@ -62,7 +62,7 @@ def components_chart(subject: Subject, seeds: int, peers: bool, progress: Progre
     system, wanted = subject.system, sorted(subject.degrees)
 
     def measured(seed: int, settings: Settings | str) -> tuple[float, int, Found]:
-        with counted() as spent:
+        with count_evaluations() as spent:
             seconds, found = timed(lambda: decompose(system, seed=seed, settings=settings))
         listed = (Listed(c.points, c.slice.rows, c.orbit, bool(c.note)) for c in found.components)
         return seconds, spent.number, agreement(system, listed, wanted)

@@ -179,7 +179,7 @@ def measure(
 
     With ``family`` it is solved by way of its family, random parameters first.
     """
-    from nag.solving.solve import begin_of
+    from nag.solving.solve import time_first_attempt
 
     def solver(threads: int) -> SolveResult:
         if family is None:
@@ -191,7 +191,7 @@ def measure(
     seconds, result = _best(solver, 1)
     two, _ = _best(solver, 2)
     if family is None:
-        homotopy, tracking, steps = begin_of(system, seed)
+        homotopy, tracking, steps = time_first_attempt(system, seed)
     else:
         homotopy, tracking, steps = begin_of_family(_generic(family, seed, 2), family.values)
     flops = step_flops(homotopy)

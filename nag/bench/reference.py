@@ -102,21 +102,21 @@ class Found:
     median: float
 
 
-def compared(reference: Reference, points: np.ndarray) -> Found:
+def compare_points(reference: Reference, points: np.ndarray) -> Found:
     """Points beside the reference."""
-    return _compared(
+    return _compare(
         reference, points, lambda k, place: reference.errors(points[[k]], np.array([place]))[0]
     )
 
 
-def compared_in_balls(reference: Reference, points: Sequence[Sequence[flint.acb]]) -> Found:
+def compare_in_balls(reference: Reference, points: Sequence[Sequence[flint.acb]]) -> Found:
     """The same of points of more digits than doubles have."""
     rounded = np.array([[complex(z.mid()) for z in x] for x in points], dtype=complex)
     rounded = rounded.reshape(len(points), reference.high.shape[1])
-    return _compared(reference, rounded, lambda k, place: reference.fine_error(points[k], place))
+    return _compare(reference, rounded, lambda k, place: reference.fine_error(points[k], place))
 
 
-def _compared(
+def _compare(
     reference: Reference, points: np.ndarray, error_of: Callable[[int, int], float]
 ) -> Found:
     k = len(reference.high)

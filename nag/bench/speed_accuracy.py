@@ -10,7 +10,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.bench.component_curves import components_chart
 from nag.bench.peer_points import forms, peer_points, programs
-from nag.bench.reference import Found, Reference, ReferenceError, compared
+from nag.bench.reference import Found, Reference, ReferenceError, compare_points
 from nag.bench.sharpening import sharpening
 from nag.bench.work_precision import (
     PATIENCE,
@@ -25,7 +25,7 @@ from nag.bench.work_precision import (
     timed,
 )
 from nag.solving.solve import solve
-from nag.tracking.evaluations import counted
+from nag.tracking.evaluations import count_evaluations
 from nag.tracking.settings import Settings
 
 SEEDS = 5
@@ -79,9 +79,9 @@ def _solutions(subject: Subject, seeds: int, progress: Progress | None) -> Chart
     system, reference = subject.system, _reference(subject)
 
     def measured(seed: int, settings: Settings | str) -> tuple[float, int, Found]:
-        with counted() as spent:
+        with count_evaluations() as spent:
             seconds, found = timed(lambda: solve(system, seed=seed, settings=settings))
-        return seconds, spent.number, compared(reference, found.points)
+        return seconds, spent.number, compare_points(reference, found.points)
 
     curves = own_curves(measured, seeds, progress)
     curves += in_arithmetics(system, reference, seeds, progress)
@@ -113,7 +113,7 @@ def _peer(program: str, system: PolynomialSystem, reference: Reference) -> Curve
         if answer.points is None:
             curves.append(Curve("peer", program, (), answer.remark))
             continue
-        found = compared(reference, answer.points)
+        found = compare_points(reference, answer.points)
         point = Point(program, answer.seconds, 0, **asdict(found))
         curves.append(Curve("peer", program, (point,), remark))
     return best_form(curves)

@@ -114,7 +114,7 @@ def verdict(run: TimedRun, truth: ZeroSet | None) -> str | None:
     return "right" if agrees(run.value, truth) else "wrong"
 
 
-def in_words(components: Components, facts: Counter[str] | None = None) -> str:
+def components_text(components: Components, facts: Counter[str] | None = None) -> str:
     """Like "3 isolated, 1 isolated mult 2, 1 of dim 1 deg 4"."""
     parts = []
     for (dimension, degree, multiplicity), count in sorted(components.items()):
@@ -131,8 +131,8 @@ def known(truth: ZeroSet | None, method: str) -> str:
     if truth.dimension is not None:
         return f"of dimension {truth.dimension}"
     if method != "solve" and truth.components is not None:
-        return in_words(truth.components, truth.facts)
-    text = in_words(Counter({(0, 1, k): count for k, count in truth.points.items()}))
+        return components_text(truth.components, truth.facts)
+    text = components_text(Counter({(0, 1, k): count for k, count in truth.points.items()}))
     if method == "decompose":
         sums = (f"degrees in dim {d} mult {m}: {s}" for (d, m), s in sorted(truth.degrees.items()))
         text = "; ".join([text, *sums])
@@ -144,7 +144,7 @@ def described(run: TimedRun, truth: ZeroSet | None) -> str:
     if run.value is None:
         return run.error or f"ended after {run.seconds:g} s"
     notes = f" ({run.value.notes})" if not run.value.complete else ""
-    found = in_words(run.value.components, run.value.facts)
+    found = components_text(run.value.components, run.value.facts)
     return f"{found}; known: {known(truth, run.value.method)}{notes}"
 
 

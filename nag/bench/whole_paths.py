@@ -18,7 +18,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.bench.reference import NEAR, Found, Reference, compared, compared_in_balls
+from nag.bench.reference import NEAR, Found, Reference, compare_in_balls, compare_points
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import bits_of, change_units
 from nag.numerics.newton import newton_step, subtract_step
@@ -27,7 +27,7 @@ from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
 from nag.solving.start.target import Start, Target
 from nag.tracking.ends.follow import follow_whole
-from nag.tracking.evaluations import counted
+from nag.tracking.evaluations import count_evaluations
 from nag.tracking.newton import refine
 from nag.tracking.paths import PathStatus, Reason
 from nag.tracking.settings import NAMED, Settings
@@ -139,9 +139,9 @@ def tracked_in(
     paths: WholePaths, reference: Reference, arithmetic: str, tolerance: float
 ) -> tuple[float, int, Found]:
     """Processor seconds of tracking, evaluations of the system, and what was found."""
-    with counted() as spent:
+    with count_evaluations() as spent:
         begin = time.process_time()
         ends = paths.zeros_among(paths.tracked(arithmetic, tolerance))
         seconds = time.process_time() - begin
-    compare = compared if isinstance(ends, np.ndarray) else compared_in_balls
+    compare = compare_points if isinstance(ends, np.ndarray) else compare_in_balls
     return seconds, spent.number, compare(reference, ends)

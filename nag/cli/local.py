@@ -115,7 +115,7 @@ def _through(
     components = expanded(decomposition).components
     known = through_points(decomposition, list(chosen.items()), options.threads)
 
-    def compared(name: str) -> Any:
+    def compare(name: str) -> Any:
         through = next(one for one in known if one.name == name)
 
         def text(found: LocalDimension) -> tuple[str, bool]:
@@ -129,4 +129,4 @@ def _through(
 
         return text
 
-    return {name: compared(name) for name in chosen}
+    return {name: compare(name) for name in chosen}

@@ -21,7 +21,7 @@ import numpy as np
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import regular_block
-from nag.numerics.digits import bits_of, doubles, in_bits, middle, number
+from nag.numerics.digits import bits_of, doubles, in_bits, middle, to_ball
 from nag.numerics.newton import find_zero, inverse_of
 from nag.tracking.run import Run
 from nag.witness.fibres import Fibre, move
@@ -127,7 +127,7 @@ def _loewner(at: Sequence[complex], values: Sequence[flint.acb]) -> list[list[fl
     half = len(at) // 2
     return [
         [
-            middle((values[i] - values[j]) / (number(at[i]) - number(at[j])))
+            middle((values[i] - values[j]) / (to_ball(at[i]) - to_ball(at[j])))
             for j in range(half, 2 * half)
         ]
         for i in range(half)
@@ -141,7 +141,7 @@ def _poles(at: Sequence[complex], values: Sequence[flint.acb]) -> list[complex]:
         return []
     rows, right = [], []
     for t, v in zip(at, values, strict=True):
-        powers = [number(t) ** k for k in range(degree + 1)]
+        powers = [to_ball(t) ** k for k in range(degree + 1)]
         rows.append([*powers, *(-v * p for p in powers[:degree])])
         right.append([v * powers[degree]])
     solution = flint.acb_mat(rows).solve(flint.acb_mat(right)).tolist()

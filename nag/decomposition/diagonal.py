@@ -23,11 +23,11 @@ from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import are_new_alone
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.coincidence import clusters, coincident, compared
+from nag.numerics.coincidence import classify_arrivals, clusters, coincident
 from nag.numerics.digits import bits_of
 from nag.numerics.zero_values import possible_zeros, vanishes_at, vanishes_at_all
 from nag.tracking.run import Run
-from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, Fine, in_words
+from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, PointInWords, fine_of_balls
 from nag.witness.close_to_sets import find_nearby_zeros, is_among_points
 from nag.witness.confirm import find_vanishing, zero_in_digits
 from nag.witness.cutting import Cut, is_end, regular_on, sharpen
@@ -131,16 +131,16 @@ def _pairs(first: Fibre, second: Fibre) -> Fibre:
 
 def _pair(
     first: Fibre, i: int, second: Fibre, j: int, places: tuple[Sequence[int], Sequence[int]]
-) -> Fine:
+) -> PointInWords:
     """The pair of two points in the digits that are known of them."""
     both = [
-        fibre.fine.get(k) or Fine.of_doubles(fibre.points[k])
+        fibre.fine.get(k) or PointInWords.of_doubles(fibre.points[k])
         for fibre, k in ((first, i), (second, j))
     ]
     words = np.zeros((sum(len(each.words) for each in both), *both[0].words.shape[1:]))
     for each, place in zip(both, places, strict=True):
         words[place] = each.words
-    return Fine(words, max(each.curvature for each in both))
+    return PointInWords(words, max(each.curvature for each in both))
 
 
 def meet_on_diagonal(
@@ -180,7 +180,7 @@ def meet_on_diagonal(
             break
         run.tell("intersecting", k, len(equations))
         d -= 1
-        fibres = diagonal.met(fibres, f, probe, d)
+        fibres = diagonal.split_at_diagonal(fibres, f, probe, d)
     if result.counts.failed:
         result.notes.append(f"{result.counts.failed} paths failed; points may be missing")
     return result
@@ -215,7 +215,7 @@ def _regular(
     return with_fine([Fibre(cut, rows, np.vstack(points), fine)])[0], lost
 
 
-def _in_words(fibre: Fibre, probe: Polynomial | None) -> Fine | None:
+def _in_words(fibre: Fibre, probe: Polynomial | None) -> PointInWords | None:
     """A fibre's one point in digits, as close to others as the zeros of a polynomial at least.
 
     None if it is not found.
@@ -231,7 +231,7 @@ def _in_words(fibre: Fibre, probe: Polynomial | None) -> Fine | None:
             float(abs(values[0, 0]).mid()) / terms / (1 + float(np.linalg.norm(fibre.points[0])))
         )
         steep = max(steep, STEEPER / max(apart, 1 / STEEPEST))
-    return in_words(there.centre, steep)
+    return fine_of_balls(there.centre, steep)
 
 
 @dataclass(frozen=True, eq=False)
@@ -245,7 +245,7 @@ class _Diagonal:
     rng: np.random.Generator
     run: Run
 
-    def met(
+    def split_at_diagonal(
         self, fibres: Sequence[Fibre], f: Polynomial, probe: Polynomial | None, d: int
     ) -> list[Fibre]:
         """Points of sets that met ``f``, in dimension ``d``: those off the diagonal.
@@ -263,7 +263,7 @@ class _Diagonal:
             result.counts += ends.counts
             gaps = np.full(len(ends), np.inf)
             gaps[ends.finite] = product.gaps(ends.points[ends.finite])
-            on_it, doubtful = self.compared(gaps, ends, probe, bool(fibre.fine))
+            on_it, doubtful = self.classify_ends(gaps, ends, probe, bool(fibre.fine))
             here, away = ends.finite & on_it, ends.finite & ~on_it
             unclear = int(np.sum(away & doubtful))
             on.append(ends.points[here, : product.n])
@@ -279,7 +279,7 @@ class _Diagonal:
         self.take(np.vstack(on), np.concatenate(errors), d)
         return off
 
-    def compared(
+    def classify_ends(
         self, gaps: np.ndarray, ends: PathEnds, probe: Polynomial | None, close: bool
     ) -> tuple[np.ndarray, np.ndarray]:
         """Which ends of paths are on the diagonal, and of which that is not clear.
@@ -287,7 +287,7 @@ class _Diagonal:
         Regular ends that are near it are looked at in digits, and so are singular ones where
         sheets are ``close``: there errors of doubles do not say which one was met.
         """
-        on_it, doubtful = compared(gaps, ends.accuracy)
+        on_it, doubtful = classify_arrivals(gaps, ends.accuracy)
         if probe is None:
             return on_it, doubtful
         cut, rows, near = ends.cut, ends.rows, gaps < CLOSE

@@ -14,7 +14,7 @@ from nag.errors import ComponentError
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component
-from nag.witness.close_points import CLOSE, Fine, follow_slice, rated
+from nag.witness.close_points import CLOSE, PointInWords, follow_slice, with_newton_constant
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import Cut
 from nag.witness.cutting_in_digits import cut_fibres
@@ -90,11 +90,13 @@ class Factor:
         if fibres is None:
             raise IntersectionError("the witness points are no regular zeros of the system")
         return [
-            self._with_fine(fibre, dict(enumerate(map(Fine.of_doubles, fibre.points))) | fibre.fine)
+            self._with_fine(
+                fibre, dict(enumerate(map(PointInWords.of_doubles, fibre.points))) | fibre.fine
+            )
             for fibre in fibres
         ]
 
-    def _with_fine(self, fibre: Fibre, known: Mapping[int, Fine]) -> Fibre:
+    def _with_fine(self, fibre: Fibre, known: Mapping[int, PointInWords]) -> Fibre:
         """A fibre with more digits of the points that are close to other zeros of its cut.
 
         Those that are close to zeros of other equations only need none. The slice is rounded beside
@@ -104,7 +106,7 @@ class Factor:
             return fibre
         polynomials, rows = fibre.cut.polynomials, fibre.rows
         there = {i: follow_slice(polynomials, rows, each) for i, each in known.items()}
-        found = {i: rated(polynomials, rows, each) for i, each in there.items()}
+        found = {i: with_newton_constant(polynomials, rows, each) for i, each in there.items()}
         steep = {i: each for i, each in found.items() if each.curvature * CLOSE > 1}
         return replace(fibre, fine=steep)
 

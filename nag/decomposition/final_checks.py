@@ -18,7 +18,7 @@ from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, CLOSE_AFAR, close_pairs, follow_slice
 from nag.witness.confirm import is_confirmed, zero_in_digits
 from nag.witness.cutting import Equations
-from nag.witness.exact_points import Sharp, carry_radii, order_points, sharpen_fibre
+from nag.witness.exact_points import SharpFibre, carry_radii, order_points, sharpen_fibre
 from nag.witness.fibres import Fibre, move
 from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity
@@ -117,8 +117,8 @@ class _Part:
     """
 
     own: np.ndarray
-    sharp: Sharp
-    lifted: Sharp
+    sharp: SharpFibre
+    lifted: SharpFibre
     coranks: np.ndarray
     residuals: np.ndarray
 
@@ -182,7 +182,9 @@ class Examined:
             if not frame.is_plain:
                 there = sharpen_fibre(fibre)
             else:
-                there = Sharp(fibre, carry_radii(frame, sharp.fibre.x, sharp.radii), sharp.digits)
+                there = SharpFibre(
+                    fibre, carry_radii(frame, sharp.fibre.x, sharp.radii), sharp.digits
+                )
             coranks = np.array(_coranks(reduction.equations, sharp.fibre, rng))
             residuals = reduction.original.residuals(there.fibre.x).max(axis=1, initial=0.0)
             parts.append(_Part(own, sharp, there, coranks, residuals))

@@ -28,7 +28,7 @@ from nag.numerics.coincidence import coincident
 from nag.numerics.double_ranks import matrix_corank
 from nag.numerics.precise_point import precise_zero
 from nag.numerics.system_facts import SystemFacts
-from nag.numerics.zero_values import NONZERO, vanishes
+from nag.numerics.zero_values import NONZERO, vanishes_at_point
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.solve import solve
 from nag.tracking.run import Run
@@ -81,7 +81,7 @@ def _meets_last(cut: PolynomialSystem, last: Polynomial, x: np.ndarray) -> bool:
     *others, plane = cut.polynomials
     row = np.array([[float(plane.terms.get(e, 0)) for e in _linear(cut.n)]])
     zero = precise_zero(BallPolynomials.of(others, row), x)
-    return zero is None or vanishes(last, zero) is not False
+    return zero is None or vanishes_at_point(last, zero) is not False
 
 
 def _linear(n: int) -> list[tuple[int, ...]]:

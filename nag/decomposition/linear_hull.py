@@ -28,7 +28,7 @@ from nag.witness.component_equations import find_fibres
 from nag.witness.witness import WitnessSet
 
 
-def within_hull(
+def add_hull_equations(
     system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, run: Run
 ) -> tuple[PolynomialSystem, WitnessSet]:
     """A component with the equations of its linear hull beside those of a system.
@@ -44,7 +44,7 @@ def within_hull(
     """
     if component.dimension == 0:
         return system, component
-    component = simple_in(system, component)
+    component = mark_simple(system, component)
     try:
         source = source_of_component(system, component)
         cloud = Cloud(source, Ambient.itself(system), rng, run)
@@ -52,11 +52,11 @@ def within_hull(
         own = _beside(known.basis, system)
         if component.multiplicity == 1 and Reduction.of(own).n == Reduction.of(system).n:
             return system, component
-        found = simple_in(own, component)
+        found = mark_simple(own, component)
         while found.multiplicity != 1 and known.degree < component.degree:
             known = next_degree(cloud, known)
             own = _beside(known.generators, system)
-            found = simple_in(own, component)
+            found = mark_simple(own, component)
     except (SourceError, InterpolationError):
         return system, component
     if found.multiplicity != 1:
@@ -64,7 +64,7 @@ def within_hull(
     return own, replace(found, system=own, fibres=())
 
 
-def simple_in(system: PolynomialSystem, component: WitnessSet) -> WitnessSet:
+def mark_simple(system: PolynomialSystem, component: WitnessSet) -> WitnessSet:
     """The component with a multiplicity of one, if a system is regular at its witness points."""
     if component.multiplicity == 1 or component.dimension == 0:
         return component

@@ -8,9 +8,9 @@ from types import MappingProxyType
 
 import numpy as np
 
-from nag.numerics.coincidence import BEYOND, MISS, compared
+from nag.numerics.coincidence import BEYOND, MISS, classify_arrivals
 from nag.tracking.run import Run
-from nag.witness.close_points import Fine, distance
+from nag.witness.close_points import PointInWords, distance
 from nag.witness.points import Points, move_points
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
@@ -24,7 +24,7 @@ NEARER = 1e-3
 FEW, MOST_DISTANCES = 1_000, 100_000
 # Coordinates that are a smaller part of a point are taken for one of this size.
 LEAST_SIZE = 1e-8
-NOTHING: Mapping[int, Fine] = MappingProxyType({})
+NOTHING: Mapping[int, PointInWords] = MappingProxyType({})
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +50,8 @@ def locate_ends(ends: Points, points: Points) -> np.ndarray | None:
 def locate_points(
     ends: np.ndarray,
     points: np.ndarray,
-    fine_ends: Mapping[int, Fine] = NOTHING,
-    fine: Mapping[int, Fine] = NOTHING,
+    fine_ends: Mapping[int, PointInWords] = NOTHING,
+    fine: Mapping[int, PointInWords] = NOTHING,
 ) -> np.ndarray | None:
     """Indices of the ``points`` that ``ends`` are, -1 for none; None if that is not clear.
 
@@ -68,7 +68,7 @@ def locate_points(
         nearest[i] = apart.argmin()
         closest[i], next_one[i] = np.sort(np.append(apart, np.inf))[:2]
     scale = 1 + np.linalg.norm(points[nearest], axis=1)
-    near, doubtful = compared(closest / scale, ROUGH)
+    near, doubtful = classify_arrivals(closest / scale, ROUGH)
     hit = near & (closest < NEARER * next_one)
     if (doubtful | (near & ~hit)).any():
         return None
@@ -78,8 +78,9 @@ def locate_points(
 def _two_nearest(ends: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The nearest point of each end, its distance, and that of the next one.
 
-    Distances are infinite where they are too long to matter: beyond those that `compared` takes for
-    one or for doubtful, or, of the next point, by far longer than that of the nearest one.
+    Distances are infinite where they are too long to matter: beyond those that `classify_arrivals`
+    takes for one or for doubtful, or, of the next point, by far longer than that of the nearest
+    one.
     """
     if len(ends) * len(points) <= FEW:
         return _of_all(ends, points)

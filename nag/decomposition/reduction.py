@@ -20,7 +20,7 @@ from nag.numerics.natural_coordinates import (
     natural_coordinates,
     scale_coordinates,
 )
-from nag.witness.close_points import DIGITS, Fine, in_words
+from nag.witness.close_points import DIGITS, PointInWords, fine_of_balls
 from nag.witness.cutting import Cut, Equations
 from nag.witness.frame import Frame
 
@@ -105,14 +105,14 @@ class Reduction:
             self._lifted[cut] = Cut(n, cut.aux, tuple(original))
         return self._lifted[cut]
 
-    def lifted_fine(self, point: Fine) -> Fine:
+    def lifted_fine(self, point: PointInWords) -> PointInWords:
         """A point in these coordinates as one in the original variables, in all its digits."""
         y, powers = point.balls(), np.round(np.log2(self.scales)).astype(int).tolist()
         own = [times_power_of_two(z, k) for z, k in zip(y, powers, strict=False)]
         images, bits = BallPolynomials.of(self.images), bits_of(2 * DIGITS)
         there = images.values(own, bits).mid().entries()
         x = change_units(there, self.natural.scales, self.natural.origin, bits)
-        return in_words([*x, *y[self.n :]], point.curvature)
+        return fine_of_balls([*x, *y[self.n :]], point.curvature)
 
     @cached_property
     def equations(self) -> Equations:

@@ -12,7 +12,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.digits import in_bits
-from nag.witness.close_points import close_pairs, in_words
+from nag.witness.close_points import close_pairs, fine_of_balls
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import of_balls
 from nag.witness.fibres import Fibre
@@ -86,6 +86,6 @@ def points_in_balls(cut: Cut, rows: np.ndarray, balls: Sequence[Sequence[Any]]) 
     How close, the points tell.
     """
     points = np.array([[complex(c) for c in point] for point in balls])
-    fine = {i: in_words(balls[i], 1.0) for pair in close_pairs(points) for i in pair}
+    fine = {i: fine_of_balls(balls[i], 1.0) for pair in close_pairs(points) for i in pair}
     known = of_balls(balls)
     return replace(Points.of([Fibre(cut, rows, points, fine)]), known=known)

@@ -21,7 +21,7 @@ from nag.algebra.given import check_listed
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import Factor, IntersectionError
 from nag.decomposition.intersection import intersect_factors
-from nag.decomposition.linear_hull import simple_in, within_hull
+from nag.decomposition.linear_hull import add_hull_equations, mark_simple
 from nag.decomposition.rank_drop import ROUNDED, SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
@@ -29,7 +29,7 @@ from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.tangent_cone import TangentCone, form_text, tangent_cone
-from nag.numerics.zero_values import vanish
+from nag.numerics.zero_values import all_vanish
 from nag.text.json_text import pairs
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
@@ -342,8 +342,8 @@ def _own_equations(
         for system, c in zip(systems, whole.components, strict=True)
     ]
     if comb(len(found), 2) > MOST_PAIRS:
-        return [(system, simple_in(system, c)) for system, c in found]
-    return [within_hull(system, c, rng, run) for system, c in found]
+        return [(system, mark_simple(system, c)) for system, c in found]
+    return [add_hull_equations(system, c, rng, run) for system, c in found]
 
 
 def _judge_candidates(
@@ -393,7 +393,7 @@ def _judge_candidate(
             continue
         # Doubles may take a point that is close to a component for one of it.
         equations = search.own[i][0].polynomials
-        if candidate.precise is not None and vanish(equations, candidate.precise) is False:
+        if candidate.precise is not None and all_vanish(equations, candidate.precise) is False:
             continue
         # A multiple component is simple in equations of its own.
         own = search.own[i] if component.multiplicity != 1 else (whole.system, component)

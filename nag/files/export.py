@@ -34,7 +34,7 @@ from nag.files.json_values import (
 )
 from nag.files.written_file import write_target
 from nag.text.json_text import lay_out, pairs, real_or_null
-from nag.witness.close_points import WORDS, Fine
+from nag.witness.close_points import WORDS, PointInWords
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
 from nag.witness.witness import (
@@ -412,7 +412,7 @@ def read_decomposition(path: str | os.PathLike[str]) -> Decomposition:
 ROUNDED = 1e-12
 
 
-def close_document(fine: Mapping[int, Fine]) -> list[dict[str, Any]]:
+def close_document(fine: Mapping[int, PointInWords]) -> list[dict[str, Any]]:
     """The points of a fibre that are close to others, by their indices in it."""
     return [
         {
@@ -426,13 +426,13 @@ def close_document(fine: Mapping[int, Fine]) -> list[dict[str, Any]]:
 
 def close_points(
     value: Sequence[dict[str, Any]], points: np.ndarray, place: str
-) -> dict[int, Fine]:
+) -> dict[int, PointInWords]:
     """What `close_document` wrote of points of shape ``(P, n + aux)``.
 
     Raises:
         nag.files.json_values.ExportError: if it does not fit them.
     """
-    found: dict[int, Fine] = {}
+    found: dict[int, PointInWords] = {}
     shape = points.shape[1], 2, WORDS
     for k, table in enumerate(value):
         here = f"{place}[{k}]"
@@ -444,7 +444,7 @@ def close_points(
             each = f"{WORDS} numbers for the real and the imaginary part of each of {shape[0]}"
             raise wrong(f"{here}.coordinates", each)
         curvature = real_number(table["curvature"])
-        found[i] = Fine(words, curvature if np.isfinite(curvature) else np.inf)
+        found[i] = PointInWords(words, curvature if np.isfinite(curvature) else np.inf)
         if not np.allclose(found[i].rounded, points[i], rtol=ROUNDED, atol=1e-300):
             raise wrong(f"{here}.coordinates", "those of the point in more digits")
     return found

@@ -20,7 +20,7 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import bits_of, in_bits, number
+from nag.numerics.digits import bits_of, in_bits, to_ball
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.numerics.newton import find_zero
 from nag.numerics.zero_values import ON
@@ -30,7 +30,7 @@ from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut, Equations, find_cut
 from nag.witness.fibres import Fibre
 from nag.witness.given_component import rounded
-from nag.witness.sampling import at_random
+from nag.witness.sampling import move_to_random_slice
 from nag.witness.slices import padded, rows_through
 from nag.witness.witness import WitnessSet
 
@@ -152,7 +152,7 @@ class Sample:
             raise SourceError("Newton's method does not converge at a sampled point")
         with in_bits(bits_of(digits + SPARE)):
             radius = flint.arb(10) ** -digits
-            x = [z + number(b) for z, b in zip(zero.point, self.natural.origin, strict=False)]
+            x = [z + to_ball(b) for z, b in zip(zero.point, self.natural.origin, strict=False)]
             return [_widened(z, radius * (1 + abs(z).mid())) for z in x]
 
 
@@ -172,7 +172,7 @@ def samples(source: Source, count: int, rng: np.random.Generator, run: Run) -> l
     evaluator = Evaluator.of(source.natural.system(source.system).polynomials, n)
     found: list[Sample] = []
     while len(found) < count:
-        there = at_random(source.fibres, rng, run)
+        there = move_to_random_slice(source.fibres, rng, run)
         if not (len(there.x) and np.isfinite(there.accuracy)):
             raise SourceError("the path to a point failed")
         (fibre,) = there.fibres

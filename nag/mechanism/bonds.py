@@ -30,7 +30,7 @@ from nag.mechanism.axes import direction, dot
 from nag.mechanism.dh import DHModel
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
-from nag.numerics.digits import bits_of, in_bits, number
+from nag.numerics.digits import bits_of, in_bits, to_ball
 from nag.numerics.precise_point import DIGITS
 from nag.numerics.read_only import fixed_mapping
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -132,7 +132,7 @@ def _loop(given: Model | DHModel) -> _Loop:
         kept = tuple(turn.joint for turn in given.charts.plain)
 
         def turns(point: Sequence[Any]) -> Mapping[str, tuple[Any, Any]]:
-            return given.turns(point, number)
+            return given.turns(point, to_ball)
 
         return _Loop(given.system, names, kept, dict.fromkeys(names, Fraction(1)), turns)
     form = given.form
@@ -295,7 +295,7 @@ class _Ends:
         result = {}
         with in_bits(bits_of(DIGITS)):
             for name, (c, s) in self.loop.half_angles(point).items():
-                square = number(self.loop.squares[name])
+                square = to_ball(self.loop.squares[name])
                 size = abs(c) ** 2 + square.real * abs(s) ** 2
                 result[name] = max(float((abs(c * c + square * s * s) / size).mid()), 1e-300)
         return result

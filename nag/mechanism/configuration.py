@@ -15,7 +15,7 @@ import flint
 from nag.algebra.number import Irrational, Number, square_root, to_mpf
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import conjugate, multiply, rotate
-from nag.numerics.digits import number
+from nag.numerics.digits import to_ball
 from nag.text.table import one_line
 
 
@@ -65,7 +65,7 @@ class Arithmetic:
 def arithmetic_of(point: Sequence[Any]) -> Arithmetic:
     """The arithmetic in which a point is lifted: exact, balls, `mpmath` or complex doubles."""
     if any(isinstance(x, flint.acb) for x in point):
-        return Arithmetic(number, flint.acb.sqrt)
+        return Arithmetic(to_ball, flint.acb.sqrt)
     if all(isinstance(x, int | Fraction | Irrational) for x in point):
         return Arithmetic(lambda c: c, square_root)
     if any(_is_multiprecision(x) for x in point):

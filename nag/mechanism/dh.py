@@ -30,7 +30,7 @@ from nag.mechanism.quaternion import (
     rotate,
     translation,
 )
-from nag.text.table import counted
+from nag.text.table import count_text
 
 HalfAngle = tuple[Number, Number]
 
@@ -160,7 +160,7 @@ class DHModel(TableModel):
         names = " and ".join(turn.joint for turn in self.closure.lost)
         return (
             f"{text}; {open_joints} open angles, half-angles with {names} eliminated leave "
-            f"{counted(self.system.n, 'unknown')}"
+            f"{count_text(self.system.n, 'unknown')}"
         )
 
     @property

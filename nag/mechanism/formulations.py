@@ -19,7 +19,7 @@ from nag.mechanism.loops import LoopStructure
 from nag.mechanism.path_estimates import PathNumbers
 from nag.mechanism.planar import PlanarModel, planar_model
 from nag.mechanism.rods import RodModel, rod_model
-from nag.text.table import counted, join_words
+from nag.text.table import count_text, join_words
 
 Form = EulerModel | HalfAngleModel | PlanarModel | RodModel
 
@@ -121,11 +121,13 @@ def description(alternative: Alternative, space: Space) -> str:
         free = sum(f.kind == "free" for f in form.charts.plain)
         words = ["Study coordinates" if free else "joint coordinates"]
         if form.rods:
-            words.append(f"{counted(len(form.rods), 'rod')} between spherical joints as distances")
+            words.append(
+                f"{count_text(len(form.rods), 'rod')} between spherical joints as distances"
+            )
         if form.zero_rods:
             count = len(form.zero_rods)
             each = "a spherical joint" if count == 1 else "spherical joints"
-            words.append(f"{counted(count, 'rod')} of length zero as {each}")
+            words.append(f"{count_text(count, 'rod')} of length zero as {each}")
         return ", ".join(words)
     if not isinstance(form, HalfAngleModel):
         return "half-angles"
@@ -141,4 +143,4 @@ def description(alternative: Alternative, space: Space) -> str:
 def joints_text(joints: Sequence[Joint]) -> str:
     """ "2 revolute joints and 1 spherical joint"."""
     kinds = Counter(j.type for j in joints)
-    return join_words([counted(number, f"{kind} joint") for kind, number in kinds.items()])
+    return join_words([count_text(number, f"{kind} joint") for kind, number in kinds.items()])

@@ -121,7 +121,7 @@ def _chart(i: int) -> Fraction:
     return _CHARTS[i] if i < len(_CHARTS) else Fraction(i + 4, 2 * i + 15)
 
 
-def factors_of(joint: Joint) -> tuple[Factor, ...]:
+def factors_of_joint(joint: Joint) -> tuple[Factor, ...]:
     """The factors whose product is the displacement of the second body against the first."""
     kinds = joint.of_type.factors
     return tuple(

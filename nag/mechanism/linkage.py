@@ -27,7 +27,7 @@ from nag.errors import MechanismError
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.graph import connected_to
 from nag.mechanism.loops import minimum_cycles
-from nag.text.table import counted
+from nag.text.table import count_text
 
 Place = tuple[Number, Number]
 
@@ -151,8 +151,9 @@ class LinkageModel(AssemblyModel):
     @property
     def reason(self) -> str:
         """One sentence: what was made of the linkage."""
+        loops = count_text(self.loops, "loop")
         text = (
-            f"planar linkage of {len(self.linkage.links)} links and {counted(self.loops, 'loop')}, "
+            f"planar linkage of {len(self.linkage.links)} links and {loops}, "
             "given by its links' shapes; one pair (c, s) for each moving link: plates are rational "
             "in these"
         )

@@ -30,7 +30,7 @@ from nag.mechanism.graph import Joint
 from nag.mechanism.joint_factors import (
     UNIT,
     Factor,
-    factors_of,
+    factors_of_joint,
     mode_constant,
     reversed_generators,
 )
@@ -237,7 +237,7 @@ def joint_elements(joint: Joint, mode: int, forward: bool) -> tuple[Element, ...
 
 
 def _joint_elements(joint: Joint, mode: int, forward: bool) -> Iterator[Element]:
-    for factor in factors_of(joint):
+    for factor in factors_of_joint(joint):
         generators = factor.generators
         yield Element(factor, generators if forward else reversed_generators(generators))
     if mode:

@@ -15,7 +15,7 @@ from typing import Any, Literal
 
 from nag.mechanism.bonds import Bonds
 from nag.numerics.local_dimension import LocalDimension
-from nag.text.table import LINE, counted, html_table, shortened
+from nag.text.table import LINE, count_text, html_table, shortened
 from nag.witness.witness import WitnessSet
 
 # What must be the same of components in two formulations.
@@ -187,9 +187,9 @@ class MobilityReport:
         counts = f"{self.gruebler_kutzbach} by Gruebler-Kutzbach ({self.space})"
         model_text = "no loop, no equations"
         if self.formulation:
+            unknowns = count_text(self.variables, "unknown")
             model_text = (
-                f"{counted(self.equations, 'equation')} in {counted(self.variables, 'unknown')}, "
-                f"{self.formulation}"
+                f"{count_text(self.equations, 'equation')} in {unknowns}, {self.formulation}"
             )
         return [
             ("counted", counts),
@@ -289,10 +289,10 @@ def _meaning(report: MobilityReport) -> str:
     if status is MobilityStatus.SHAKY:
         return (
             "it does not move, but infinitesimally it does, with "
-            f"{counted(tangent or 0, 'freedom')}: an isolated solution of multiplicity "
+            f"{count_text(tangent or 0, 'freedom')}: an isolated solution of multiplicity "
             f"{report.multiplicity}"
         )
-    text = f"it moves with {counted(mobility or 0, 'freedom')}"
+    text = f"it moves with {count_text(mobility or 0, 'freedom')}"
     if report.overconstrained:
         text += f", though counting predicts {report.gruebler_kutzbach}"
     if status is MobilityStatus.KINEMATOTROPIC:
@@ -302,5 +302,5 @@ def _meaning(report: MobilityReport) -> str:
         text += f"; {len(report.components or ())} motions meet here"
     elif tangent is not None and mobility is not None and tangent > mobility:
         text += "; the configuration is singular, infinitesimally it has "
-        text += counted(tangent, "freedom")
+        text += count_text(tangent, "freedom")
     return text

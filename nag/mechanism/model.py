@@ -34,7 +34,7 @@ from nag.mechanism.path_estimates import path_bound
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.rods import RodModel
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
-from nag.text.table import counted, one_line
+from nag.text.table import count_text, one_line
 
 __all__ = ["Model", "ModelError", "formulations", "model"]
 
@@ -263,11 +263,11 @@ def with_loops(mechanism: Mechanism) -> LoopStructure:
 
 
 def _reason(structure: LoopStructure, space: Space, chosen: Alternative, asked: str) -> str:
-    loops = counted(len(structure.loops), "loop")
+    loops = count_text(len(structure.loops), "loop")
     text = f"{space}, {loops} of {joints_text(structure.joints)}; {description(chosen, space)}"
     if asked != "auto":
         return f"{text}, as asked"
-    unknowns = counted(chosen.system.n, "unknown")
+    unknowns = count_text(chosen.system.n, "unknown")
     how = "at most" if chosen.at_once is None else "at once"
     return f"{text}: {unknowns} and the fewest paths, {how} {chosen.paths}"
 
@@ -276,5 +276,5 @@ def _outside_text(structure: LoopStructure) -> str:
     if not structure.outside:
         return ""
     names = ", ".join(j.name for j in structure.outside)
-    freedoms = counted(structure.cut_freedoms, "freedom")
+    freedoms = count_text(structure.cut_freedoms, "freedom")
     return f"; cut off, moving freely with {freedoms}: joints {names}"

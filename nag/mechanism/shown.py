@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from nag.algebra.number import Irrational, Number, number_text
 from nag.algebra.system import system_line, values_text
 from nag.mechanism.graph import Joint
-from nag.text.table import align, counted, html_table, lines_of, printable, shortened
+from nag.text.table import align, count_text, html_table, lines_of, printable, shortened
 from nag.text.table import number_text as rounded_text
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def _vector(values: tuple[Number, ...] | None) -> str:
 
 def _title(mechanism: Mechanism) -> str:
     names = ", ".join(mechanism.body_names)
-    bodies = counted(len(mechanism.body_names), "body", "bodies")
+    bodies = count_text(len(mechanism.body_names), "body", "bodies")
     listed = f" ({names})" if len(names) <= 60 else ""
     return f"Mechanism of {bodies}{listed}, ground {mechanism.ground}"
 
@@ -47,7 +47,7 @@ def mechanism_text(mechanism: Mechanism) -> str:
         rows.append([f"  {joint.name}", text])
     lines = [_title(mechanism), *align(rows, (0, 1))]
     if shown < len(joints):
-        lines.append(f"  and {counted(len(joints) - shown, 'more joint')}")
+        lines.append(f"  and {count_text(len(joints) - shown, 'more joint')}")
     return "\n".join(shortened(printable(line)) for line in lines)
 
 
@@ -81,9 +81,9 @@ def configuration_text(found: Configuration) -> str:
         [f"  {name}", f"euler {_entries(found.euler[name])}, at {_entries(found.position[name])}"]
         for name in names[:shown]
     ]
-    lines = [f"Configuration of {counted(len(names), 'body', 'bodies')}", *align(rows, (0, 1))]
+    lines = [f"Configuration of {count_text(len(names), 'body', 'bodies')}", *align(rows, (0, 1))]
     if shown < len(names):
-        left = counted(len(names) - shown, "more body", "more bodies")
+        left = count_text(len(names) - shown, "more body", "more bodies")
         lines.append(f"  and {left}")
     return "\n".join(shortened(printable(line)) for line in lines)
 
@@ -93,14 +93,14 @@ def configuration_html(found: Configuration) -> str:
     rows = [["body", "euler", "position"]]
     for name, euler in found.euler.items():
         rows.append([name, _entries(euler), _entries(found.position[name])])
-    return html_table(f"Configuration of {counted(len(found.euler), 'body', 'bodies')}", rows)
+    return html_table(f"Configuration of {count_text(len(found.euler), 'body', 'bodies')}", rows)
 
 
 def model_text(model: Model) -> str:
     """A model in five lines."""
     # Other assembly modes have no reference configuration.
     at = values_text(model.system.variables, model.reference) if model.reference else ""
-    signs = counted(model.sign_group, "sign change") if model.sign_group > 1 else "none"
+    signs = count_text(model.sign_group, "sign change") if model.sign_group > 1 else "none"
     return lines_of(
         f"Model in formulation {model.formulation}: {model.reason}",
         [

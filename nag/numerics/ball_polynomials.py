@@ -18,7 +18,7 @@ import numpy as np
 from nag.algebra.flint_numbers import to_rational
 from nag.algebra.number import Irrational
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.digits import in_bits, number
+from nag.numerics.digits import in_bits, to_ball
 
 # Bits in which the value of an expression may be off, which is evaluated to more than those asked.
 GUARD = 4
@@ -284,7 +284,7 @@ def in_ball(c: Any) -> flint.acb:
         if type(c[0]) is type(c[1]) is Fraction:
             return flint.acb(flint.arb(to_rational(c[0])), flint.arb(to_rational(c[1])))
         return in_ball(c[0]) + in_ball(c[1]) * flint.acb(0, 1)
-    value = number(c)
+    value = to_ball(c)
     if isinstance(c, Irrational):
         off = abs(value) * flint.arb(2) ** (GUARD - flint.ctx.prec)
         value = value + flint.acb(flint.arb(0, off.upper()))

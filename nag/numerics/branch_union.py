@@ -30,7 +30,7 @@ from nag.numerics.zero_values import (
     NONZERO,
     multiplicity_of_all,
     possible_zeros,
-    vanishes,
+    vanishes_at_point,
     widen_point,
 )
 
@@ -100,7 +100,10 @@ class GenericPoint(ABC):
             return self.zero.vanishes(f)
         if (Evaluator.of([f], f.n).residuals(self.points) > NONZERO).any():
             return False
-        if self.radii is not None and vanishes(f, widen_point(self.point, self.radii)) is False:
+        if (
+            self.radii is not None
+            and vanishes_at_point(f, widen_point(self.point, self.radii)) is False
+        ):
             return False
         image, zero = self.branch.image(f)
         if zero or self.branch.kind in (BranchKind.POINT, BranchKind.LINEAR_SPACE):

@@ -25,7 +25,7 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.close_zeros import match_boxes, prove_close_zeros
 from nag.numerics.coincidence import clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
-from nag.numerics.digits import in_bits, middle, number, rational_point
+from nag.numerics.digits import in_bits, middle, rational_point, to_ball
 from nag.numerics.discs import UP
 from nag.numerics.double_ranks import pivot_rows
 from nag.numerics.krawczyk import Boxes, enter_box, find_overlaps, prove_boxes
@@ -351,7 +351,7 @@ def _others(
         exact = rational_point(box.centre, DIGITS)
         if exact is None or any(f(exact) for f in [*square, *others]):
             return digits, False
-        off = [abs(z - number(q)) for z, q in zip(box.centre, exact, strict=True)]
+        off = [abs(z - to_ball(q)) for z, q in zip(box.centre, exact, strict=True)]
         return digits, all(d < r for d, r in zip(off, box.outer, strict=True))
 
 
@@ -401,7 +401,7 @@ def _singular(
 
 def _rational_box(point: Sequence[Fraction]) -> FineBox:
     with in_bits(BITS[-1]):
-        exact = [number(c) for c in point]
+        exact = [to_ball(c) for c in point]
         centre = tuple(middle(z) for z in exact)
         off = tuple(flint.acb(abs(z - c)).abs_upper() for z, c in zip(exact, centre, strict=True))
     return FineBox(centre, (flint.arb(0),) * len(point), off)

@@ -18,7 +18,7 @@ SAFETY, LEAST = 1e2, 1e-11
 HIT, MISS, BEYOND = 1e-8, 1e-5, 1e4
 
 
-def reach(points: np.ndarray, errors: np.ndarray | float) -> np.ndarray:
+def radii_of_balls(points: np.ndarray, errors: np.ndarray | float) -> np.ndarray:
     """Radii of the balls that points lie in, from their relative errors, shape ``(P,)``."""
     return SAFETY * np.maximum(LEAST, errors) * (1 + np.linalg.norm(points, axis=1))
 
@@ -31,7 +31,7 @@ def coincident(points: np.ndarray, x: np.ndarray, error: np.ndarray | float) -> 
         x: shape ``(n,)``.
         error: the larger one of the relative errors, of all points together or of each.
     """
-    return np.linalg.norm(points - x, axis=1) <= reach(x[None], error)
+    return np.linalg.norm(points - x, axis=1) <= radii_of_balls(x[None], error)
 
 
 def neighbours(key: np.ndarray, width: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
@@ -56,7 +56,9 @@ def neighbours(key: np.ndarray, width: np.ndarray) -> Iterator[tuple[np.ndarray,
             yield order[near], order[near + apart]
 
 
-def compared(distances: np.ndarray, errors: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
+def classify_arrivals(
+    distances: np.ndarray, errors: np.ndarray | float
+) -> tuple[np.ndarray, np.ndarray]:
     """Which ends of paths have led to a known point, and of which that is not clear.
 
     Args:
@@ -101,7 +103,7 @@ def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
             i = label[i]
         return i
 
-    for a, b in overlapping(points, reach(points, accuracy)).tolist():
+    for a, b in overlapping(points, radii_of_balls(points, accuracy)).tolist():
         first, second = sorted((root(a), root(b)))
         label[second] = first
     if (label == np.arange(count)).all():
@@ -123,7 +125,7 @@ def conjugates_present(
     """
     taken = real.copy()
     n = points.shape[1]
-    tolerance = 2 * reach(points, accuracy)
+    tolerance = 2 * radii_of_balls(points, accuracy)
     # Conjugate points share their real parts.
     weights = np.exp(1j * np.arange(1, n + 1) ** 2).real
     for i, j in neighbours(points.real @ weights, np.sqrt(n) * tolerance):

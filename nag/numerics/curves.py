@@ -10,8 +10,8 @@ import numpy as np
 
 from nag.numerics.ball_ranks import regular_block
 from nag.numerics.deflation import MOST_WORK_ROUGHLY, Deflated, NotDeflated, deflate
-from nag.numerics.descent import Block, Point, Round, work
-from nag.numerics.digits import LOG10_2, bits_of, log_norm, log_size, middle, working
+from nag.numerics.descent import Block, Point, Round, series_cost
+from nag.numerics.digits import LOG10_2, bits_of, log_norm, log_size, middle, working_digits
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.far_along import far_value
 from nag.numerics.implicit_function import Reduction, eliminate
@@ -68,7 +68,7 @@ def is_exact_zero(system: ExactSystem, found: Deflated) -> bool:
     )
 
 
-def smooth_set(
+def order_of_contact(
     system: ExactSystem, point: Point, rounds: Sequence[Round], inverse: float = 0.0
 ) -> float:
     """Whether the equations vanish along the smooth set that the rounds leave: 0 if they do.
@@ -134,7 +134,7 @@ def _reduced(
     if len(rounds) == 1:
         return rounds, inverse
     slopes = system.values_at(LEAST_DIGITS).jacobian(point)
-    with working(LEAST_DIGITS):
+    with working_digits(LEAST_DIGITS):
         found = regular_block(slopes, system.n, ZERO)
     this = Round(tuple(found.rows), tuple(found.columns))
     if found.rank != sum(len(r.columns) for r in rounds):
@@ -163,9 +163,9 @@ def curve_through(
     """
     block = Round(found.rounds[0].rows, found.rounds[0].columns)
     order = max(found.rounds[0].order + 2, 4)
-    while order > 2 and work(found.corank, order, [block]) > MOST_WORK_ROUGHLY:
+    while order > 2 and series_cost(found.corank, order, [block]) > MOST_WORK_ROUGHLY:
         order -= 1
-    with working(DIGITS):
+    with working_digits(DIGITS):
         values, rows = system.values_at(DIGITS), system.at(DIGITS)
         series = eliminate(rows, found.point, block.rows, block.columns, order, at_points=values)
         assert series is not None

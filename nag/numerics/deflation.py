@@ -29,7 +29,7 @@ import numpy as np
 
 from nag.numerics.ball_ranks import regular_block
 from nag.numerics.descent import Descent, Point, Round, descend, total_work
-from nag.numerics.digits import log_norm, log_size, middle, working
+from nag.numerics.digits import log_norm, log_size, middle, working_digits
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import jacobian
 from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives
@@ -197,7 +197,7 @@ def deflate(
     Raises:
         NotDeflated: if the rounds lead nowhere, or away from ``x``.
     """
-    with working(DIGITS):
+    with working_digits(DIGITS):
         rounds: list[Round] = []
         slopes: Callable[[Point], list[list[Any]]] = system.values_at(DIGITS).jacobian
         point, centre = list(x), list(x)
@@ -264,7 +264,7 @@ def _regular(
 def _lowest_terms(
     system: ExactSystem, point: Point, rounds: Sequence[Round], reach: float, patience: float
 ) -> tuple[int, Descent] | None:
-    from nag.numerics.curves import smooth_set
+    from nag.numerics.curves import order_of_contact
 
     left = len(point) - sum(len(r.columns) for r in rounds)
     least, most, known = 0.0, patience * MOST_WORK, 0
@@ -290,7 +290,7 @@ def _lowest_terms(
             most, known = patience * MOST_WORK_ROUGHLY, order
         elif not least:
             # Each round's equations are derivatives, of lower order along the set.
-            least = smooth_set(system, point, rounds, descent.inverse)
+            least = order_of_contact(system, point, rounds, descent.inverse)
             if least == 0:
                 return None
             least /= prod(r.order for r in rounds[:-1])

@@ -124,7 +124,7 @@ def total_order(rounds: Sequence[Round], order: int) -> int:
     return order + sum(r.order - 1 for r in rounds if r.order)
 
 
-def work(m: int, order: int, rounds: Sequence[Round]) -> float:
+def series_cost(m: int, order: int, rounds: Sequence[Round]) -> float:
     """Products of coefficients that one monomial's series in ``m`` variables costs, roughly."""
     return comb(2 * m + order, order) * (1 + order / 4 * bool(rounds[0].columns))
 
@@ -142,7 +142,7 @@ def total_work(system: ExactSystem, rounds: Sequence[Round], order: int) -> floa
             length = min(length, system.largest_degree)
             total += comb(left + length, length) * length
         else:
-            total += work(left, length, rounds[place:])
+            total += series_cost(left, length, rounds[place:])
     return total
 
 

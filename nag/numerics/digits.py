@@ -32,12 +32,12 @@ def in_bits(bits: int) -> AbstractContextManager[object]:
     return flint.ctx.workprec(bits)
 
 
-def working(digits: int) -> AbstractContextManager[object]:
+def working_digits(digits: int) -> AbstractContextManager[object]:
     """A context in which arithmetic has so many decimal digits."""
     return in_bits(bits_of(digits))
 
 
-def number(c: Number | complex | int | flint.acb) -> flint.acb:
+def to_ball(c: Number | complex | int | flint.acb) -> flint.acb:
     """``c`` at the working precision; doubles are exact."""
     if isinstance(c, flint.acb):
         return c
@@ -50,9 +50,9 @@ def number(c: Number | complex | int | flint.acb) -> flint.acb:
     return flint.acb(value * flint.arb(2) ** int(exponent))
 
 
-def point(x: Iterable[complex | flint.acb]) -> list[flint.acb]:
+def to_point(x: Iterable[complex | flint.acb]) -> list[flint.acb]:
     """A point of exact doubles, or the middles of balls."""
-    return [middle(number(v)) for v in x]
+    return [middle(to_ball(v)) for v in x]
 
 
 def real_of_words(words: np.ndarray) -> flint.arb:
@@ -94,7 +94,7 @@ def change_units(
     """``scales x + origin`` in each coordinate."""
     with in_bits(bits):
         triples = zip(x, scales, origin, strict=True)
-        return [z * number(scale) + number(b) for z, scale, b in triples]
+        return [z * to_ball(scale) + to_ball(b) for z, scale, b in triples]
 
 
 def log_size(z: flint.acb | int) -> float:

@@ -22,8 +22,8 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import Field, UnclearRank
 from nag.numerics.curves import curve_through
 from nag.numerics.deflation import MOST_WORK, Deflated
-from nag.numerics.descent import Round, work
-from nag.numerics.digits import bits_of, doubles, log_size, middle, number, working
+from nag.numerics.descent import Round, series_cost
+from nag.numerics.digits import bits_of, doubles, log_size, middle, to_ball, working_digits
 from nag.numerics.dual_space import CurveSearch, DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
@@ -77,7 +77,7 @@ def _bounds(
     rng: np.random.Generator,
 ) -> tuple[LocalDimension, list[flint.acb] | None]:
     """Bounds, and the zero in balls; None if there is none."""
-    with working(DIGITS):
+    with working_digits(DIGITS):
         zero, factors, reason = locate_zero(polynomials, point, error, rng)
         if zero is None:
             here = np.array([complex(float(c)) if is_exact(c) else complex(c) for c in point])
@@ -266,7 +266,7 @@ def _in_image(
     m, most = zero.tangent - k, MOST_WORK * (5 if field.modulus else 1)
 
     def series(order: int) -> tuple[SeriesRing, list[Series]]:
-        if work(m, order, [Round(solved, columns)]) > most:
+        if series_cost(m, order, [Round(solved, columns)]) > most:
             raise _TooLarge(f"its series in {m} variables are too long")
         found = eliminate(rows, image.centre, solved, columns, order, field.modulus)
         if found is None:
@@ -293,11 +293,11 @@ def _sliced(zero: Zero, k: int, rng: np.random.Generator) -> tuple[ExactSystem, 
     if point is None:
         return None
     units = [tuple(int(i == j) for j in range(system.n)) for i in free]
-    with working(PASSING):
+    with working_digits(PASSING):
         for row in _hyperplanes(zero, k, rng).tolist():
             weights: list[Any] = [Fraction(a, 2**30) for a in row]
             if isinstance(point[0], flint.acb):
-                weights = [number(a) for a in weights]
+                weights = [to_ball(a) for a in weights]
             constant = -sum(a * point[i] for a, i in zip(weights, free, strict=True))
             if isinstance(constant, flint.acb):
                 constant = middle(constant)
@@ -310,8 +310,8 @@ def _passing(zero: Zero) -> Sequence[Any] | None:
     """The zero, exact or to so many digits that hyperplanes through it may be told from others."""
     if zero.exact is not None and all(isinstance(c, Fraction) for c in zero.exact):
         return zero.exact
-    with working(PASSING):
+    with working_digits(PASSING):
         if zero.exact is not None:
-            return [middle(number(c)) for c in zero.exact]
+            return [middle(to_ball(c)) for c in zero.exact]
         found = sharpen(zero.system, zero.found.point, zero.found.rounds, PASSING)
     return None if found is None else found[0]

@@ -16,7 +16,7 @@ from nag.algebra.exact_ranks import PrimeField
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials, factors_of
-from nag.numerics.digits import LOG10_2, bits_of, in_bits, log_norm, number
+from nag.numerics.digits import LOG10_2, bits_of, in_bits, log_norm, to_ball
 from nag.numerics.power_series import Terms
 
 
@@ -177,7 +177,7 @@ class PointValues:
 
 def _in_digits(rows: Sequence[Terms], digits: int) -> list[Terms]:
     with in_bits(bits_of(digits)):
-        return [[(e, number(c)) for e, c in row] for row in rows]
+        return [[(e, to_ball(c)) for e, c in row] for row in rows]
 
 
 def _odd_bits(k: int) -> int:

@@ -16,14 +16,14 @@ from nag.numerics.ball_ranks import Digits, Field, UnclearRank
 from nag.numerics.clusters import find_zeros_of_cluster
 from nag.numerics.curves import curve_through, is_exact_zero, point_beside
 from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
-from nag.numerics.descent import work
+from nag.numerics.descent import series_cost
 from nag.numerics.digits import (
     LOG10_2,
     doubles,
-    point,
     rational_point,
     times_power_of_two,
-    working,
+    to_point,
+    working_digits,
 )
 from nag.numerics.dual_space import CurveSearch, DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
@@ -83,8 +83,8 @@ def judge_zero(
 ) -> SingularEnd:
     """See `nag.numerics.singular_point.analyse`."""
     units, spread = None, None
-    with working(DIGITS):
-        precise = point(x)
+    with working_digits(DIGITS):
+        precise = to_point(x)
         rounded = doubles(precise)
         if not np.isfinite(rounded).all():
             return _undecided(rounded, np.inf, "the point is not finite")
@@ -253,7 +253,7 @@ def _dual_space(
 
     def series(order: int) -> tuple[SeriesRing, list[Series]]:
         most = MOST_WORK * patience * (5 if field.modulus else 1)
-        if work(found.corank, order, [first]) > most:
+        if series_cost(found.corank, order, [first]) > most:
             raise _TooLarge(f"its series in {found.corank} variables are too long")
         reduction = eliminate(rows, centre, first.rows, first.columns, order, field.modulus)
         if reduction is None:

@@ -16,7 +16,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.curves import is_exact_zero
 from nag.numerics.deflation import Deflated, NotDeflated, SeriesTooLong, certain_round, deflate
 from nag.numerics.descent import Round
-from nag.numerics.digits import doubles, middle, number, rational_point
+from nag.numerics.digits import doubles, middle, rational_point, to_ball
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.local_structure import FURTHEST, REACHES
 from nag.numerics.scaling import scaled_terms, variable_scales
@@ -49,7 +49,7 @@ class Zero:
         Newton's last step is as short as the inverse lets it be, and no shorter.
         """
         if self.exact is not None:
-            return [number(c) for c in self.exact]
+            return [to_ball(c) for c in self.exact]
         radius = flint.arb(10) ** max(ARRIVED, STALLED + self.found.inverse - DIGITS)
         # Equations are real: the only zero near to a real point is real.
         across = radius if any(c.imag for c in self.found.point) else 0
@@ -99,10 +99,10 @@ def locate_zero(
     powers = variable_scales(polynomials, n)
     scaled = [Polynomial(n, scaled_terms(f, powers)) for f in polynomials if f]
     x = [_over(c, int(k)) for c, k in zip(point, powers, strict=True)]
-    precise = [middle(number(c)) for c in x]
+    precise = [middle(to_ball(c)) for c in x]
     system = ExactSystem.of(scaled, doubles(precise))
     known = [_over(c, k) for c, k in zip(x, system.scales, strict=True)]
-    y = [middle(number(c)) for c in known]
+    y = [middle(to_ball(c)) for c in known]
     zero, reason = _exact_zero(system, y, error, known, rng)
     factors = [flint.arb(2) ** (int(a) + b) for a, b in zip(powers, system.scales, strict=True)]
     return zero, factors, reason

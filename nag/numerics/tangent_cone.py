@@ -23,7 +23,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.ball_ranks import row_echelon
-from nag.numerics.digits import log_size, rational, working
+from nag.numerics.digits import log_size, rational, working_digits
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.located_zero import exact_zero
@@ -113,7 +113,7 @@ def tangent_cone(
         accuracy: of a point of doubles, as for `nag.local_dimension`.
     """
     n = system.n
-    with working(DIGITS):
+    with working_digits(DIGITS):
         zero, factors = exact_zero(system.polynomials, point, accuracy, np.random.default_rng(seed))
         if zero is None or not zero.tangent:
             return None

@@ -81,7 +81,7 @@ def choose_alike(zeros: Sequence[SingularEnd], x: np.ndarray) -> tuple[SingularE
     return tuple(chosen) if len(chosen) == 1 else tuple(zeros)
 
 
-def vanishes(f: Polynomial, point: PrecisePoint) -> bool | None:
+def vanishes_at_point(f: Polynomial, point: PrecisePoint) -> bool | None:
     """Whether a polynomial in the first of its variables vanishes at the zero that a point holds.
 
     It does not where its value on the balls is not zero. Else it does where its value at their
@@ -94,11 +94,11 @@ def vanishes(f: Polynomial, point: PrecisePoint) -> bool | None:
     return True if is_negligible(f, point.centre) else None
 
 
-def vanish(equations: Sequence[Polynomial], point: PrecisePoint) -> bool | None:
+def all_vanish(equations: Sequence[Polynomial], point: PrecisePoint) -> bool | None:
     """Whether all of some polynomials vanish at the zero that a point holds."""
     unknown = False
     for f in equations:
-        answer = vanishes(f, point)
+        answer = vanishes_at_point(f, point)
         if answer is False:
             return False
         unknown |= answer is None
@@ -120,7 +120,7 @@ def negligible_part(f: Polynomial, x: Sequence[flint.acb]) -> float:
 
 def vanishes_at(zero: SingularEnd, f: Polynomial) -> bool | None:
     """Whether a polynomial vanishes at a zero; None where that is not known."""
-    return None if zero.precise is None else vanishes(f, zero.precise)
+    return None if zero.precise is None else vanishes_at_point(f, zero.precise)
 
 
 def vanishes_at_all(zeros: Sequence[SingularEnd], f: Polynomial) -> bool | None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from nag.witness.shown import Kind, flat, in_words, kinds
+from nag.witness.shown import Kind, flat, kinds, kinds_text
 from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def compare(
 
 def agreement_text(agreement: Agreement) -> str:
     """The comparison as one sentence."""
-    confirmed, missing = in_words(agreement.confirmed), in_words(agreement.missing)
+    confirmed, missing = kinds_text(agreement.confirmed), kinds_text(agreement.missing)
     sources = f" ({'; '.join(agreement.sources)})" if any(agreement.sources) else ""
     if agreement.verdict is Verdict.AGREES:
         text = f"agrees with what is known: {confirmed}"
@@ -110,8 +110,8 @@ def agreement_text(agreement: Agreement) -> str:
         if agreement.missing:
             parts.append(f"not found: {missing}")
         if agreement.surplus:
-            parts.append(f"found but not known: {in_words(agreement.surplus)}")
+            parts.append(f"found but not known: {kinds_text(agreement.surplus)}")
         text = f"differs from what is known: {'; '.join(parts)}"
     if agreement.unlisted:
-        text += f"; nothing is known of: {in_words(agreement.unlisted)}"
+        text += f"; nothing is known of: {kinds_text(agreement.unlisted)}"
     return text + sources

@@ -15,7 +15,7 @@ from nag.report.assemblies import assembly_rows
 from nag.report.model import body_rows, eliminated_lines, formulation_lines, model_rows
 from nag.text.table import Row, printable, sheet
 from nag.witness.frame import expanded
-from nag.witness.shown import component_table, in_words, kinds, paths_text, remarks, title_line
+from nag.witness.shown import component_table, kinds, kinds_text, paths_text, remarks, title_line
 from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def _mobility_rows(
             text = f"not known at {point.name}{counted}"
         else:
             largest = max(c.dimension for c in components) + sum(count for count, _ in free)
-            text = f"{largest} at {point.name}{counted}: on {in_words(kinds(components))}"
+            text = f"{largest} at {point.name}{counted}: on {kinds_text(kinds(components))}"
             text += "".join(f", and {count} by {whose}" for count, whose in free)
             if any(c.status is not Status.IRREDUCIBLE for c in components):
                 text += ", not all of them decided"

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from nag.report.model import Rows
-from nag.text.table import counted
+from nag.text.table import count_text
 from nag.witness.witness import Decomposition, WitnessSet
 
 if TYPE_CHECKING:
@@ -24,14 +24,14 @@ def assembly_rows(problem: Problem, decomposition: Decomposition) -> Rows:
     texts = []
     if moving:
         largest = max(c.dimension for c in moving) + problem.free
-        on = counted(sum(c.orbit for c in moving), "component")
+        on = count_text(sum(c.orbit for c in moving), "component")
         texts.append(f"mobile, mobility {largest} at most, on {on}{_reality(parts, moving)}")
     if isolated:
         each = parts.points_of_each
         count = sum(c.orbit * len(c.points) for c in isolated) // each
         real = sum(c.orbit * sum(parts.is_real(x) for x in c.points) for c in isolated) // each
         texts.append(
-            f"{counted(count, parts.solution, _plural(parts))}{parts.counted_up_to}, "
+            f"{count_text(count, parts.solution, _plural(parts))}{parts.counted_up_to}, "
             f"{real} of them real"
             + (", that cannot move" if moving else "; rigid in each of them")
             + (", but for the links that turn freely" if problem.free else "")

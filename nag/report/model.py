@@ -7,7 +7,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from nag.mechanism.joint_types import JOINT_TYPES
-from nag.text.table import align, counted, printable
+from nag.text.table import align, count_text, printable
 
 if TYPE_CHECKING:
     from nag.mechanism.assembly import AssemblyModel
@@ -59,10 +59,10 @@ def _counting_rows(parts: AssemblyModel) -> Rows:
 
 def _framework_rows(framework: Framework) -> Rows:
     generic, count = framework.generic_motions(), framework.freedoms
-    text = "rigid" if generic == 0 else f"mobile with {counted(generic, 'freedom')}"
+    text = "rigid" if generic == 0 else f"mobile with {count_text(generic, 'freedom')}"
     if generic > count:
         dependent = generic - count
-        text += f", {counted(dependent, 'bar')} more than are independent"
+        text += f", {count_text(dependent, 'bar')} more than are independent"
     rows = [("graph", f"counting gives {count}; for almost all lengths {text}")]
     here = framework.infinitesimal_motions()
     if here is not None:
@@ -73,7 +73,7 @@ def _framework_rows(framework: Framework) -> Rows:
                 (
                     "infinitesimally rigid"
                     if here == 0
-                    else f"infinitesimally mobile with {counted(here, 'freedom')}"
+                    else f"infinitesimally mobile with {count_text(here, 'freedom')}"
                 )
                 + f", self-stresses {stresses}",
             )
@@ -247,7 +247,7 @@ def rank_rows(rank: tuple[int, int], variables: int, assembled: bool) -> Rows:
     if free <= 0:
         return [("rank", f"{text}, by exact linear algebra")]
     text = (
-        f"{text} in {counted(variables, 'unknown')}, by exact linear algebra: every "
+        f"{text} in {count_text(variables, 'unknown')}, by exact linear algebra: every "
         f"component has dimension {free} or more{', so it moves' if assembled else ''}"
     )
     return [("rank", text)]

@@ -6,7 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from nag.text.table import Row, align, printable, sheet
-from nag.witness.shown import in_words, kinds, paths_text, remarks
+from nag.witness.shown import kinds, kinds_text, paths_text, remarks
 from nag.witness.witness import PathCounts
 
 if TYPE_CHECKING:
@@ -24,14 +24,14 @@ def modes_lines(answer: ModesAnswer, title: str, run: Row) -> list[str]:
     head = [
         ("modes", _modes_text(answer, members)),
         ("model", f"formulation {first.model.formulation}: {first.model.reason}"),
-        ("answer", f"in all modes together {in_words(total)}"),
+        ("answer", f"in all modes together {kinds_text(total)}"),
     ]
     if not answer.complete:
         head.append(("", "INCOMPLETE, see below"))
     rows = [["class", "modes", "changed joints", "components in each mode"]]
     for k, each in enumerate(answer.classes, 1):
         changed = ", ".join(_mode_text(name, m, answer) for name, m in each.modes.representative)
-        text = in_words(kinds(each.decomposition.components))
+        text = kinds_text(kinds(each.decomposition.components))
         rows.append([str(k), str(len(each.modes.members)), printable(changed or "none"), text])
     paths = sum((c.decomposition.paths for c in answer.classes), PathCounts())
     tail = [("meeting", _meeting_text(answer, {k.dimension for k in total}))]

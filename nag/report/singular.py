@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from nag.text.table import counted
+from nag.text.table import count_text
 
 if TYPE_CHECKING:
     from nag.decomposition.singular_members import SingularParameters
@@ -57,9 +57,9 @@ def answer_rows(locus: SingularLocus, decomposition: Decomposition) -> list[tupl
     """How many singular points and sets there are, and which components are smooth."""
     points = [one for one in locus.sets if one.dimension == 0]
     larger = len(locus.sets) - len(points)
-    parts = [counted(len(points), "isolated singular point")] if points else []
+    parts = [count_text(len(points), "isolated singular point")] if points else []
     if larger:
-        parts.append(counted(larger, "set") + " of singular points of positive dimension")
+        parts.append(count_text(larger, "set") + " of singular points of positive dimension")
     none = "no singular points" if locus.complete else "undecided: no singular point is certain"
     rows = [("answer", ", ".join(parts) or none)]
     essential = sum(bool(one.essential) for one in locus.sets)

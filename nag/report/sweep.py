@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from nag.algebra.number import number_text
 from nag.text.table import Row, align, sheet
-from nag.witness.shown import in_words, kinds
+from nag.witness.shown import kinds, kinds_text
 
 if TYPE_CHECKING:
     from nag.decomposition.sweep import Swept
@@ -17,7 +17,7 @@ def sweep_lines(title: str, name: str, swept: Sequence[Swept], run: Row) -> list
     """One line a value, and what they rest on."""
     rows = [[name, "", "paths", "components"]]
     for each in swept:
-        answer = in_words(kinds(each.decomposition.components))
+        answer = kinds_text(kinds(each.decomposition.components))
         if not each.decomposition.complete:
             answer += " (INCOMPLETE)"
         how = "followed" if each.followed else "by itself"

@@ -20,10 +20,10 @@ from nag.solving.start.target import Start, Target
 from nag.tracking.certified_paths import (
     ENDGAME,
     CertifiedPaths,
-    Located,
+    ProvedZeros,
+    are_distinct,
     certified_paths,
-    distinct,
-    located,
+    prove_zeros_near,
 )
 from nag.tracking.moving_discs import MovingSystem
 
@@ -102,9 +102,9 @@ def prove_paths(result: SolveResult, threads: int = 1) -> ProvedPaths:
         system = MovingSystem.of(homotopy, patches)
     except OverflowError as error:
         raise PathsError(str(error)) from None
-    starts = located(system, _put_in_charts(start.points, patches), 1.0)
+    starts = prove_zeros_near(system, _put_in_charts(start.points, patches), 1.0)
     ends = _put_in_charts(_coordinates(problem.target, start, result), patches)
-    known = located(system, ends, 0.0, NEAR)
+    known = prove_zeros_near(system, ends, 0.0, NEAR)
     simple = sum(s.multiplicity == 1 for s in result.solutions)
     paths, steps = certified_paths(system, starts), 0
     for endgame in FURTHER:
@@ -117,10 +117,10 @@ def prove_paths(result: SolveResult, threads: int = 1) -> ProvedPaths:
     with np.errstate(all="ignore"):
         others = problem.target.original(start.affine(paths.ends.centres[arrived]))
     others = others[np.isfinite(others).all(axis=1)]
-    return ProvedPaths(start.name, distinct(starts), paths.reached, ends, steps, others)
+    return ProvedPaths(start.name, are_distinct(starts), paths.reached, ends, steps, others)
 
 
-def _identify_ends(paths: CertifiedPaths, known: Located) -> np.ndarray:
+def _identify_ends(paths: CertifiedPaths, known: ProvedZeros) -> np.ndarray:
     """For each path that arrived which of the known zeros it ends in, -1 for none."""
     ends = np.full(len(paths.reached), -1)
     for p in np.flatnonzero(paths.reached == 0).tolist():

@@ -18,16 +18,16 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.numerics.zero_values import ON, vanishes, vanishes_at
+from nag.numerics.zero_values import ON, vanishes_at, vanishes_at_point
 from nag.solving.isolated_zero import IsolatedZero, affine_point, which_are_real
 from nag.solving.solutions import LargerSets, Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
-from nag.text.table import counted
+from nag.text.table import count_text
 from nag.tracking.ends.inclusion import prove_end
 from nag.tracking.ends.terms import Terms
 from nag.tracking.paths import Ball, Paths, PathStatus
-from nag.tracking.projective import coinciding
+from nag.tracking.projective import coinciding_pairs
 
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
@@ -125,7 +125,7 @@ def sort_ends(
     evaluator = Evaluator.of(problem.equations, n)
     zeros, lost = _select_zeros(problem, begin, paths, evaluator)
     roughly = "is a zero" if lost == 1 else "are zeros"
-    ends = f"{counted(lost, 'end point')} {roughly} of the equations only roughly"
+    ends = f"{count_text(lost, 'end point')} {roughly} of the equations only roughly"
     unclear = [ends] if lost else []
     undecided: list[np.ndarray] = []
     sets: list[tuple[np.ndarray, bool | None]] = []
@@ -161,7 +161,7 @@ def sort_ends(
         may_be = "may or may not be isolated solutions, or several that are close together"
         if len(undecided) == 1:
             may_be = "may or may not be an isolated solution, or several that are close together"
-        unclear.append(f"{counted(len(undecided), 'end point')} {may_be}")
+        unclear.append(f"{count_text(len(undecided), 'end point')} {may_be}")
     original = problem.target.original
     return PathEnds(
         *_solutions(problem, isolated),
@@ -294,7 +294,7 @@ def _is_set_excluded(nonzero: Sequence[Polynomial], end: SingularEnd) -> bool | 
         return False
     if end.beside is None:
         return None
-    answers = [vanishes(g, end.beside) for g in near]
+    answers = [vanishes_at_point(g, end.beside) for g in near]
     return True if True in answers else None if None in answers else False
 
 
@@ -433,7 +433,7 @@ def _find_unpaired(begin: Start, paths: Paths) -> np.ndarray:
     twice = Paths.concatenate([ends, ends.conjugate()])
     paired = np.zeros(count, dtype=bool)
     groups = begin.homotopy.groups
-    for i, j in coinciding(groups, twice.points, twice.accuracy).tolist():
+    for i, j in coinciding_pairs(groups, twice.points, twice.accuracy).tolist():
         if i < count <= j and twice.same(begin.homotopy, i, j):
             paired[j - count] = True
     return regular[~paired]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nag.algebra.system import system_line
-from nag.text.table import counted, html_table, lines_of, magnitude
+from nag.text.table import count_text, html_table, lines_of, magnitude
 
 if TYPE_CHECKING:
     from nag.solving.solutions import Solution, SolveResult
@@ -148,6 +148,6 @@ def result_html(result: SolveResult) -> str:
     """A result as a table, one row a solution, the real ones first."""
     rows = solution_rows(result, MOST_ROWS, result.system.n) if result.solutions else []
     hidden = len(result.solutions) - MOST_ROWS
-    more = [f"{counted(hidden, 'more solution')} not shown"] if hidden > 0 else []
+    more = [f"{count_text(hidden, 'more solution')} not shown"] if hidden > 0 else []
     note = "; ".join([_status(result), *more, _run(result)])
     return html_table(f"{answer_text(result)}; {system_line(result.system)}", rows, note)

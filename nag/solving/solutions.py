@@ -9,7 +9,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.read_only import equal_values, fixed_array
-from nag.text.table import counted, one_line
+from nag.text.table import count_text, one_line
 from nag.tracking.run import Run
 
 
@@ -104,12 +104,12 @@ class LargerSets:
             lie = "lies on it and is no isolated solution"
             if count > 1:
                 lie = "lie on it and are no isolated solutions"
-            ends = counted(count, "end point")
+            ends = count_text(count, "end point")
             notes.append(f"the solution set has positive dimension; {ends} {lie}")
         if count := len(self.doubtful):
             lie = "lies on a solution set" if count == 1 else "lie on solution sets"
             notes.append(
-                f"{counted(count, 'end point')} {lie} of positive dimension; whether something "
+                f"{count_text(count, 'end point')} {lie} of positive dimension; whether something "
                 "that must not vanish does so on all of it was not decided"
             )
         return notes

@@ -28,7 +28,7 @@ from nag.solving.start.isotropic import isotropic
 from nag.solving.start.target import Start
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
-from nag.tracking.settings import Settings, named, tighter
+from nag.tracking.settings import Settings, find_settings, tighten
 from nag.tracking.track import track
 
 # Digits of evidence, beyond the least, of zeros that are to be told from others beside them.
@@ -206,7 +206,7 @@ def close_ends(search: PathSearch) -> PathSearch:
     chosen, ends = search.ends.close, search.ends
     if not len(chosen) or (search.task.finite and len(ends.larger.points)):
         return search
-    settings = replace(named(search.task.run.settings), evidence=SEPARATING)
+    settings = replace(find_settings(search.task.run.settings), evidence=SEPARATING)
     return _look(_track_again(search, chosen, settings))
 
 
@@ -214,7 +214,7 @@ def doubtful_ends(search: PathSearch) -> PathSearch:
     """An end that is not proved may be another one: what is near it, or a jump."""
     if search.completeness not in (Completeness.MISSING, Completeness.TOO_MANY):
         return search
-    settings = replace(tighter(named(search.task.run.settings)), evidence=SEPARATING)
+    settings = replace(tighten(find_settings(search.task.run.settings)), evidence=SEPARATING)
     again = _look(_track_again(search, search.doubtful, settings))
     better = again.zeros > search.zeros or again.completeness is Completeness.ALL
     return again if better else search
@@ -253,7 +253,7 @@ def _track_again(search: PathSearch, chosen: np.ndarray, settings: Settings) -> 
     )
 
 
-def begin_of(
+def time_first_attempt(
     system: PolynomialSystem,
     seed: int = 0,
     start: str = "auto",

@@ -26,7 +26,7 @@ from nag.solving.start.family_monodromy import CONFIRMING, SHARP, Progress, fami
 from nag.solving.start.scalings import nearest_scaling, random_scaling, scaling_weights
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import Run
-from nag.tracking.settings import Settings, named
+from nag.tracking.settings import Settings, find_settings
 from nag.tracking.track import track
 
 # The part of the classes that may be lost by chance; if more are, the parameters are special, and
@@ -193,7 +193,7 @@ def track_classes(
     The paths lead to ``goal`` scaled: ``factors``, of unknowns and parameters, undo that.
     """
     # Jumps show, as every end must be confirmed and of another class.
-    chosen = named("fast" if settings == "default" else settings)
+    chosen = find_settings("fast" if settings == "default" else settings)
     sharp = min(SHARP, chosen.newton)
     chosen = replace(chosen, retries=0, max_steps=MOST_STEPS, newton=sharp)
     symmetric = solved.symmetric

@@ -17,7 +17,13 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.numerics.precise_point import PrecisePoint, precise_zero
-from nag.numerics.zero_values import NONZERO, possible_zeros, vanish, vanishes, vanishes_at_all
+from nag.numerics.zero_values import (
+    NONZERO,
+    all_vanish,
+    possible_zeros,
+    vanishes_at_all,
+    vanishes_at_point,
+)
 from nag.solving.isolated_zero import IsolatedZero
 from nag.solving.start.choice import FEW
 from nag.solving.start.target import Target, most_digits
@@ -89,7 +95,7 @@ class SquareProblem:
         None if there is no such zero.
         """
         zero = self._zero(x)
-        return None if zero is None else vanish(self.equations, zero)
+        return None if zero is None else all_vanish(self.equations, zero)
 
     def may_be_excluded(self, x: np.ndarray) -> bool:
         """Whether a polynomial that must not vanish seems to do so at a point."""
@@ -104,7 +110,7 @@ class SquareProblem:
             return False
         zero = self._zero(x) if found.multiplicity == 1 and found.fine is None else None
         if zero is not None:
-            answers = [vanishes(g, zero) for g in near]
+            answers = [vanishes_at_point(g, zero) for g in near]
             return True if True in answers else None if None in answers else False
         start, error = x, found.accuracy
         if found.fine is not None:

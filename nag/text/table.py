@@ -19,7 +19,7 @@ def printable(text: str) -> str:
     )
 
 
-def counted(number: int, noun: str, plural: str = "") -> str:
+def count_text(number: int, noun: str, plural: str = "") -> str:
     """``1 path``, ``2 paths``; a plural that takes no s is given."""
     return f"{number} {noun}" if number == 1 else f"{number} {plural or noun + 's'}"
 

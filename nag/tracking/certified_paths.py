@@ -40,7 +40,7 @@ SIDES, BLOCK = 10, 256
 
 
 @dataclass(frozen=True, eq=False)
-class Located(ArrayTable):
+class ProvedZeros(ArrayTable):
     """Zeros, each by a box that it lies in, and a larger one that holds no other.
 
     Attributes:
@@ -57,7 +57,7 @@ class Located(ArrayTable):
         """Which of them there are, shape ``(P,)``."""
         return (self.outer > 0).all(axis=1)
 
-    def same(self, other: Located) -> np.ndarray:
+    def same(self, other: ProvedZeros) -> np.ndarray:
         """Which pairs are proved to be the same zero, one of each; shapes may be broadcast."""
         off = magnitude(self.centres - other.centres) * UP
         mine = (off + other.inner) * UP < self.outer
@@ -76,7 +76,7 @@ class CertifiedPaths:
     """
 
     reached: np.ndarray
-    ends: Located
+    ends: ProvedZeros
     steps: int
     trials: int
 
@@ -90,16 +90,18 @@ class _State:
     t: np.ndarray
     step: np.ndarray
     sides: np.ndarray
-    at: Located
+    at: ProvedZeros
 
 
-def located(system: MovingSystem, points: np.ndarray, t: float, reach: float = np.inf) -> Located:
+def prove_zeros_near(
+    system: MovingSystem, points: np.ndarray, t: float, reach: float = np.inf
+) -> ProvedZeros:
     """The zeros next to points at a fixed t, as far as doubles can prove them.
 
     Args:
         reach: how far from the points zeros may be to count, relative to their size.
     """
-    found = Located(points.copy(), np.full(points.shape, np.inf), np.full(points.shape, -1.0))
+    found = ProvedZeros(points.copy(), np.full(points.shape, np.inf), np.full(points.shape, -1.0))
     left = np.arange(len(points))
     with np.errstate(all="ignore"):
         times_ = np.full(len(points), t)
@@ -121,7 +123,7 @@ def located(system: MovingSystem, points: np.ndarray, t: float, reach: float = n
     return found
 
 
-def distinct(zeros: Located) -> bool:
+def are_distinct(zeros: ProvedZeros) -> bool:
     """Whether all zeros are proved, and proved to be pairwise distinct."""
     if not zeros.proved.all():
         return False
@@ -135,7 +137,7 @@ def distinct(zeros: Located) -> bool:
 
 def certified_paths(
     system: MovingSystem,
-    starts: Located,
+    starts: ProvedZeros,
     begin: np.ndarray | float = 1.0,
     endgame: float = ENDGAME,
     most_trials: int = MOST_TRIALS,
@@ -153,7 +155,7 @@ def certified_paths(
     P = len(starts.centres)
     t = np.full(P, begin, dtype=float)
     x, rates = starts.centres.copy(), np.zeros_like(starts.centres)
-    at = Located(starts.centres.copy(), starts.inner.copy(), starts.outer.copy())
+    at = ProvedZeros(starts.centres.copy(), starts.inner.copy(), starts.outer.copy())
     sides = FIRST_SIDE * np.abs(x).max(axis=1, keepdims=True, initial=0.0) * np.ones(x.shape)
     state = _State(x, rates, t, FIRST_STEP * t, sides, at)
     active, steps, trials = np.flatnonzero(starts.proved & (t > 0)), 0, 0
@@ -223,11 +225,11 @@ def _hermite(x: np.ndarray, y: np.ndarray, dx: np.ndarray, dy: np.ndarray) -> np
     return np.stack([(x + y) / 2 - second, (y - x) / 2 - third, second, third])
 
 
-def _end_of(curve: np.ndarray, inner: np.ndarray, radii: np.ndarray, s: int) -> Located:
+def _end_of(curve: np.ndarray, inner: np.ndarray, radii: np.ndarray, s: int) -> ProvedZeros:
     """The zero at an end of a tube, by boxes about a centre that is rounded."""
     point = curve[0] + s * curve[1] + curve[2] + s * curve[3]
     rounding = magnitude(curve).sum(axis=0) * 32 * UNIT
-    return Located(point, (inner + rounding) * UP, (radii - rounding) / UP)
+    return ProvedZeros(point, (inner + rounding) * UP, (radii - rounding) / UP)
 
 
 @dataclass(frozen=True, eq=False)

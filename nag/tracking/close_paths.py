@@ -18,7 +18,7 @@ from nag.tracking.ends.follow import DIGITS, follow_whole
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.jumps import collisions
 from nag.tracking.paths import Paths, PathStatus
-from nag.tracking.settings import Settings, named
+from nag.tracking.settings import Settings, find_settings
 
 # Words of a start point, and Newton's constant above which double-double is not tried first.
 WORDS, STEEP = 4, 1e11
@@ -89,7 +89,7 @@ def track_close(
     Returns:
         The paths, whose regular ends are balls.
     """
-    chosen, curvature = named(settings), np.array(curvature, dtype=float)
+    chosen, curvature = find_settings(settings), np.array(curvature, dtype=float)
     first = min(DIGITS) if (curvature < STEEP).all() else WORDS
     paths = _follow_in(first, homotopy, starts, curvature, chosen, threads, endgame)
     for words in (words for words in DIGITS if words > first):

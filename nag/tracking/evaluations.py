@@ -23,7 +23,7 @@ _counting: ContextVar[Evaluations | None] = ContextVar("counting", default=None)
 
 
 @contextlib.contextmanager
-def counted() -> Iterator[Evaluations]:
+def count_evaluations() -> Iterator[Evaluations]:
     """Count the evaluations of all paths that are tracked inside the block."""
     found = Evaluations()
     token = _counting.set(found)

@@ -12,7 +12,7 @@ import numpy as np
 from nag.numerics.coincidence import neighbours
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths
-from nag.tracking.projective import coinciding
+from nag.tracking.projective import coinciding_pairs
 
 # Leading coefficients of branches that differ by less are the same.
 ALIKE = 1e-9
@@ -33,14 +33,16 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     if len(chosen) < 2 or not paths.simple.any():
         return chosen[:0]
     found: set[int] = set()
-    for a, b in coinciding(homotopy.groups, paths.points[chosen], paths.accuracy[chosen]).tolist():
+    for a, b in coinciding_pairs(
+        homotopy.groups, paths.points[chosen], paths.accuracy[chosen]
+    ).tolist():
         i, j = chosen[[a, b]].tolist()
         if (paths.simple[i] or paths.simple[j]) and paths.same(homotopy, i, j):
             found |= {i, j}
     return np.array(sorted(found), dtype=np.int64)
 
 
-def alike(paths: Paths) -> np.ndarray:
+def find_like_branches(paths: Paths) -> np.ndarray:
     """Indices of the paths whose branches begin like another's, with the first two terms alike."""
     kinds: dict[tuple[Fraction, ...], list[int]] = {}
     for path, branch in paths.branches.items():

@@ -224,7 +224,7 @@ def _template(homotopy: Homotopy) -> Table:
     return rows._cache["system"]
 
 
-def work(homotopy: Homotopy, order: int, toric: bool = False) -> Table:
+def scratch_table(homotopy: Homotopy, order: int, toric: bool = False) -> Table:
     """The table of `Work` for ``homotopy`` and Taylor coefficients up to ``order``."""
     N, rows = homotopy.N, len(homotopy.rows)
     tape = homotopy.rows.tape

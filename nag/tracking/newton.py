@@ -66,7 +66,7 @@ def refine(
     A point where the Jacobian is singular is returned with a large ``error`` and whatever
     Newton's method made of it; compare ``moved`` with what was expected.
     """
-    from nag.tracking.kernel_arrays import at_end, work
+    from nag.tracking.kernel_arrays import at_end, scratch_table
     from nag.tracking.newton_kernel import Refinement, low_parts, newton_lanes
 
     homotopy = _at(rows, A, t)
@@ -79,7 +79,7 @@ def refine(
         batch = Refinement(
             result, P, iterations, before, smallest, error, size, further, int(twice)
         )
-        newton_lanes(at_end(homotopy), work(homotopy, 1), low_parts(homotopy), batch)
+        newton_lanes(at_end(homotopy), scratch_table(homotopy, 1), low_parts(homotopy), batch)
         evaluations.count(P * (iterations + 1 + int(twice)))
     # A matrix that is singular in double precision leaves NaN.
     before, smallest = (np.where(np.isfinite(v), v, 0.0) for v in (before, smallest))

@@ -37,7 +37,7 @@ def _turn(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return np.where(there, product / np.where(there, size, 1), 1)
 
 
-def coinciding(groups: Groups, points: np.ndarray, errors: np.ndarray) -> np.ndarray:
+def coinciding_pairs(groups: Groups, points: np.ndarray, errors: np.ndarray) -> np.ndarray:
     """Pairs ``i < j`` of ends of paths that are one within their errors, shape ``(pairs, 2)``.
 
     Args:

@@ -60,7 +60,7 @@ NAMED = {
 }
 
 
-def named(settings: Settings | str) -> Settings:
+def find_settings(settings: Settings | str) -> Settings:
     """``settings`` itself, or the one of that name.
 
     Raises:
@@ -73,7 +73,7 @@ def named(settings: Settings | str) -> Settings:
     return NAMED[settings]
 
 
-def tighter(settings: Settings) -> Settings:
+def tighten(settings: Settings) -> Settings:
     """Settings for a path that jumped: shorter steps."""
     return replace(
         settings,

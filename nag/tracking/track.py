@@ -16,11 +16,11 @@ import numpy as np
 from nag.errors import NagError
 from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.jumps import alike, collisions
+from nag.tracking.jumps import collisions, find_like_branches
 from nag.tracking.known import NOTHING, Known
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
-from nag.tracking.settings import Settings, named, tighter
+from nag.tracking.settings import Settings, find_settings, tighten
 
 # Newton's method may move the end of a path by so many of its errors, and by this much, or by this
 # part of the smallest singular value there.
@@ -69,7 +69,7 @@ def track(
     Raises:
         ValueError: if the starts have a wrong shape, or settings an unknown name.
     """
-    chosen = named(settings)
+    chosen = find_settings(settings)
     starts = np.asarray(starts, dtype=np.complex128)
     if starts.ndim != 2 or starts.shape[1] != homotopy.N:
         raise NagError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
@@ -79,10 +79,12 @@ def track(
         jumped = collisions(homotopy, paths)
         if attempt == 0:
             # Branches that begin alike may be two; a jump does not survive shorter steps.
-            jumped = np.array(sorted({*jumped.tolist(), *alike(paths).tolist()}), dtype=int)
+            jumped = np.array(
+                sorted({*jumped.tolist(), *find_like_branches(paths).tolist()}), dtype=int
+            )
         if not len(jumped):
             return paths
-        chosen = tighter(chosen)
+        chosen = tighten(chosen)
         again = _attempt(homotopy, starts[jumped], chosen, threads, endgame)
         paths = paths.track_again(jumped, again)
     return paths.mark_failed(collisions(homotopy, paths)) if distinct else paths
@@ -260,7 +262,7 @@ def run_in_doubles(
             settings.safety,
             settings.contraction,
         )
-        scratch = kernel_arrays.work(homotopy, settings.order, weights is not None)
+        scratch = kernel_arrays.scratch_table(homotopy, settings.order, weights is not None)
         straight_run.track_lanes(arrays, scratch, paths)
 
     if batches == 1:

@@ -19,7 +19,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.certified_points import NEAR, Proof
 from nag.numerics.discs import Terms
-from nag.tracking.certified_paths import Located, certified_paths, located
+from nag.tracking.certified_paths import ProvedZeros, certified_paths, prove_zeros_near
 from nag.tracking.moving_discs import MovingPart, MovingSystem
 from nag.witness.certificate import certify_witness_points
 from nag.witness.component_equations import component_fibres
@@ -113,7 +113,7 @@ def _loop(
     for fibre in fibres:
         out = moving_slice(fibre, rows, middle, turns[0])
         back = moving_slice(fibre, middle, rows, turns[1])
-        starts = located(out, fibre.points.astype(complex), 1.0, NEAR)
+        starts = prove_zeros_near(out, fibre.points.astype(complex), 1.0, NEAR)
         there = certified_paths(out, starts)
         half = _keep_arrived(there.ends, there.reached)
         again = certified_paths(back, half)
@@ -122,7 +122,7 @@ def _loop(
         known, begin = starts, first
         if not fibre.cut.aux:
             every = np.vstack([f.x for f in fibres]).astype(complex)
-            known, begin = located(out, every, 1.0, NEAR), 0
+            known, begin = prove_zeros_near(out, every, 1.0, NEAR), 0
         for i in range(len(fibre)):
             same = np.flatnonzero(ends.select_rows(np.array([i])).same(known))
             places.append(begin + int(same[0]) if len(same) == 1 else -1)
@@ -131,10 +131,10 @@ def _loop(
     return np.array(places, dtype=int), steps
 
 
-def _keep_arrived(ends: Located, reached: np.ndarray) -> Located:
+def _keep_arrived(ends: ProvedZeros, reached: np.ndarray) -> ProvedZeros:
     """The ends of the paths that got to t = 0."""
     outer = np.where(reached[:, None] == 0, ends.outer, -1.0)
-    return Located(ends.centres, ends.inner, outer)
+    return ProvedZeros(ends.centres, ends.inner, outer)
 
 
 def moving_slice(

@@ -25,10 +25,10 @@ from nag.witness.close_points import (
     CLOSE,
     CLOSE_AFAR,
     DIGITS,
-    Fine,
+    PointInWords,
     close_pairs,
+    fine_of_balls,
     follow_slice,
-    in_words,
 )
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import EPS, sharpen_fibre
@@ -158,7 +158,7 @@ def _carry_cut(cut: Cut, natural: NaturalCoordinates) -> Cut:
     return Cut(cut.n, cut.aux, polynomials)
 
 
-def _carry_fine(point: Fine, natural: NaturalCoordinates) -> Fine:
+def _carry_fine(point: PointInWords, natural: NaturalCoordinates) -> PointInWords:
     """A point in all its digits; its next one is as far as it may be at least."""
     n = len(natural.scales)
     if natural.is_exact_in_doubles:
@@ -167,7 +167,7 @@ def _carry_fine(point: Fine, natural: NaturalCoordinates) -> Fine:
         return replace(point, words=words)
     x, back = point.balls(), natural.inverse
     moved = change_units(x[:n], back.scales, back.origin, bits_of(2 * DIGITS))
-    there = in_words([*moved, *x[n:]], 1.0)
+    there = fine_of_balls([*moved, *x[n:]], 1.0)
     before, after = (1 + float(np.linalg.norm(each.rounded)) for each in (point, there))
     steep = point.curvature * float(natural.sizes.max(initial=1.0)) * after / before
     return replace(there, curvature=max(steep, 1.0))

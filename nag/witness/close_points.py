@@ -16,7 +16,7 @@ import numpy as np
 
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import neighbours
-from nag.numerics.digits import bits_of, in_bits, number, number_of_words, words_of_number
+from nag.numerics.digits import bits_of, in_bits, number_of_words, to_ball, words_of_number
 from nag.numerics.newton import find_zero, inverse_of, newton_step, subtract_step
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.read_only import fixed_array
@@ -45,7 +45,7 @@ STEEPEST = 1e100
 
 
 @dataclass(frozen=True, eq=False)
-class Fine:
+class PointInWords:
     """A point in many digits.
 
     Attributes:
@@ -61,26 +61,26 @@ class Fine:
         object.__setattr__(self, "words", fixed_array(self.words))
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Fine):
+        if not isinstance(other, PointInWords):
             return NotImplemented
         return self.curvature == other.curvature and np.array_equal(self.words, other.words)
 
     @classmethod
-    def of_doubles(cls, x: np.ndarray, curvature: float = 1.0) -> Fine:
+    def of_doubles(cls, x: np.ndarray, curvature: float = 1.0) -> PointInWords:
         """A point of which no more is known than complex doubles, shape ``(n,)``."""
         words = np.zeros((len(x), 2, WORDS))
         words[:, 0, 0], words[:, 1, 0] = x.real, x.imag
         return cls(words, curvature)
 
-    def first(self, count: int) -> Fine:
+    def first(self, count: int) -> PointInWords:
         """The first coordinates only."""
-        return Fine(self.words[:count], self.curvature)
+        return PointInWords(self.words[:count], self.curvature)
 
-    def with_last(self, value: float) -> Fine:
+    def with_last(self, value: float) -> PointInWords:
         """With one coordinate more."""
         last = np.zeros((1, 2, WORDS))
         last[0, 0, 0] = value
-        return Fine(np.concatenate([self.words, last]), self.curvature)
+        return PointInWords(np.concatenate([self.words, last]), self.curvature)
 
     @property
     def rounded(self) -> np.ndarray:
@@ -100,20 +100,22 @@ class Fine:
         return np.ldexp(words, -int(np.frexp(np.linalg.norm(words[:, :, 0]))[1]))
 
 
-def in_words(values: Sequence[flint.acb], curvature: float) -> Fine:
+def fine_of_balls(values: Sequence[flint.acb], curvature: float) -> PointInWords:
     """A point from the middles of coordinates."""
     words = [words_of_number(z, WORDS) for z in values]
-    return Fine(np.array(words).reshape(len(words), 2, WORDS), curvature)
+    return PointInWords(np.array(words).reshape(len(words), 2, WORDS), curvature)
 
 
-def affine_fine(centre: np.ndarray, curvature: float) -> Fine:
+def affine_fine(centre: np.ndarray, curvature: float) -> PointInWords:
     """The affine point of homogeneous coordinates in words, shape ``(N, 2, words)``."""
-    first, *others = Fine(centre, curvature).balls()
+    first, *others = PointInWords(centre, curvature).balls()
     with in_bits(bits_of(2 * DIGITS)):
-        return in_words([z / first for z in others], curvature)
+        return fine_of_balls([z / first for z in others], curvature)
 
 
-def rated(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> Fine:
+def with_newton_constant(
+    polynomials: Sequence[Polynomial], rows: np.ndarray, point: PointInWords
+) -> PointInWords:
     """A zero of a square system on a slice with Newton's constant there, relative to its size.
 
     Two of Newton's corrections from a point that is a little off: their quotient over the first.
@@ -128,25 +130,25 @@ def rated(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> F
         for _ in range(2):
             step = newton_step(exact, x, bits)
             if step is None:
-                return Fine(point.words, STEEPEST)
+                return PointInWords(point.words, STEEPEST)
             x = subtract_step(x, step, bits)
             lengths.append(float(max(abs(z.mid()) for z in step).mid()) / size)
         # One after the other, as the square of a step may leave the range of doubles.
         most = max(most, lengths[1] / lengths[0] / lengths[0]) if lengths[0] else STEEPEST
-    return Fine(point.words, min(most, STEEPEST))
+    return PointInWords(point.words, min(most, STEEPEST))
 
 
-def with_roots(point: Fine, f: Polynomial) -> list[Fine]:
+def with_roots(point: PointInWords, f: Polynomial) -> list[PointInWords]:
     """A point with each root of ``u^m = f`` there, for f of degree m, as a further coordinate."""
     x, m = point.balls(), f.degree
     with in_bits(bits_of(2 * DIGITS)):
-        root = f(x[: f.n], number).root(m)
+        root = f(x[: f.n], to_ball).root(m)
         turns = [flint.acb(flint.fmpq(2 * k, m)).exp_pi_i() for k in range(m)]
-        return [in_words([*x, root * turn], point.curvature) for turn in turns]
+        return [fine_of_balls([*x, root * turn], point.curvature) for turn in turns]
 
 
 def zero_from(
-    polynomials: Sequence[Polynomial], rows: np.ndarray, start: Fine, digits: int
+    polynomials: Sequence[Polynomial], rows: np.ndarray, start: PointInWords, digits: int
 ) -> PrecisePoint | None:
     """The zero of a square system on a slice near a point, to so many digits.
 
@@ -158,7 +160,9 @@ def zero_from(
     return None if found is None else PrecisePoint.of(found.point, found.error)
 
 
-def follow_slice(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> Fine:
+def follow_slice(
+    polynomials: Sequence[Polynomial], rows: np.ndarray, point: PointInWords
+) -> PointInWords:
     """The zero of a square system on a slice that a zero on a slice beside it belongs to.
 
     The step along the tangent may be much longer than other zeros are far, as these move along:
@@ -173,9 +177,9 @@ def follow_slice(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fin
         off[i, 0] = 0
     with in_bits(bits):
         step = (inverse * off).entries()
-    there = in_words(subtract_step(x, step, bits), point.curvature)
+    there = fine_of_balls(subtract_step(x, step, bits), point.curvature)
     found = zero_from(polynomials, rows, there, DIGITS)
-    return there if found is None else in_words(found.centre, point.curvature)
+    return there if found is None else fine_of_balls(found.centre, point.curvature)
 
 
 def close_pairs(x: np.ndarray, close: float = CLOSE) -> list[tuple[int, int]]:
@@ -191,7 +195,9 @@ def close_pairs(x: np.ndarray, close: float = CLOSE) -> list[tuple[int, int]]:
     return found
 
 
-def distance(x: np.ndarray, fine: Fine | None, y: np.ndarray, other: Fine | None) -> float:
+def distance(
+    x: np.ndarray, fine: PointInWords | None, y: np.ndarray, other: PointInWords | None
+) -> float:
     """The distance of two points in all digits that are known, without added unknowns.
 
     Doubles that are near to each other have an exact difference.
@@ -204,6 +210,8 @@ def distance(x: np.ndarray, fine: Fine | None, y: np.ndarray, other: Fine | None
     return float(np.linalg.norm(parts))
 
 
-def chosen(fine: Mapping[int, Fine], indices: Sequence[int]) -> dict[int, Fine]:
+def select_fine(
+    fine: Mapping[int, PointInWords], indices: Sequence[int]
+) -> dict[int, PointInWords]:
     """What is known of some points, by their places among these."""
     return {k: fine[int(i)] for k, i in enumerate(indices) if int(i) in fine}

@@ -13,7 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.natural_coordinates import scale_coordinates
 from nag.numerics.precise_point import PrecisePoint
-from nag.numerics.zero_values import ON, vanish
+from nag.numerics.zero_values import ON, all_vanish
 from nag.witness.change_of_coordinates import carry_component, carry_fibres, coordinates_of
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
@@ -69,7 +69,7 @@ def _cut(
     parts = [part for _, part in sorted(near, key=lambda pair: pair[0])]
     if len(parts) > 1:
         point = precise_point(component)
-        parts = [part for part in parts if vanish(part.polynomials, point) is not False]
+        parts = [part for part in parts if all_vanish(part.polynomials, point) is not False]
     if len(parts) > 1:
         together = dict.fromkeys(f for part in parts for f in part.polynomials)
         parts.append(replace(system, polynomials=tuple(together)))

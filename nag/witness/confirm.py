@@ -11,7 +11,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.precise_point import DIGITS, PrecisePoint, precise_zero
 from nag.numerics.singular_point import Place, analyse
-from nag.numerics.zero_values import ON, vanish
+from nag.numerics.zero_values import ON, all_vanish
 from nag.witness.close_points import zero_from
 from nag.witness.fibres import Fibre
 from nag.witness.multiplicity import ACCURACY
@@ -80,7 +80,7 @@ def _vanish_at(fibre: Fibre, i: int, equations: Sequence[Polynomial]) -> bool | 
     """Whether equations vanish at a point of a fibre; None if its zero was not found."""
     found = zero_in_digits(fibre, i)
     if found is not None:
-        return vanish(equations, found)
+        return all_vanish(equations, found)
     cut, z = fibre.cut, fibre.points[i]
     if cut.aux or i in fibre.fine:
         return None
@@ -88,4 +88,4 @@ def _vanish_at(fibre: Fibre, i: int, equations: Sequence[Polynomial]) -> bool | 
     zero = analyse(cut.polynomials, z, ACCURACY, np.random.default_rng(0), slices)
     if zero.place is not Place.ISOLATED or zero.precise is None:
         return None
-    return vanish(equations, zero.precise)
+    return all_vanish(equations, zero.precise)

@@ -17,8 +17,8 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import regular_block
 from nag.numerics.digits import bits_of, in_bits, middle
 from nag.numerics.singular_point import SingularEnd
-from nag.numerics.zero_values import is_negligible, vanish
-from nag.witness.close_points import CLOSE, Fine, in_words, rated
+from nag.numerics.zero_values import all_vanish, is_negligible
+from nag.witness.close_points import CLOSE, PointInWords, fine_of_balls, with_newton_constant
 from nag.witness.close_to_sets import find_nearby_zeros
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import MOST_DEFLATIONS, Cut, Equations, dyadic
@@ -85,7 +85,7 @@ def admit_zero(
                 continue
             z = _lifted(fibre.cut, x)
             if z is not None and _is_regular_zero(fibre.cut, rows, z):
-                fine = rated(fibre.cut.polynomials, rows, in_words(z, 1.0))
+                fine = with_newton_constant(fibre.cut.polynomials, rows, fine_of_balls(z, 1.0))
                 points = np.vstack([fibre.points, fine.rounded])
                 known = {**fibre.fine, len(fibre): fine}
                 fibres[i] = Fibre(fibre.cut, rows, points, known)
@@ -94,7 +94,7 @@ def admit_zero(
         if found is None:
             return False
         cut, z = found
-        fine = rated(cut.polynomials, rows, in_words(z, 1.0))
+        fine = with_newton_constant(cut.polynomials, rows, fine_of_balls(z, 1.0))
     fibres.append(Fibre(cut, rows, fine.rounded[None], {0: fine}))
     return True
 
@@ -107,19 +107,20 @@ def is_alone(fibre: Fibre, i: int, equations: Equations) -> bool:
     # Rounding errors make Newton's constant seem larger, and take a part of the time of digits.
     if not (
         _curvature_in_doubles(cut, rows, z) < 1 / CLOSE
-        or rated(cut.polynomials, rows, Fine.of_doubles(z)).curvature < 1 / CLOSE
+        or with_newton_constant(cut.polynomials, rows, PointInWords.of_doubles(z)).curvature
+        < 1 / CLOSE
     ):
         return False
     digits = zero_in_digits(fibre, i)
-    return digits is not None and vanish(equations.polynomials, digits) is True
+    return digits is not None and all_vanish(equations.polynomials, digits) is True
 
 
 @np.errstate(over="ignore", invalid="ignore")
 def _curvature_in_doubles(cut: Cut, rows: np.ndarray, z: np.ndarray) -> float:
-    """Newton's constant at a zero as `rated` tells it; infinite where doubles do not show it.
+    """Newton's constant at a zero as `with_newton_constant` tells it.
 
-    Other zeros nearer than the probes are off do not let the corrections contract, so that it is
-    then at least about the inverse of their distance.
+    It is infinite where doubles do not show it. Other zeros nearer than the probes are off do not
+    let the corrections contract, so that it is then at least about the inverse of their distance.
     """
     a, size, most = padded(rows, 1 + len(z)), 1 + float(np.linalg.norm(z)), 0.0
     for turn in (1, 2):

@@ -24,7 +24,7 @@ from nag.numerics.precise_point import PrecisePoint, precise_zero
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import WRITTEN, choose_alike, possible_zeros
 from nag.tracking.newton import Refined, refine
-from nag.witness.close_points import Fine, chosen, zero_from
+from nag.witness.close_points import PointInWords, select_fine, zero_from
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Cut, sharpen
 from nag.witness.fibres import Fibre, homogeneous
@@ -191,7 +191,7 @@ def _whole(point: Sequence[flint.acb], bits: int) -> np.ndarray:
 
 
 def _in_balls(
-    cut: Cut, rows: np.ndarray, z: np.ndarray, fine: Fine | None, digits: int
+    cut: Cut, rows: np.ndarray, z: np.ndarray, fine: PointInWords | None, digits: int
 ) -> PrecisePoint | None:
     """A point to so many digits; to as many more as it is close to others by, if it is."""
     if fine is None:
@@ -210,7 +210,7 @@ ESTIMATE, CORRECTION = 2.0, 1e2
 
 
 @dataclass(frozen=True, eq=False)
-class Sharp:
+class SharpFibre:
     """A fibre's points to rounding, and what is known of them.
 
     Attributes:
@@ -229,15 +229,15 @@ class Sharp:
         """Errors of the points, relative to one and their sizes, shape ``(P,)``."""
         return relative_errors(self.fibre.x, self.radii)
 
-    def only(self, places: np.ndarray) -> Sharp:
+    def only(self, places: np.ndarray) -> SharpFibre:
         """Some of the points."""
-        fine = chosen(self.fibre.fine, places)
+        fine = select_fine(self.fibre.fine, places)
         points = self.fibre.points[places]
         fibre = replace(self.fibre, points=points, fine=fine)
-        return Sharp(fibre, self.radii[places], self.digits[places])
+        return SharpFibre(fibre, self.radii[places], self.digits[places])
 
 
-def sharpen_fibre(fibre: Fibre, known: ExactPoints | None = None) -> Sharp:
+def sharpen_fibre(fibre: Fibre, known: ExactPoints | None = None) -> SharpFibre:
     """The regular points of a fibre, to rounding.
 
     Args:
@@ -262,7 +262,7 @@ def sharpen_fibre(fibre: Fibre, known: ExactPoints | None = None) -> Sharp:
     radii, digits = _radii(fibre, exact)
     rough = CORRECTION * np.maximum(steps, EPS) * (1 + np.linalg.norm(points, axis=1))
     radii[~good] = rough[~good, None]
-    return Sharp(fibre, radii, digits)
+    return SharpFibre(fibre, radii, digits)
 
 
 def exact_zeros(

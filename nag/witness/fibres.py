@@ -18,12 +18,12 @@ from nag.tracking.run import Run
 from nag.tracking.track import track
 from nag.witness.close_points import (
     WORDS,
-    Fine,
+    PointInWords,
     affine_fine,
-    chosen,
     close_pairs,
     distance,
-    rated,
+    select_fine,
+    with_newton_constant,
 )
 from nag.witness.cutting import (
     MOST_DEFLATIONS,
@@ -54,7 +54,7 @@ class Fibre:
     cut: Cut
     rows: np.ndarray
     points: np.ndarray
-    fine: Mapping[int, Fine] = field(default_factory=dict)
+    fine: Mapping[int, PointInWords] = field(default_factory=dict)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Fibre):
@@ -112,7 +112,7 @@ class Fibre:
 
     def only(self, mask: np.ndarray) -> Fibre:
         """The fibre's points where ``mask`` holds."""
-        fine = chosen(self.fine, np.flatnonzero(mask)) if self.fine else self.fine
+        fine = select_fine(self.fine, np.flatnonzero(mask)) if self.fine else self.fine
         return replace(self, points=self.points[mask], fine=fine)
 
 
@@ -137,7 +137,7 @@ class PathEnds:
     failed: np.ndarray
     accuracy: np.ndarray
     counts: PathCounts = field(default=PathCounts())
-    fine: Mapping[int, Fine] = field(default_factory=dict)
+    fine: Mapping[int, PointInWords] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -152,13 +152,13 @@ class PathEnds:
         kept = np.setdiff1d(np.arange(len(self)), list(indices))
         names = ("points", "finite", "regular", "failed", "accuracy")
         arrays = {name: getattr(self, name)[kept] for name in names}
-        return replace(self, **arrays, fine=chosen(self.fine, kept))
+        return replace(self, **arrays, fine=select_fine(self.fine, kept))
 
     def fibre(self, indices: Sequence[int] | None = None) -> Fibre:
         """Some of the ends, or all."""
         if indices is None:
             indices = range(len(self))
-        return Fibre(self.cut, self.rows, self.points[indices], chosen(self.fine, indices))
+        return Fibre(self.cut, self.rows, self.points[indices], select_fine(self.fine, indices))
 
 
 def homogeneous(points: np.ndarray) -> np.ndarray:
@@ -190,11 +190,11 @@ def ends_of_paths(paths: Paths, cut: Cut, rows: np.ndarray) -> PathEnds:
 
 def _fine(
     paths: Paths, points: np.ndarray, regular: np.ndarray, singular: np.ndarray
-) -> dict[int, Fine]:
+) -> dict[int, PointInWords]:
     """The digits of regular ends in balls that are close to others, regular or singular ones."""
     own = [i for i in paths.balls if regular[i]]
     known = np.array(sorted({*own, *np.flatnonzero(singular).tolist()}), dtype=int)
-    found: dict[int, Fine] = {}
+    found: dict[int, PointInWords] = {}
     for pair in close_pairs(points[known]):
         ends = [int(known[k]) for k in pair]
         if not regular[ends].any():
@@ -204,7 +204,7 @@ def _fine(
             or (
                 affine_fine(_words(paths.balls[i]), 1.0).first(points.shape[1])
                 if regular[i]
-                else Fine.of_doubles(points[i])
+                else PointInWords.of_doubles(points[i])
             )
             for i in ends
         )
@@ -212,7 +212,7 @@ def _fine(
         apart = max(distance(points[ends[0]], first, points[ends[1]], second), 1e-300)
         for i, each in zip(ends, (first, second), strict=True):
             if regular[i]:
-                found[i] = Fine(each.words, max(each.curvature, STEEPER * size / apart))
+                found[i] = PointInWords(each.words, max(each.curvature, STEEPER * size / apart))
     return found
 
 
@@ -319,19 +319,22 @@ class _Motion:
 
 
 def _scale_points(
-    fine: Mapping[int, Fine], powers: np.ndarray, cut: Cut, rows: np.ndarray
-) -> dict[int, Fine]:
+    fine: Mapping[int, PointInWords], powers: np.ndarray, cut: Cut, rows: np.ndarray
+) -> dict[int, PointInWords]:
     """Points in coordinates that are two to the ``powers`` as large; Newton's constant is others.
 
     There the points are zeros of ``cut`` on the slice ``rows``.
     """
     words = {i: np.ldexp(each.words, powers[:, None, None]) for i, each in fine.items()}
-    return {i: rated(cut.polynomials, rows, replace(fine[i], words=w)) for i, w in words.items()}
+    return {
+        i: with_newton_constant(cut.polynomials, rows, replace(fine[i], words=w))
+        for i, w in words.items()
+    }
 
 
 def track_close_points(
     homotopy: Homotopy,
-    starts: Sequence[Fine],
+    starts: Sequence[PointInWords],
     cut: Cut,
     rows: np.ndarray,
     run: Run,
@@ -353,7 +356,9 @@ def track_close_points(
     )
     close, total = ends_of_paths(replace(paths, balls={}), cut, rows), cut.n + cut.aux
     fine = {
-        i: rated(cut.polynomials, rows, affine_fine(_words(paths.balls[i]), 1.0).first(total))
+        i: with_newton_constant(
+            cut.polynomials, rows, affine_fine(_words(paths.balls[i]), 1.0).first(total)
+        )
         for i in np.flatnonzero(close.regular).tolist()
     }
     return replace(close, fine=fine)

@@ -9,7 +9,7 @@ import numpy as np
 from nag.algebra.elimination import Elimination
 from nag.algebra.symmetry import SignedPermutation
 from nag.numerics.natural_coordinates import NaturalCoordinates
-from nag.witness.close_points import Fine
+from nag.witness.close_points import PointInWords
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
 from nag.witness.witness import Decomposition, Slice, WitnessSet
@@ -129,9 +129,9 @@ def _image(fibre: Fibre, symmetry: SignedPermutation, rows: np.ndarray) -> Fibre
     return Fibre(Cut(n, aux, polynomials), rows, points, fine)
 
 
-def _image_of_fine(point: Fine, symmetry: SignedPermutation, n: int) -> Fine:
+def _image_of_fine(point: PointInWords, symmetry: SignedPermutation, n: int) -> PointInWords:
     moved = np.moveaxis(symmetry.of_point(np.moveaxis(point.words[:n], 0, -1)), -1, 0)
-    return Fine(np.concatenate([moved, point.words[n:]]), point.curvature)
+    return PointInWords(np.concatenate([moved, point.words[n:]]), point.curvature)
 
 
 def expanded(decomposition: Decomposition) -> Decomposition:

@@ -18,15 +18,15 @@ from nag.algebra.number import Irrational, Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.coincidence import BEYOND, MISS, compared
-from nag.numerics.digits import bits_of, doubles, in_bits, number
+from nag.numerics.coincidence import BEYOND, MISS, classify_arrivals
+from nag.numerics.digits import bits_of, doubles, in_bits, to_ball
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.newton import newton_step
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import NONZERO
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
-from nag.witness.close_points import BASIN, DIGITS, Fine, distance, rated
+from nag.witness.close_points import BASIN, DIGITS, PointInWords, distance, with_newton_constant
 from nag.witness.component_equations import component_fibres, component_system
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import exact_zeros
@@ -179,10 +179,10 @@ def _among_ends(
         answers = {_at_end(point, error, ends, own, i, bounded) for i in fine}
     ends = ends.without({*fine, *np.flatnonzero(~own).tolist()})
     distances = _distances(point, ends, ends.cut.sizes[1:])[ends.finite]
-    if Membership.MEMBER in answers or compared(distances, accuracy)[0].any():
+    if Membership.MEMBER in answers or classify_arrivals(distances, accuracy)[0].any():
         return Membership.MEMBER
     errors = np.maximum(accuracy, ends.accuracy[ends.finite])
-    unclear = ends.failed.any() or np.any(compared(distances, errors))
+    unclear = ends.failed.any() or np.any(classify_arrivals(distances, errors))
     if unclear or Membership.UNDECIDED in answers:
         return Membership.UNDECIDED
     return None if None in answers else Membership.FOREIGN
@@ -201,13 +201,15 @@ def _distances(point: np.ndarray, ends: PathEnds, sizes: np.ndarray) -> np.ndarr
 
 def _near_ones_rated(point: np.ndarray, accuracy: float, ends: PathEnds) -> PathEnds:
     """The ends with Newton's constant of those that are near to a point, and not at it."""
-    same, doubtful = compared(_distances(point, ends, ends.cut.sizes[1:]), accuracy)
+    same, doubtful = classify_arrivals(_distances(point, ends, ends.cut.sizes[1:]), accuracy)
     # Where sizes are unequal, what is little beside the largest may be much for the point.
     away = _distances(point, ends, np.ones(len(point))) > np.maximum(accuracy, ends.accuracy)
     near = ends.regular & (same | doubtful) & away
     fine = dict(ends.fine)
     for i in set(np.flatnonzero(near).tolist()) - fine.keys():
-        fine[i] = rated(ends.cut.polynomials, ends.rows, Fine.of_doubles(ends.points[i]))
+        fine[i] = with_newton_constant(
+            ends.cut.polynomials, ends.rows, PointInWords.of_doubles(ends.points[i])
+        )
     return replace(ends, fine=fine)
 
 
@@ -242,7 +244,9 @@ def _at_end(
         return Membership.MEMBER
     beside_end = set[bool]()
     for j in np.flatnonzero(ends.finite).tolist():
-        other = ends.fine.get(j) or (None if ends.regular[j] else Fine.of_doubles(ends.points[j]))
+        other = ends.fine.get(j) or (
+            None if ends.regular[j] else PointInWords.of_doubles(ends.points[j])
+        )
         if j != i and other and distance(x[i], end, x[j], other) < SPREAD * apart:
             beside_end.add(bool(own[j]))
     if True in beside_end:
@@ -259,7 +263,7 @@ def _beside(cut: Cut, point: np.ndarray) -> float:
     return np.inf if step is None else float(np.linalg.norm(doubles(step)))
 
 
-def _angle(cut: Cut, rows: np.ndarray, end: Fine) -> float:
+def _angle(cut: Cut, rows: np.ndarray, end: PointInWords) -> float:
     """The least singular value of the gradients and the slice, all of length one."""
     exact = BallPolynomials.of(cut.polynomials, padded(rows, 1 + len(end.words)))
     bits = bits_of(2 * DIGITS)
@@ -480,8 +484,12 @@ def _at_isolated(
         return Membership.UNDECIDED
     for fibre in fibres:
         polynomials, rows = fibre.cut.polynomials, fibre.rows
-        zeros = [fibre.fine.get(i) or Fine.of_doubles(x) for i, x in enumerate(fibre.points)]
-        apart = min(size / rated(polynomials, rows, zero).curvature for zero in zeros)
+        zeros = [
+            fibre.fine.get(i) or PointInWords.of_doubles(x) for i, x in enumerate(fibre.points)
+        ]
+        apart = min(
+            size / with_newton_constant(polynomials, rows, zero).curvature for zero in zeros
+        )
         if apart < SPREAD * float(errors.max()):
             return Membership.UNDECIDED
     return Membership.MEMBER
@@ -499,7 +507,7 @@ def _is_exactly(
     if known is None:
         return None
     with in_bits(bits_of(EXACTLY)):
-        pairs = zip(known.centre, map(number, point), strict=True)
+        pairs = zip(known.centre, map(to_ball, point), strict=True)
         gaps = [float(abs(a - b).mid()) for a, b in pairs]
     return bool((np.array(gaps) <= SPREAD * known.radii).all())
 

@@ -15,7 +15,7 @@ from nag.numerics.zero_values import ON
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
-from nag.witness.exact_points import Sharp, order_points, sharpen_fibre
+from nag.witness.exact_points import SharpFibre, order_points, sharpen_fibre
 from nag.witness.fibres import Fibre, move
 from nag.witness.given_component import check_component
 from nag.witness.slices import to_slice, unit_complex
@@ -55,7 +55,7 @@ class Arrival:
             ended where the slice cuts no regular point.
     """
 
-    sharp: list[Sharp]
+    sharp: list[SharpFibre]
     infinite: int
     irregular: int
 

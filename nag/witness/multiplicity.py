@@ -16,7 +16,7 @@ import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.coincidence import compared
+from nag.numerics.coincidence import classify_arrivals
 from nag.numerics.zero_values import WRITTEN, multiplicity_of_all, possible_zeros
 from nag.tracking.run import Run
 from nag.witness.fibres import Fibre, move
@@ -85,7 +85,7 @@ def _come_together(
     count, scale = 0, 1 + float(np.linalg.norm(point))
     for x, regular in ends:
         distance = np.linalg.norm(x - point, axis=1) / scale
-        here, doubtful = compared(distance, np.where(regular, accuracy, MULTIPLE))
+        here, doubtful = classify_arrivals(distance, np.where(regular, accuracy, MULTIPLE))
         if doubtful.any():
             return None
         count += int(here.sum())

@@ -12,11 +12,11 @@ from nag.tracking.run import Run
 from nag.witness.close_points import (
     CLOSE,
     DIGITS,
-    Fine,
-    chosen,
+    PointInWords,
     close_pairs,
     distance,
-    in_words,
+    fine_of_balls,
+    select_fine,
     zero_from,
 )
 from nag.witness.cutting import Cut
@@ -42,7 +42,7 @@ class Points:
     cuts: tuple[Cut, ...] = ()
     which: tuple[int, ...] = ()
     z: tuple[np.ndarray, ...] = ()
-    fine: Mapping[int, Fine] = field(default_factory=dict)
+    fine: Mapping[int, PointInWords] = field(default_factory=dict)
     known: ExactPoints | None = None
 
     @classmethod
@@ -87,16 +87,16 @@ class Points:
     def _size(self, i: int) -> float:
         return 1 + float(np.linalg.norm(self.x[i]))
 
-    def _apart(self, pair: tuple[int, int], fine: Mapping[int, Fine]) -> float:
+    def _apart(self, pair: tuple[int, int], fine: Mapping[int, PointInWords]) -> float:
         i, j = pair
         return distance(self.x[i], fine.get(i), self.x[j], fine.get(j))
 
-    def _in_digits(self, i: int, apart: float) -> Fine | None:
+    def _in_digits(self, i: int, apart: float) -> PointInWords | None:
         """More digits of a point in doubles that is so far from the next one."""
         steep = STEEPER * self._size(i) / max(apart, 1e-300)
-        cut, start = self.cuts[self.which[i]], Fine.of_doubles(self.z[i], steep)
+        cut, start = self.cuts[self.which[i]], PointInWords.of_doubles(self.z[i], steep)
         found = zero_from(cut.polynomials, self.rows, start, DIGITS)
-        return None if found is None else in_words(found.centre, steep)
+        return None if found is None else fine_of_balls(found.centre, steep)
 
     def __len__(self) -> int:
         return len(self.z)
@@ -128,14 +128,14 @@ class Points:
             own = indices[which[indices] == k]
             if len(own):
                 points = np.array([self.z[i] for i in own])
-                found.append((Fibre(cut, self.rows, points, chosen(self.fine, own)), own))
+                found.append((Fibre(cut, self.rows, points, select_fine(self.fine, own)), own))
         return found
 
     def only(self, indices: Sequence[int]) -> Points:
         """Some of the points, in this order."""
         which = tuple(self.which[i] for i in indices)
         z = tuple(self.z[i] for i in indices)
-        return Points(self.rows, self.cuts, which, z, chosen(self.fine, np.asarray(indices)))
+        return Points(self.rows, self.cuts, which, z, select_fine(self.fine, np.asarray(indices)))
 
     @cached_property
     def exact(self) -> ExactPoints:
@@ -147,7 +147,7 @@ class Points:
         order = np.concatenate([own for _, own in fibres])
         return join_points(parts).only(np.argsort(order))
 
-    def with_point(self, cut: Cut, z: np.ndarray, fine: Fine | None = None) -> Points:
+    def with_point(self, cut: Cut, z: np.ndarray, fine: PointInWords | None = None) -> Points:
         """One point more, at the end."""
         cuts = self.cuts if cut in self.cuts else (*self.cuts, cut)
         known = self.fine if fine is None else {**self.fine, len(self): fine}
@@ -171,7 +171,7 @@ def move_points(
     out.
     """
     counts = PathCounts()
-    found: dict[int, tuple[np.ndarray, Fine | None]] = {}
+    found: dict[int, tuple[np.ndarray, PointInWords | None]] = {}
     parts = points.fibres(indices)
     fibres, sizes = [fibre for fibre, _ in parts], points.sizes
     moves = move(fibres, target, gamma, run, sizes=sizes)

@@ -125,7 +125,7 @@ def sample(
     evaluator = Evaluator.of(system.polynomials, system.n)
     points, radii = np.zeros((count, system.n), dtype=complex), np.zeros((count, system.n))
     for k in range(count):
-        there = at_random(fibres, rng, run)
+        there = move_to_random_slice(fibres, rng, run)
         x = there.x
         if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON):
             some = _samples(evaluator, points[:k], radii[:k], natural)
@@ -134,7 +134,7 @@ def sample(
     return _samples(evaluator, points, radii, natural)
 
 
-def at_random(fibres: Sequence[Fibre], rng: np.random.Generator, run: Run) -> Arrival:
+def move_to_random_slice(fibres: Sequence[Fibre], rng: np.random.Generator, run: Run) -> Arrival:
     """What became of a random point of the fibres on its way to a random slice."""
     chosen = int(rng.integers(sum(map(len, fibres))))
     for fibre in fibres:

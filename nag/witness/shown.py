@@ -12,7 +12,7 @@ import numpy as np
 from nag.algebra.system import system_line
 from nag.text.table import (
     align,
-    counted,
+    count_text,
     html_table,
     lines_of,
     magnitude,
@@ -75,7 +75,7 @@ def kinds(components: Iterable[WitnessSet]) -> Counter[Kind]:
     return counts
 
 
-def in_words(counts: Counter[Kind]) -> str:
+def kinds_text(counts: Counter[Kind]) -> str:
     """Counts in words, multidegrees left out, by falling dimension."""
     plain: Counter[Kind] = Counter()
     for each, count in counts.items():
@@ -104,7 +104,7 @@ def multidegree_text(multidegree: np.ndarray | None) -> str:
 
 def title_line(decomposition: Decomposition) -> str:
     """Like components counted together: "9 components of dimension 2, degree 4"."""
-    text = in_words(kinds(decomposition.components))
+    text = kinds_text(kinds(decomposition.components))
     undecided = sum(c.orbit for c in decomposition.components if c.status is not Status.IRREDUCIBLE)
     return f"{text} ({undecided} undecided)" if undecided else text
 
@@ -208,7 +208,7 @@ def _kind_text(component: WitnessSet) -> str:
 
 def witness_set_text(component: WitnessSet) -> str:
     """A component in five lines."""
-    cut = f"a slice of {counted(component.dimension, 'linear equation')}"
+    cut = f"a slice of {count_text(component.dimension, 'linear equation')}"
     orbit = f"; one of an orbit of {component.orbit}" if component.orbit > 1 else ""
     doubt = f": {component.note}" if component.note else ""
     known = "not kept" if component.system is None else system_line(component.system)
@@ -216,7 +216,7 @@ def witness_set_text(component: WitnessSet) -> str:
         f"WitnessSet of {_kind_text(component)}",
         [
             ("status", f"{component.status}{doubt}{orbit}"),
-            ("points", f"{counted(component.degree, 'point')} on {cut}"),
+            ("points", f"{count_text(component.degree, 'point')} on {cut}"),
             ("rests on", _rests_on([component])),
             ("system", known),
         ],
@@ -233,7 +233,7 @@ def witness_set_html(component: WitnessSet) -> str:
         rows.append([str(i), *map(number_text, point), magnitude(float(errors[i]))])
     hidden = component.degree - MOST_POINTS
     note = f"{component.status}; {_rests_on([component])}"
-    more = f"; {counted(hidden, 'more point')}" if hidden > 0 else ""
+    more = f"; {count_text(hidden, 'more point')}" if hidden > 0 else ""
     return html_table(f"Component of {_kind_text(component)}", rows, note + more)
 
 
@@ -243,7 +243,7 @@ def _point_table(caption: str, points: np.ndarray, more: dict[str, list[str]], n
     for i, point in enumerate(points[:MOST_POINTS]):
         rows.append([str(i), *map(number_text, point), *(column[i] for column in more.values())])
     hidden = len(points) - MOST_POINTS
-    note += f"; {counted(hidden, 'more point')}" if hidden > 0 else ""
+    note += f"; {count_text(hidden, 'more point')}" if hidden > 0 else ""
     return html_table(caption, rows, note)
 
 
@@ -256,7 +256,7 @@ def _first_point(points: np.ndarray) -> str:
 
 def _samples_title(samples: Samples) -> str:
     count, n = samples.points.shape
-    return f"Samples: {counted(count, 'point')} in {counted(n, 'coordinate')}"
+    return f"Samples: {count_text(count, 'point')} in {count_text(n, 'coordinate')}"
 
 
 def _samples_rest(samples: Samples) -> str:
@@ -276,11 +276,11 @@ def samples_html(samples: Samples) -> str:
 
 def _real_points_title(found: RealPoints) -> str:
     nearest = f", the nearest at distance {found.distances[0]:.6g}" if len(found) else ""
-    return f"RealPoints: {counted(len(found), 'point')}{nearest}"
+    return f"RealPoints: {count_text(len(found), 'point')}{nearest}"
 
 
 def _left_open(found: RealPoints) -> str:
-    zeros = f"{counted(found.undecided, 'more real zero')} may lie on the component"
+    zeros = f"{count_text(found.undecided, 'more real zero')} may lie on the component"
     return "; ".join([*([zeros] if found.undecided else []), *filter(None, [found.reason])])
 
 
@@ -320,13 +320,13 @@ def _projection_title(image: Projection) -> str:
 
 def projection_text(image: Projection) -> str:
     """A projection in five lines."""
-    equations = counted(image.slice.dimension, "linear equation")
+    equations = count_text(image.slice.dimension, "linear equation")
     return lines_of(
         _projection_title(image),
         [
             ("image", f"dimension {image.dimension}, degree {image.degree}"),
             ("fibre", f"dimension {image.fibre_dimension}, degree {image.fibre_degree}"),
-            ("points", f"{counted(len(image.points), 'point')} on a slice of {equations}"),
+            ("points", f"{count_text(len(image.points), 'point')} on a slice of {equations}"),
             ("rests on", f"accuracy {magnitude(image.accuracy)}"),
         ],
     )

@@ -28,7 +28,7 @@ from nag.solving.start.scalings import random_scaling, scaling_weights
 from nag.solving.start.target import unit
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.paths import PathStatus
-from nag.tracking.settings import named
+from nag.tracking.settings import find_settings
 from nag.tracking.track import track
 
 Progress = Callable[[str, int, int], None]
@@ -45,7 +45,7 @@ ARRIVED, VANISHING = 1e-14, 1e-13
 # A loop that loses a path finds it again later, so that nothing is tracked twice. Points that are
 # sharper than for other paths save more steps than they cost, and more paths arrive.
 SHARP = 1e-9
-SETTINGS = replace(named("fast"), retries=0, newton=SHARP)
+SETTINGS = replace(find_settings("fast"), retries=0, newton=SHARP)
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,8 +16,8 @@ import numpy as np
 
 from nag.solving.start.target import Start, Target, Terms, group_degrees, homogenize_rows, unit
 from nag.tracking.homotopy import Homotopy, straight_line
-from nag.tracking.projective import coinciding
-from nag.tracking.settings import named
+from nag.tracking.projective import coinciding_pairs
+from nag.tracking.settings import find_settings
 from nag.tracking.track import track_regular
 
 # Loops without a new solution after which the search ends, and loops in all. Every second one
@@ -96,10 +96,10 @@ class DistinctPoints:
 
 def equal_pairs(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
     """Pairs ``i < j`` of projective points of unit norm that are one, shape ``(pairs, 2)``."""
-    return coinciding((range(points.shape[1]),), points, errors)
+    return coinciding_pairs((range(points.shape[1]),), points, errors)
 
 
-def by_monodromy(
+def find_by_loops(
     system: GenericSystem,
     most: int,
     rng: np.random.Generator,
@@ -153,7 +153,7 @@ def _move_points(
     homotopy: Homotopy, points: np.ndarray, threads: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Where paths from ``points`` arrive, and the errors there."""
-    ends = track_regular(homotopy, points, named("fast"), threads)
+    ends = track_regular(homotopy, points, find_settings("fast"), threads)
     return ends.points, ends.errors
 
 

@@ -29,7 +29,7 @@ from nag.solving.start.target import Start, Target, Terms, homogenize_rows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.known import Known
 from nag.tracking.paths import PathStatus
-from nag.tracking.settings import Settings, named
+from nag.tracking.settings import Settings, find_settings
 from nag.tracking.track import track
 
 
@@ -114,7 +114,7 @@ class IsotropicSection:
 
 def in_doubles(settings: Settings | str) -> Settings:
     """The settings without more digits: where it takes them, not all zeros are regular."""
-    return replace(named(settings), digits=16)
+    return replace(find_settings(settings), digits=16)
 
 
 def _terms(linear: np.ndarray) -> Terms:

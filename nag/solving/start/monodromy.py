@@ -22,13 +22,13 @@ import numpy as np
 
 from nag.errors import StartError
 from nag.numerics.digits import bits_of, in_bits
-from nag.solving.start.fibre_monodromy import GenericSystem, by_monodromy, seed_system, start_at
+from nag.solving.start.fibre_monodromy import GenericSystem, find_by_loops, seed_system, start_at
 from nag.solving.start.mixed_cells import mixed_cells
 from nag.solving.start.target import Start, Target, group_degrees, homogenize_rows, unit
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy, straight_line
-from nag.tracking.settings import named
+from nag.tracking.settings import find_settings
 from nag.tracking.track import track_regular
 
 # What rounding leaves at most of the sum of second differences over all points, in units of the
@@ -150,7 +150,7 @@ def trace_is_linear(
     for shift in shifts:
         second = homogenize_rows(pencil.system(shift).rows, n, groups, degrees)
         homotopy = straight_line(first, second, complex(unit(rng, 1)[0]))
-        ends = track_regular(homotopy, points, named("default"), threads).points
+        ends = track_regular(homotopy, points, find_settings("default"), threads).points
         if len(ends) < len(points):
             return False
         there.append((second, ends))
@@ -210,7 +210,7 @@ def monodromy(target: Target, rng: np.random.Generator, threads: int) -> Start:
         return _up_to_the_mixed_volume(target, gamma, rng, threads)
     pencil, seed = seed_pencil(target.supports, row, rng)
     test = partial(trace_is_linear, pencil, rng=rng, threads=threads)
-    system, spent, proven = by_monodromy(seed, MOST_PATHS, rng, threads, test)
+    system, spent, proven = find_by_loops(seed, MOST_PATHS, rng, threads, test)
     if not proven:
         raise StartError(
             f"monodromy: {len(system.points)} solutions were found, but no trace proves that these "
@@ -228,7 +228,7 @@ def _up_to_the_mixed_volume(
         raise StartError(f"monodromy: {volume} paths; at most {MOST_PATHS} are tracked")
     system, spent = seed_system(target.supports, rng), 0
     if volume:
-        system, spent, _ = by_monodromy(system, volume, rng, threads)
+        system, spent, _ = find_by_loops(system, volume, rng, threads)
     else:
         system = system.holding(system.points[:0], system.errors[:0])
     if len(system.points) != volume:

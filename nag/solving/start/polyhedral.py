@@ -22,13 +22,13 @@ from itertools import count
 import numpy as np
 
 from nag.errors import StartError
-from nag.solving.start.fibre_monodromy import DistinctPoints, GenericSystem, by_monodromy, start_at
+from nag.solving.start.fibre_monodromy import DistinctPoints, GenericSystem, find_by_loops, start_at
 from nag.solving.start.mixed_cells import MixedCells
 from nag.solving.start.target import Start, Target, group_degrees, homogenize_rows
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.settings import named
+from nag.tracking.settings import find_settings
 from nag.tracking.track import track_regular
 
 # The homotopies begin where the least power of the degeneration's parameter is exp(-LENGTH);
@@ -55,7 +55,7 @@ def polyhedral(target: Target, cells: MixedCells, rng: np.random.Generator, thre
     reached = len(system.points)
     detail = f"its solutions by {spent} toric paths"
     if 0 < reached < volume:
-        system, spent, _ = by_monodromy(system, volume, rng, threads)
+        system, spent, _ = find_by_loops(system, volume, rng, threads)
         detail += f", {volume - reached} of them by monodromy with {spent} regular paths"
     if len(system.points) != volume:
         raise StartError(
@@ -190,7 +190,7 @@ def by_degeneration(
     weights = cell_weights(cells)[owners]
     degrees = group_degrees(system.rows, groups)
     homotopy = Homotopy(_single_terms(homogenize_rows(system.rows, n, groups, degrees)))
-    found = track_regular(homotopy, starts, named("fast"), threads, LENGTH * weights)
+    found = track_regular(homotopy, starts, find_settings("fast"), threads, LENGTH * weights)
     distinct = DistinctPoints(found.points, found.errors, len(starts))
     return system.holding(distinct.points, distinct.errors), len(starts)
 

@@ -159,7 +159,7 @@ def _reach(first, second, order, goal):
     return h
 
 
-def reach(s, r, order, lane, goal):
+def longest_step(s, r, order, lane, goal):
     """The longest step with an expected error of ``goal``, relative to each coordinate's weight."""
     h = LONGEST
     for j in range(s.N):

@@ -17,8 +17,8 @@ from nag.tracking.ends.branch import (
     estimate_radius,
     expand_logarithms,
     extrapolate,
+    longest_step,
     predict,
-    reach,
     tail_at_end,
     tails,
 )
@@ -294,7 +294,7 @@ def _advance(z, s, r, f, lane, b, best, winding):
         return
     steep = max(curvature, steepest(z, f, lane)) if b.close > 0 else curvature
     goal = min(b.accuracy, b.contraction / steep)
-    h = min(reach(s, r, b.order, lane, goal), b.radius_factor * _nearest(f, lane))
+    h = min(longest_step(s, r, b.order, lane, goal), b.radius_factor * _nearest(f, lane))
     if converged_here:
         # Further in, rounding errors grow: no further than a limit is wanted.
         h = min(h, max(2.0, math.log(f[8 * T + lane] / b.latest[path])))
