@@ -25,7 +25,8 @@ Each name says more: ``help(nag.decompose)``. `nag.decomposition` has more to do
 
 Where to add something: a type of joint in `nag.mechanism`, a start system in `nag.solving.start`, a
 method of decomposition in `nag.decomposition`, a command in `nag.cli`; the docstring of each says
-how, and in which order to read its files.
+how, and in which order to read its files. "Bottom-up" is first what the others import, "top-down"
+first what imports the others; "`x` on `y`" says that x imports y.
 """
 
 from importlib import import_module

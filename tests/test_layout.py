@@ -128,3 +128,9 @@ def test_every_package_says_where_each_of_its_files_comes_in_the_reading(package
     files = {p.stem for p in (NAG / package).glob("*.py")}
     folders = {p.parent.name for p in (NAG / package).glob("*/__init__.py")}
     assert (files | folders) - {"__init__"} <= named
+
+
+@pytest.mark.parametrize("package", sorted({*packages(), "check", "cli", "report"} - {"text"}))
+def test_every_list_of_files_says_whether_it_is_read_bottom_up(package: str) -> None:
+    text = ast.get_docstring(ast.parse((NAG / package / "__init__.py").read_text("utf-8")))
+    assert len(re.findall(r"\b(?:bottom-up|top-down)\b", text.lower())) == 1

@@ -1,6 +1,6 @@
 """The statements of the founding papers, each tested; decompositions against their components.
 
-Read `statement` first, then `identities` (formulas) and `rings` (ideals); one file a subject lists
-its statements; `four_way` and `mechanisms` compare decompositions with the papers' components;
-`subjects` has everything.
+Bottom-up: read `statement`, then `identities` (formulas) and `rings` (ideals); one file a subject
+lists its statements; `four_way` and `mechanisms` compare decompositions with the papers'
+components; `subjects` has everything.
 """

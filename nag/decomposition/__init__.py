@@ -1,22 +1,27 @@
 """Irreducible decomposition: supersets of witness points, split into components, then judged.
 
-Read in this order: `components` (the list of methods) on `method` (what one is) and `reduction`
-(fewer variables). Methods that take a system apart: `independent_parts` (variables) and
-`branch_components` (factors); without paths: `one_equation` and `rational_curve` on `roots`; with
+Read in this order, top-down: `components` (the list of methods) on `method` (what one is) and
+`reduction` (fewer variables). Methods that take a system apart: `independent_parts` (variables) and
+`branch_components` (factors: each branch decomposed, and their components joined without repeats,
+by `nag.numerics.branch_union`); without paths: `one_equation` and `rational_curve` on `roots`; with
 paths: `several_equations` on `isolated` (finite sets, solved at once), `toric_section` (linkages,
 cut by a slice at once) and `superset` (equation by equation) on `hypersurface` (one step) and
-`ends` (sorted out). Then `splitting` on `trace` (by `zero_sums`), `power_sums` and
-`monodromy`, `orbits` (the same up to symmetry); `final_checks` and `assembly`, which put the
-answer together. `discovery`, `given_points` and `intersection` (on
-`diagonal` and `factor`) begin elsewhere and end alike. `through` says which components a case's
-points are on, `singular_points` (on `rank_drop` and `linear_hull`) where a component is singular,
-`singular_members` and `sweep` what parameters change, `curve_genus` by `branch_points` the genus.
+`ends` (sorted out). Then `splitting` on `trace` (by `zero_sums`), `power_sums` and `monodromy`,
+`orbits` (the same up to symmetry); `final_checks` and `assembly`, which put the answer together.
+`discovery`, `given_points` and `intersection` (on `diagonal` and `factor`) begin elsewhere and end
+alike. `through` says which components a case's points are on, `singular_points` (on `rank_drop` and
+`linear_hull`) where a component is singular, `singular_members` and `sweep` what parameters change,
+`curve_genus` by `branch_points` the genus.
 
-To add a method of decomposition, write a file whose function makes a `method.Attempt` of a
-`method.Task`, and put it, with the sentence that is printed of it, in `components.METHODS` at the
-place where it is asked.
+To add a method of decomposition, write a file that makes a `nag.Decomposition` of a `method.Task`,
+or None where it does not apply; in `components` a function of the task, and of `method.Others`
+(which decompose a part of it by the methods after this one), that makes a `method.Attempt` of that,
+with the paths that were tracked in vain; and put this function, with the sentence that `nag.report`
+prints of it, in `components.METHODS` at the place where it is asked. Its name is what
+`Decomposition.method` and exports say. A method that tracks paths is imported in that function.
 
-What decides, beside the errors of points, stands in `nag.thresholds`.
+`nag.thresholds` lists what decides, beside the errors of points; each number is set where it is
+used.
 
 What can be done with components, beside what they can do themselves (`nag.WitnessSet`):
 

@@ -42,6 +42,6 @@ Errors
     memory are not checked, and must not be negative: `plain` finds those that are outside.
     Numbers of more than 53 bits are rounded where they meet doubles.
 
-Read `kernel`, then `functions`, `expressions` on `values` and `failures`, `operators` and
+Read top-down: `kernel`, then `functions`, `expressions` on `values` and `failures`, `operators` and
 `operations`, then `processor`.
 """

@@ -1,22 +1,24 @@
 """Mechanisms: bodies and joints, and the smallest polynomial systems that model them.
 
-Read in this order: `graph` on `joint_types` (the data), `networkx_graph`;
-`axes`, `quaternion` (vectors, turns); `loops` (what can move); `formulations` (each in
-`FORMULATIONS`) and `model` (the choice, by `path_estimates`); the formulations `planar`,
-`euler`, and `half_angles` and `rods` on `joint_factors` and `loop_product`; `assembly_modes`,
-`mode_classes` and `mode_decomposition`; `configuration` (all bodies), and `unreduced` (all
-constraints, for checks).
-Other ways to give one are `framework` (with `framework_model`, `isotropic` and
-`framework_decomposition`), `dh` (with `dh_euler`) and `linkage`, on `assembly` and
-`real_assemblies`; `parts_coordinates` is what each of their coordinates would cost. `problem` is
-what all of these come down to, and cases and equations with them, and what `nag.decompose` and
-`nag.solve` ask; `coordinates` carries its components over to Euler parameters, `other_equations`
-are those that must say the same.
-`mobility_at` with `mobility_report` and `bonds` says how one moves; `shown` is what is seen at the
-prompt.
+Read in this order, bottom-up: `graph` on `joint_types` (the data), `networkx_graph`; `axes`,
+`quaternion` (vectors, turns); `loops` (what can move); `formulations` (each in `FORMULATIONS`) and
+`model` (the choice, by `path_estimates`); the formulations `planar` and `euler` (each with its loop
+equations), and `half_angles` and `rods` on `joint_factors` and `loop_product` (their loop
+equations); `assembly_modes`, `mode_classes` and `mode_decomposition`; `configuration` (all bodies),
+and `unreduced` (all constraints, for checks). Other ways to give one are `framework` (with
+`framework_model`, `isotropic` and `framework_decomposition`), `dh` (with `dh_euler`) and `linkage`,
+on `assembly` and `real_assemblies`; `parts_coordinates` is what each of their coordinates would
+cost. `problem` is what all of these come down to, and cases and equations with them, and what
+`nag.decompose` and `nag.solve` ask; `coordinates` carries its components over to Euler parameters,
+`other_equations` are those that must say the same. `mobility_at` with `mobility_report` and `bonds`
+says how one moves; `shown` is what is seen at the prompt.
 
-To add a type of joint, write its record in `joint_types`: all formulations, case files, graphs and
-tables read it from there. A new kind of factor has its generators and letters in `joint_factors`.
+To add a type of joint, write its record in `joint_types.JOINT_TYPES`, by the rules at the head of
+that file, and a row in the README: all formulations, case files, graphs and tables read it from
+there, and nothing asks for its name. A new kind of factor has its freedoms in
+`joint_types.FACTOR_FREEDOMS`, and its generators, letters and norm in `joint_factors`. Something
+new that is given of a joint, as a pitch, is a field of `graph.Joint` (where `networkx_graph` and
+`shown` find it) and in `joint_types.VECTORS`, and `nag.files.mechanism_case` reads it.
 """
 
 # Names of the formulations, for whoever must not load them.

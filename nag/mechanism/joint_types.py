@@ -8,9 +8,10 @@ an eigenspace of Tuomela 2025 (T25), lemma 2.1.
 
 A new type is a new entry of `JOINT_TYPES`. Formulation E and the unreduced model read its numbers
 of constraints, formulations H and S its factors, case files and graphs what must be given of it.
-What is wrong with an entry by itself it says when it is made. Two rules bind constraints and
-factors: directions of gaps, and of the first factor, are those of ``axis`` in the first body; and
-planar mechanisms have only joints that are one turn or one slide.
+An entry is checked when it is made; what it cannot see by itself: directions of gaps, and of the
+first factor, are those of ``axis`` in the first body; planar mechanisms have only joints that are
+one turn or one slide; formulation H eliminates from each loop one factor of three freedoms, or two
+neighbouring ones of one each.
 
 A factor of a kind that is not there yet asks for its freedoms here, and in `joint_factors` for
 `Kind`, generators, letters, the number of coordinates that turn, and `Factor.norm`. A vector that

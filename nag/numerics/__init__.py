@@ -1,17 +1,18 @@
 """Numbers of many digits and what they decide: rank, deflation, local rings, proofs.
 
-In order of reading: `read_only` and `array_table` (what results hold); `coincidence`, `zero_values`
-and `scaling` (doubles, and what they leave to others); `natural_coordinates` (origin and units,
-exact) and `system_facts` (what exact algebra says of a system); `digits`, `ball_polynomials`,
-`newton` and `precise_point` (balls), `power_series`; `ball_ranks` and `double_ranks`
-(ranks); `exact_system` and `algebraic_point` (exact points, modulo primes); `branch_union` (what
-factors of equations leave, joined); `implicit_function` (the regular part of equations solved by
-series); `deflation` (a singular zero made a regular one) by `descent` and `sharpening`, with
-`second_round` and `rounds_in_doubles`; `dual_space` (the dimension of its local ring), `far_along`,
-`curves` and `clusters` on `series_zeros` (zeros beside it); `singular_point` on `local_structure`
-(all of it together); `local_dimension` on `located_zero` and `dimension_bounds` (the dimension at
-any point), and `tangent_cone`; `shown` is what is seen at the prompt. Proofs: `krawczyk` on `discs`
-and `ball_boxes` (boxes that hold one zero), `certified_points` with `deflated_system`,
-`rational_relations` and `close_zeros` (those that doubles do not tell apart);
-`claims` and `point_claims` (what exports say, against what is proved).
+In order of reading, bottom-up: `read_only` and `array_table` (what results hold); `coincidence` and
+`scaling` (doubles, and what they leave to others); `natural_coordinates` (origin and units, exact)
+and `system_facts` (what exact algebra says of a system); `digits`, `ball_polynomials`, `newton` and
+`precise_point` (balls), `power_series`; `ball_ranks` and `double_ranks` (ranks); `exact_system` and
+`algebraic_point` (exact points, modulo primes); `implicit_function` (the regular part of equations
+solved by series); `deflation` (a singular zero made a regular one) by `descent` and `sharpening`,
+with `second_round` and `rounds_in_doubles`; `dual_space` (the dimension of its local ring),
+`far_along`, `curves` and `clusters` on `series_zeros` (zeros beside it); `singular_point` on
+`local_structure` (all of it together); `zero_values` (what is zero at the zero that a point stands
+for); `branch_union` (what the branches of factored equations leave, joined without repeats);
+`local_dimension` on `located_zero` and `dimension_bounds` (the dimension at any point), and
+`tangent_cone`; `shown` is what is seen at the prompt. Proofs: `krawczyk` on `discs` and
+`ball_boxes` (boxes that hold one zero), `certified_points` with `deflated_system`,
+`rational_relations` and `close_zeros` (those that doubles do not tell apart); `claims` and
+`point_claims` (what exports say, against what is proved).
 """

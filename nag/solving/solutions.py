@@ -152,8 +152,8 @@ class SolveResult:
         excluded: number of isolated solutions left out because one of `PolynomialSystem.nonzero`
             vanishes; excluded_solutions: these, where they were kept.
         paths: what became of the paths of the last attempt, by status.
-        start: ``"total"``, ``"multihomogeneous"``, ``"polyhedral"``, ``"monodromy"``,
-            ``"parameter"`` or ``"none"`` where nothing had to be tracked.
+        start: one of `nag.solving.start.KINDS`, ``"parameter"``, or ``"none"`` where nothing had to
+            be tracked.
         reason: why that start system.
         seed: seed of the random numbers.
         settings: name of the tracking settings.

@@ -1,12 +1,13 @@
 """Witness sets and what is done with one of them.
 
-Read in this order: `witness` (the data; `shown` for users), `slices`, `cutting`
-(the local equations that cut a set at its points) on `isosingular` (deflation), `fibres` and
-`points` (points on a slice, tracked to another in coordinates of comparable sizes),
-`component_equations` (held, or found anew), `exact_points` (found in as many digits as are asked
-for), `close_points`, `confirm`, `multiplicity`, `close_to_sets` and `cutting_in_digits` (what is
-known of them, and of those that doubles do not tell apart); then the operations on a set as it is
-given (`given_component`): `moving`, `membership`, `sampling`, `projection`, `real_points` by
+Read in this order, bottom-up: `witness` (the data, a `Slice` among them; `shown` for users),
+`slices` (random ones), `cutting` (the local equations that cut a set at its points) on
+`isosingular` (deflation), `fibres` and `points` (points on a slice; `fibres.move` moves the slice:
+it tracks them to another in coordinates of comparable sizes), `component_equations` (held, or found
+anew), `exact_points` (found in as many digits as are asked for), `close_points`, `confirm`,
+`multiplicity`, `close_to_sets` and `cutting_in_digits` (what is known of them, and of those that
+doubles do not tell apart); then the operations on a set as it is given (`given_component`):
+`moving` (to a slice that is given), `membership`, `sampling`, `projection`, `real_points` by
 `gauss_newton`. `change_of_coordinates` leads to natural ones, where these operations begin, and
 back; `frame` leads from what solving linear equations left, and from an orbit to its components;
 `certificate` with `component_claims`, and `certified_loops` prove.

@@ -183,7 +183,7 @@ class Start:
     """A homotopy from a solved system to the target, and the solutions at t = 1.
 
     Attributes:
-        name: ``"total"``, ``"multihomogeneous"``, ``"polyhedral"`` or ``"monodromy"``.
+        name: one of `nag.solving.start.KINDS`.
         homotopy: from the start system (t = 1) to the target (t = 0).
         points: start points, one for each path, shape ``(P, N)``.
         groups: the groups of variables that were homogenised together.
