@@ -5,6 +5,8 @@ import re
 from collections.abc import Iterable, Iterator
 from functools import cache
 from graphlib import TopologicalSorter
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
@@ -134,3 +136,14 @@ def test_every_package_says_where_each_of_its_files_comes_in_the_reading(package
 def test_every_list_of_files_says_whether_it_is_read_bottom_up(package: str) -> None:
     text = ast.get_docstring(ast.parse((NAG / package / "__init__.py").read_text("utf-8")))
     assert len(re.findall(r"\b(?:bottom-up|top-down)\b", text.lower())) == 1
+
+
+@pytest.mark.parametrize("file", sorted(NAG.rglob("__init__.py")), ids=lambda f: f.parent.name)
+def test_what_docstrings_of_packages_name_inside_of_modules_is_there(file: Path) -> None:
+    package = ".".join(("nag", *file.relative_to(NAG).parent.parts))
+    text = ast.get_docstring(ast.parse(file.read_text("utf-8")))
+    for name in re.findall(r"(?<!`)`([a-z_]+(?:\.\w+)+)`(?!`)", text):
+        whole = name if name.startswith("nag.") else f"{package}.{name}"
+        home, _, last = whole.rpartition(".")
+        assert find_spec(home), name
+        assert hasattr(import_module(home), last) or find_spec(whole), name
