@@ -26,7 +26,7 @@ from nag.bench.timed_runs import TimedRun, timed_runs
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.solving.solve import solve
-from nag.solving.start.choice import KINDS
+from nag.solving.start import ASKED_FOR
 
 CASES = Path(__file__).resolve().parent.parent / "cases"
 
@@ -113,7 +113,7 @@ def main() -> int:
     parser.add_argument("--seeds", default="0:20", help="first:last+1")
     parser.add_argument("--case", action="append", help="stem of a case file; all by default")
     parser.add_argument("--folder", action="append", help="folder under cases/: benchmarks")
-    parser.add_argument("--start", choices=KINDS, default="auto")
+    parser.add_argument("--start", choices=ASKED_FOR, default="auto")
     parser.add_argument("--settings", default="default")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1, help="processes")

@@ -20,7 +20,7 @@ from nag.files.json_schema import find_problem, schema
 from nag.files.json_values import ExportError
 from nag.files.solutions_export import document as solutions_document
 from nag.files.solutions_export import solutions_of
-from nag.solving.start import KINDS
+from nag.solving.start import ASKED_FOR, KINDS
 
 FOLDER = Path(nag.__file__).parent / "files" / "schema"
 CASES = Path(__file__).parents[1] / "cases"
@@ -236,8 +236,8 @@ def test_a_keyword_that_is_not_known_is_no_schema() -> None:
 
 def test_every_start_system_is_named_by_the_schema_of_solutions_the_help_and_the_readme():
     named_there = schema("nag-solutions")["properties"]["start"]["enum"]
-    assert set(named_there) == {"none", "parameter", *KINDS} - {"auto"}
+    assert set(named_there) == {"none", "parameter", *KINDS}
     readme = (CASES.parent / "README.md").read_text("utf-8")
-    for kind in KINDS:
+    for kind in ASKED_FOR:
         assert f'``"{kind}"``' in nag.solve.__doc__
         assert f"| `--start {kind}` |" in readme

@@ -7,7 +7,7 @@ import argparse
 from nag.cli.arguments import UsageError, add_case, add_certify, add_running, read_problem
 from nag.cli.certify import proof_asked_for
 from nag.cli.running import Answer, chosen_run, name_case, run_row
-from nag.solving.start import KINDS
+from nag.solving.start import ASKED_FOR
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -17,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_certify(parser)
     parser.add_argument(
         "--start",
-        choices=(*KINDS, "parameter"),
+        choices=(*ASKED_FOR, "parameter"),
         default="auto",
         help="start system (default: auto, parameter where the case has a [family] whose number of "
         "solutions is known, else the one with the least work)",

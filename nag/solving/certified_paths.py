@@ -15,7 +15,8 @@ from nag.errors import ComponentError
 from nag.numerics.certified_points import NEAR
 from nag.solving.solutions import SolveResult
 from nag.solving.square_problem import SquareProblem
-from nag.solving.start.choice import KINDS, choose
+from nag.solving.start import KINDS
+from nag.solving.start.choice import choose
 from nag.solving.start.target import Start, Target
 from nag.tracking.certified_paths import (
     ENDGAME,

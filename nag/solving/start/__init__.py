@@ -15,5 +15,6 @@ it is asked for, and say in `choice._least_work` when it is taken unasked.
 the one with the least work.
 """
 
-# What may be asked for by name; "auto" leaves it to `choice`.
-KINDS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy")
+KINDS = ("total", "multihomogeneous", "polyhedral", "monodromy")
+# What may be asked for by name: a kind, or that `choice` takes the one with the least work.
+ASKED_FOR = ("auto", *KINDS)

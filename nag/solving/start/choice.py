@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from nag.errors import NagError, StartError
-from nag.solving.start import KINDS
+from nag.solving.start import ASKED_FOR
 from nag.solving.start.multihomogeneous import (
     MOST_TERMS,
     Groups,
@@ -32,8 +32,8 @@ def check_kind(kind: str) -> None:
     Raises:
         ValueError: if there is none.
     """
-    if kind not in KINDS:
-        raise NagError(f"start: no start system {kind!r}; there are {', '.join(KINDS)}")
+    if kind not in ASKED_FOR:
+        raise NagError(f"start: no start system {kind!r}; there are {', '.join(ASKED_FOR)}")
 
 
 def choose(
