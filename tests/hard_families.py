@@ -23,7 +23,7 @@ import numpy as np
 from exact_counts import zero_set
 
 from nag.bench.atlas import curves, points
-from nag.bench.atlas.points import Problem
+from nag.bench.atlas.points import KnownProblem
 from nag.bench.timed_runs import TimedRun, timed_runs
 from nag.bench.verdicts import METHODS, Answer, ZeroSet, answered, described, summary, verdict
 
@@ -41,7 +41,7 @@ class Task:
     settings: str = "default"
 
     @property
-    def problem(self) -> Problem:
+    def problem(self) -> KnownProblem:
         return FAMILIES[self.family][0](self.value, np.random.default_rng([self.seed, 20]))
 
     @property

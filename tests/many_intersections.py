@@ -28,7 +28,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.changes import NAMES
 from nag.decomposition import intersect_components, intersect_equations
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.numerics.zero_values import ON
 from nag.witness.witness import Decomposition, WitnessSet
 

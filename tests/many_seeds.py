@@ -27,11 +27,11 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.changes import FAR_COORDINATES, changed, in_far_coordinates
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import Truth, read_case
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.problem import problem_of
-from nag.report.agreement import Verdict, compare
+from nag.report.agreement import AgreementKind, compare
 from nag.witness.shown import kinds, kinds_text
 from nag.witness.witness import Status
 
@@ -120,7 +120,9 @@ def decomposed(of: Subject, seed: int, threads: int, settings: str) -> Result:
         return Result(of.name, seed, True, True, 0, spent, f"{type(error).__name__}: {error}")
     spent = time.process_time() - begin
     agreement = compare(answer, of.truth, of.formulation)
-    wrong = agreement is None or agreement.verdict is Verdict.DIFFERS or bool(agreement.unlisted)
+    wrong = (
+        agreement is None or agreement.verdict is AgreementKind.DIFFERS or bool(agreement.unlisted)
+    )
     undecided = sum(c.status is Status.UNDECIDED for c in answer.components)
     text = ""
     if wrong or not answer.complete:

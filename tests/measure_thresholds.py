@@ -23,14 +23,13 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.decomposition import (  # noqa: F401
-    components,
     discovery,
     intersection,
     monodromy,
     splitting,
     trace,
 )
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.mechanism.problem import problem_of
 from nag.numerics import coincidence, double_ranks, local_structure, zero_values

@@ -8,7 +8,7 @@ from linkages import CASES
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import Case, read_case
 from nag.mechanism.model import Model, model
 from nag.mechanism.problem import problem_of

@@ -30,7 +30,7 @@ from systems import system
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.cli import main
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files import export, solutions_export
 from nag.solving.solve import solve
 

@@ -13,7 +13,7 @@ from linkages import CASES
 
 from nag.algebra.expression import parse_number
 from nag.cli import main
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import Case, read_case
 from nag.mechanism.dh import DHLoop, Row, assemble_table, dh_model
 from nag.mechanism.framework import (

@@ -19,14 +19,14 @@ from nag.algebra.family import Family as PolynomialFamily
 from nag.bench.atlas.asked import SINGULAR, asked
 from nag.bench.atlas.changes import KINDS, sparsely_changed
 from nag.bench.atlas.curves import tangent_slice
-from nag.bench.atlas.families import FAMILIES, Family
+from nag.bench.atlas.families import FAMILIES, KnobFamily
 from nag.bench.atlas.linkages import bennett_violated, bricard_violated, slider_crank
 from nag.bench.atlas.moved import GROUPS
 from nag.bench.atlas.nine_points import NinePoints
 from nag.bench.atlas.stability import (
     Atlas,
     Cell,
-    Row,
+    FamilyRow,
     changes,
     document,
     family_named,
@@ -57,7 +57,7 @@ def test_families_have_names_of_their_own() -> None:
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda f: f.name)
-def test_each_value_is_a_system_of_the_method_and_the_same_for_a_seed(family: Family) -> None:
+def test_each_value_is_a_system_of_the_method_and_the_same_for_a_seed(family: KnobFamily) -> None:
     made = [family.make(value, np.random.default_rng(5)) for value in family.values]
     assert all(family.method in problem.methods for problem in made)
     again = family.make(family.values[-1], np.random.default_rng(5))
@@ -160,7 +160,7 @@ def test_a_parallelogram_with_bars_of_very_different_lengths_has_two_curves(powe
 def _atlas(right: int, undecided: int, wrong: int) -> Atlas:
     cell = Cell(2, right=right, undecided=undecided, wrong=wrong, seconds=0.5, remarks=("x",))
     return Atlas(
-        "default", right + undecided + wrong, 10.0, (Row("a", "b", "c", "solve", (cell,)),)
+        "default", right + undecided + wrong, 10.0, (FamilyRow("a", "b", "c", "solve", (cell,)),)
     )
 
 

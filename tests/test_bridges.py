@@ -3,7 +3,7 @@
 import pytest
 from linkages import exact, residual
 
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.loops import loop_structure
 from nag.mechanism.mobility_at import mobility

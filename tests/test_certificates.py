@@ -21,7 +21,7 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.stability import family_named
 from nag.cli import main
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.files.export import write_decomposition
 from nag.files.json_schema import schema

@@ -17,7 +17,7 @@ import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.files.export import document, export_of, write_decomposition
 from nag.files.json_schema import schema

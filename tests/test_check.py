@@ -15,7 +15,7 @@ from nag.check import bennett_geometry, joints, known_planar
 from nag.check import four_bar as four_bar_statements
 from nag.check.four_way import Compared, four_ways
 from nag.check.identities import identity
-from nag.check.known import Known, PaperComponent, Parametrisation
+from nag.check.known import KnownDecomposition, PaperComponent, Parametrisation
 from nag.check.mechanisms import (
     ComparedMechanism,
     KnownMechanism,
@@ -26,7 +26,7 @@ from nag.check.mechanisms import (
 )
 from nag.check.mechanisms import four_ways as mechanism_ways
 from nag.check.planar_mechanism import equal_sides
-from nag.check.statement import Kind, Statement, Verdict, statement
+from nag.check.statement import Statement, Verdict, VerdictKind, statement
 from nag.check.subjects import BENNETT, SUBJECTS, recognised, same_mechanism
 from nag.cli import main
 from nag.files.cases import read_case
@@ -48,9 +48,9 @@ def test_every_statement_of_the_papers_is_decided_exactly(subject: str) -> None:
     for s in SUBJECTS[subject].statements:
         verdict = s.verdict()
         assert is_as_expected(s, verdict), (s.place, s.text, verdict)
-        assert verdict.kind in (Kind.EXACT, Kind.FAILS)
+        assert verdict.kind in (VerdictKind.EXACT, VerdictKind.FAILS)
         assert verdict.how
-        assert bool(verdict.counterexample) is (verdict.kind is Kind.FAILS)
+        assert bool(verdict.counterexample) is (verdict.kind is VerdictKind.FAILS)
 
 
 def test_statements_are_many_and_told_apart() -> None:
@@ -73,7 +73,7 @@ def test_misprints_are_those_of_the_errata_and_the_other_way_round() -> None:
 
 def test_a_false_identity_is_refuted_at_an_exact_point() -> None:
     verdict = identity("x y", lambda x, y: {"f": x**2 - y}, (Fraction(2), Fraction(1, 3)))
-    assert verdict.kind is Kind.FAILS
+    assert verdict.kind is VerdictKind.FAILS
     assert verdict.counterexample == "at x = 2, y = 1/3: f is 11/3, not 0"
 
 
@@ -83,19 +83,19 @@ def test_an_identity_with_a_root_needs_the_right_root() -> None:
 
     at = (Fraction(3, 5), Fraction(4, 5))
     right, wrong = (("sin", lambda cos: 1 - cos**2),), (("sin", lambda cos: 2 - cos**2),)
-    assert identity("cos", formula, at, right).kind is Kind.EXACT
-    assert identity("cos", formula, at, wrong).kind is Kind.FAILS
+    assert identity("cos", formula, at, right).kind is VerdictKind.EXACT
+    assert identity("cos", formula, at, wrong).kind is VerdictKind.FAILS
 
 
 def test_a_known_misprint_that_holds_is_not_settled() -> None:
     @statement("T25 nowhere", "1 = 1", True)
     def one() -> Verdict:
-        return Verdict(Kind.EXACT, "counted")
+        return Verdict(VerdictKind.EXACT, "counted")
 
     assert not is_as_expected(one, one.verdict())
     assert is_as_expected(replace(one, misprint=False), one.verdict())
-    assert not is_as_expected(one, Verdict(Kind.OPEN, "too large"))
-    pairs = [(replace(one, misprint=False), Verdict(Kind.FAILS, "", "x = 0"))]
+    assert not is_as_expected(one, Verdict(VerdictKind.OPEN, "too large"))
+    pairs = [(replace(one, misprint=False), Verdict(VerdictKind.FAILS, "", "x = 0"))]
     assert summary(pairs).endswith("1 fail and are not in cases/ERRATA.md")
 
 
@@ -104,7 +104,7 @@ def test_mended_formulas_are_tested_too() -> None:
     wrong = bennett_geometry.misprinted(
         "m0", lambda m0: {"printed": m0}, lambda m0: {"mended": m0 - 1}, (Fraction(1),)
     )
-    assert wrong.kind is Kind.OPEN
+    assert wrong.kind is VerdictKind.OPEN
     assert bennett_geometry.axis_2.verdict().how.startswith("mended, it is an identity")
 
 
@@ -119,24 +119,29 @@ def wrong_component(part: PaperComponent) -> PaperComponent:
     )
 
 
-def verdicts(known: Known) -> list[Verdict]:
+def verdicts(known: KnownDecomposition) -> list[Verdict]:
     return [s.verdict() for s in four_ways(known, decomposed)]
 
 
 def test_all_four_ways_catch_what_is_wrong() -> None:
     right = known_planar.fixed_four_bar({"a": Fraction(2), "b": Fraction(1)})
     kinds = [v.kind for v in verdicts(right)]
-    assert kinds == [Kind.NUMERICAL, Kind.EXACT, Kind.NUMERICAL, Kind.EXACT]
+    assert kinds == [
+        VerdictKind.NUMERICAL,
+        VerdictKind.EXACT,
+        VerdictKind.NUMERICAL,
+        VerdictKind.EXACT,
+    ]
     first, *rest = right.components
     missing = replace(right, components=(first,))
-    assert verdicts(missing)[0].kind is Kind.FAILS
+    assert verdicts(missing)[0].kind is VerdictKind.FAILS
     smaller = replace(right, components=(wrong_component(first), *rest))
-    assert [v.kind for v in verdicts(smaller)[:2]] == [Kind.FAILS, Kind.FAILS]
+    assert [v.kind for v in verdicts(smaller)[:2]] == [VerdictKind.FAILS, VerdictKind.FAILS]
     elsewhere = Parametrisation("t", lambda t: [t] * 6)
     astray = replace(right, components=(replace(first, parametrisation=elsewhere), *rest))
-    assert verdicts(astray)[1].kind is Kind.FAILS
+    assert verdicts(astray)[1].kind is VerdictKind.FAILS
     larger = PaperComponent("", lambda v: first.generators(v)[:3], first.parametrisation)
-    assert verdicts(replace(right, components=(larger, *rest)))[3].kind is Kind.FAILS
+    assert verdicts(replace(right, components=(larger, *rest)))[3].kind is VerdictKind.FAILS
 
 
 @pytest.mark.parametrize(
@@ -162,7 +167,12 @@ def test_numerical_mobility_and_degree_are_the_symbolic_ones(
     found = recognised(read_case(CASES / f"{name}.toml"), decomposed)
     assert found is not None
     answers = [s.verdict() for s in found.comparison]
-    assert [v.kind for v in answers] == [Kind.NUMERICAL, Kind.EXACT, Kind.NUMERICAL, Kind.EXACT]
+    assert [v.kind for v in answers] == [
+        VerdictKind.NUMERICAL,
+        VerdictKind.EXACT,
+        VerdictKind.NUMERICAL,
+        VerdictKind.EXACT,
+    ]
     assert answers[0].digits is not None and answers[0].digits >= 10
     if components is not None:
         assert f"on one of {components}" in answers[0].how
@@ -238,7 +248,12 @@ def test_parameters_may_be_too_large_for_doubles() -> None:
     known = known_bennett((Fraction(3**200, 7**100), Fraction(5, 6), Fraction(1, 3)))
     assert len(known.name) < 100
     kinds = [s.verdict().kind for s in mechanism_ways(known, decomposed)]
-    assert kinds == [Kind.NUMERICAL, Kind.EXACT, Kind.NUMERICAL, Kind.EXACT]
+    assert kinds == [
+        VerdictKind.NUMERICAL,
+        VerdictKind.EXACT,
+        VerdictKind.NUMERICAL,
+        VerdictKind.EXACT,
+    ]
 
 
 def test_half_angles_of_bricards_cube_have_degree_8_exactly() -> None:
@@ -270,7 +285,7 @@ def test_bad_input_is_one_line(arguments: list[str], message: str, capsys) -> No
 
 
 def test_an_unexpected_failure_is_an_incomplete_answer(monkeypatch, capsys) -> None:
-    wrong = Statement("T25 nowhere", "0 = 1", lambda: Verdict(Kind.FAILS, "", "0 is not 1"))
+    wrong = Statement("T25 nowhere", "0 = 1", lambda: Verdict(VerdictKind.FAILS, "", "0 is not 1"))
     monkeypatch.setitem(
         SUBJECTS, "slider crank", replace(SUBJECTS["slider crank"], statements=(wrong,))
     )

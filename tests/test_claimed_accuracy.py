@@ -16,7 +16,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.families import FAMILIES
 from nag.bench.reference import Reference
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.files.certificate_export import certificate_document
 from nag.numerics.certified_points import CertifiedPoints

@@ -20,7 +20,7 @@ from nag.bench.atlas.changes import NAMES, Coordinates, mixed
 from nag.bench.reference import Reference
 from nag.cli import main
 from nag.decomposition import project
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 
 CASES = Path(__file__).parents[1] / "cases"

@@ -73,7 +73,7 @@ class Engine:
 @pytest.fixture
 def engine(monkeypatch) -> Engine:
     fake = Engine()
-    monkeypatch.setattr("nag.decomposition.components.decompose", fake.decompose)
+    monkeypatch.setattr("nag.decomposition.decompose.decompose", fake.decompose)
     monkeypatch.setattr("nag.witness.membership.components_through", fake.components_through)
     return fake
 

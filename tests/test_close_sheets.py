@@ -11,7 +11,7 @@ import pytest
 import nag
 from nag.bench.atlas.curves import close_skew_lines
 from nag.decomposition import witness_at
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.export import read_decomposition, write_decomposition
 from nag.tracking.paths import Ball
 from nag.witness.close_points import (

@@ -13,7 +13,7 @@ import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import discover, intersect_equations, singular_locus
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.witness.component_equations import component_fibres
 
 CASES = Path(__file__).parent.parent / "cases"

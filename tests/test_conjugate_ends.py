@@ -16,14 +16,14 @@ from nag.solving import solve as solving
 from nag.solving.path_ends import restore_conjugate_ends
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
-from nag.solving.start.target import Start
+from nag.solving.start.target import StartSystem
 from nag.tracking.paths import Paths, PathStatus, Reason
 from nag.tracking.track import track
 
 CUBICS = ("x^3 + 2*x*y - 3*y + 1", "y^3 - x^2 + 5*x + 2")
 
 
-def tracked(given: PolynomialSystem, start: str = "total") -> tuple[Start, Paths]:
+def tracked(given: PolynomialSystem, start: str = "total") -> tuple[StartSystem, Paths]:
     rng = np.random.default_rng(4)
     problem = SquareProblem.of(given, list(given.polynomials), rng)
     begin, _ = choose(problem.target, start, given.groups, rng, 1)
@@ -42,7 +42,7 @@ def lost(paths: Paths, *which: int) -> Paths:
     )
 
 
-def pairs(begin: Start, paths: Paths) -> tuple[list[tuple[int, int]], list[int]]:
+def pairs(begin: StartSystem, paths: Paths) -> tuple[list[tuple[int, int]], list[int]]:
     """Conjugate pairs of ends, and the real ends."""
     regular = paths.where(PathStatus.REGULAR)
     x = begin.affine(paths.points[regular])

@@ -12,7 +12,7 @@ from nag.algebra.consequences import MOST_EQUATIONS, consequences, generators
 from nag.algebra.factoring import ring
 from nag.algebra.groebner import ideal_of
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 
 
 def flint(system: PolynomialSystem) -> list:

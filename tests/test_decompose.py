@@ -13,10 +13,10 @@ from systems import kinds, system
 import nag
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.mechanism.model import model
-from nag.report.agreement import Verdict, compare
+from nag.report.agreement import AgreementKind, compare
 from nag.witness.membership import components_through
 from nag.witness.witness import Decomposition, Status
 
@@ -54,7 +54,7 @@ def test_case_agrees_with_what_is_known(path: Path, seed: int) -> None:
     assert_sound(answer)
     agreement = compare(answer, case.truth, None if chosen is None else chosen.formulation)
     assert agreement is not None
-    assert agreement.verdict is Verdict.AGREES and not agreement.unlisted
+    assert agreement.verdict is AgreementKind.AGREES and not agreement.unlisted
 
 
 @pytest.mark.parametrize(

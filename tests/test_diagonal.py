@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from systems import system
 
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.diagonal import DiagonalSection, meet_on_diagonal
-from nag.decomposition.factor import Factor
+from nag.decomposition.factor import Operand
 from nag.decomposition.intersection import intersect_components
 from nag.decomposition.reduction import Reduction
 from nag.tracking.run import Run
@@ -24,7 +24,7 @@ def met(
     for equation in (first, second):
         of = system("x y z", equation)
         (component,) = decompose(of).components
-        factors.append(Factor.of(of, component))
+        factors.append(Operand.of(of, component))
     common = Reduction.of(system("x y z", first, second, nonzero=nonzero))
     return meet_on_diagonal(*factors, common, np.random.default_rng(seed), Run()), common
 

@@ -14,7 +14,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.families import FAMILIES
 from nag.bench.reference import Reference
 from nag.decomposition import witness_at
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.witness.exact_points import sharpen_fibre
 from nag.witness.fibres import Fibre

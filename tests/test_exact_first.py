@@ -13,7 +13,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import components_through, intersect_components, sample
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.export import read_decomposition, write_decomposition
 from nag.files.solutions_export import read_solutions, write_solutions
 from nag.solving.solutions import SolveResult

@@ -10,7 +10,7 @@ from nag.algebra.exact_ranks import is_dependent
 from nag.algebra.number import Irrational
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition import isolated
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.isolated import is_finite, solve_at_once
 from nag.decomposition.method import Task
 from nag.mechanism.framework import placed_framework

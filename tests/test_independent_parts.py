@@ -8,7 +8,7 @@ from linkages import case
 from systems import system
 
 from nag.algebra.symmetry import SignedPermutation
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.independent_parts import independent_variables
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import model

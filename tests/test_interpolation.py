@@ -17,7 +17,7 @@ from nag.algebra.multipliers import multipliers
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.interpolation.essential import maps
-from nag.interpolation.point_cloud import Ambient, Cloud
+from nag.interpolation.point_cloud import AmbientVariables, Cloud
 from nag.interpolation.precise_samples import SourceError, source_at
 from nag.interpolation.proof import (
     cleared_map,
@@ -52,7 +52,7 @@ def system(names: str, *equations: str) -> PolynomialSystem:
 def cloud(equations: PolynomialSystem, *point: int | str) -> Cloud:
     rng = np.random.default_rng(0)
     source = source_at(equations, tuple(Fraction(x) for x in point), rng)
-    return Cloud(source, Ambient.itself(equations), rng, Run())
+    return Cloud(source, AmbientVariables.itself(equations), rng, Run())
 
 
 rationals = st.builds(Fraction, st.integers(-(10**6), 10**6), st.integers(1, 10**6))

@@ -14,7 +14,7 @@ from systems import system
 
 import nag
 from nag.decomposition import intersect_components, intersect_equations, sample
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.intersection import IntersectionError
 from nag.files.cases import read_case
 from nag.witness.membership import Membership, memberships

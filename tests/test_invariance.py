@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from linkages import case, exact, four_bar, general_loop, spherical_four_bar
 
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.mechanism.graph import Body, Joint, Mechanism
 from nag.mechanism.model import model

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from nag.algebra.from_python import system as system_of_equations
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.through import through_points
 from nag.mechanism.framework import Framework, placed_framework
 from nag.mechanism.framework_model import framework_model

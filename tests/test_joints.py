@@ -9,7 +9,7 @@ from solved import components_of
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.errors import MechanismError, NagError
 from nag.mechanism.axes import space_of
 from nag.mechanism.euler import euler_parameters, prime_component

@@ -15,7 +15,7 @@ from systems import system
 import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.isolated import count_points
 from nag.numerics.coincidence import conjugates_present
 from nag.numerics.system_facts import SystemFacts

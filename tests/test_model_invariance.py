@@ -13,7 +13,7 @@ from linkages import case, general_loop, loops_of_all_joints
 from solved import components_of
 
 import nag
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.mechanism.coordinates import carry_to_euler
 from nag.mechanism.graph import Body, Joint, Mechanism
 from nag.mechanism.model import ModelError, formulations, model

@@ -14,7 +14,7 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.factoring import factored
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.numerics.double_ranks import Gradients
 from nag.numerics.natural_coordinates import shift_polynomial

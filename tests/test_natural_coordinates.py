@@ -17,7 +17,7 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.changes import in_far_coordinates
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.numerics.natural_coordinates import (

@@ -14,7 +14,7 @@ import pytest
 
 import nag
 import nag.decomposition as D
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.witness.membership import memberships
 
 ROOT = Path(__file__).parent.parent

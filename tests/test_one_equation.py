@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import nag
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.through import Through, through_points
 from nag.files.cases import read_case
 from nag.mechanism.model import model

@@ -10,7 +10,7 @@ from systems import system
 
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import project, witness_at
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.witness import membership as membership_module
 from nag.witness.membership import Membership, UndecidedError, components_through, memberships
 from nag.witness.moving import SliceError

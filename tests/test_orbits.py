@@ -11,13 +11,13 @@ from systems import system
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.monodromy import locate_points
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.superset import Ambient, witness_superset
 from nag.files.cases import read_case
 from nag.files.export import read_decomposition, write_decomposition
-from nag.report.agreement import Verdict, compare
+from nag.report.agreement import AgreementKind, compare
 from nag.tracking.run import Run
 from nag.witness.frame import Frame, expanded
 from nag.witness.points import Points
@@ -52,7 +52,7 @@ def test_cases_with_symmetries_agree_with_what_is_known(seed: int, name: str) ->
     assert len(answer.components) < sum(c.orbit for c in answer.components)
     for each in (answer, expanded(answer)):
         agreement = compare(each, case.truth)
-        assert agreement is not None and agreement.verdict is Verdict.AGREES
+        assert agreement is not None and agreement.verdict is AgreementKind.AGREES
         assert not agreement.unlisted
     plain = components_of(case.system, seed=seed)
     assert kinds(answer.components) == kinds(plain.components)

@@ -4,7 +4,7 @@ import mpmath
 import pytest
 from linkages import case, exact, four_bar, loop
 
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.mechanism.graph import Body, Joint, Mechanism
 from nag.mechanism.model import model
 

@@ -16,7 +16,7 @@ from systems import benchmark
 
 from nag.errors import StartError
 from nag.solving.start.choice import choose
-from nag.solving.start.fibre_monodromy import GenericSystem
+from nag.solving.start.coefficient_monodromy import GenericSystem
 from nag.solving.start.mixed_cells import MixedCells, mixed_cells
 from nag.solving.start.polyhedral import (
     binomial_solutions,
@@ -24,7 +24,7 @@ from nag.solving.start.polyhedral import (
     cell_weights,
     polyhedral,
 )
-from nag.solving.start.target import Start, unit
+from nag.solving.start.target import StartSystem, unit
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 
@@ -105,7 +105,7 @@ def test_the_volume_of_multiples_of_a_simplex_is_bezouts_number(degrees: list[in
     assert cells.mixed_volume == prod(degrees)
 
 
-def start_system(name: str, seed: int) -> Start:
+def start_system(name: str, seed: int) -> StartSystem:
     each, rng = benchmark(name), np.random.default_rng(seed)
     return polyhedral(each, mixed_cells(each.supports, rng), rng, 1)
 

@@ -13,7 +13,7 @@ from nag.decomposition.power_sums import PowerSums
 from nag.decomposition.splitting import LOST, split_points
 from nag.decomposition.trace import EVIDENCE
 from nag.tracking.run import Run
-from nag.witness.fibres import PathEnds
+from nag.witness.fibres import SliceEnds
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
 
@@ -85,7 +85,7 @@ def test_a_path_that_was_lost_in_the_trace_joins_nothing(
     points, curves = points_of(CURVES, rng)
     move = trace.move
 
-    def swapping(*arguments, **options) -> list[PathEnds]:
+    def swapping(*arguments, **options) -> list[SliceEnds]:
         (there,) = move(*arguments, **options)
         places = np.arange(len(there.points))
         swapped = [2 * curves[k][0] for k in (1, 2)]

@@ -14,7 +14,7 @@ import pytest
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files import export, solutions_export
 from nag.files.export import write_decomposition
 from nag.files.json_schema import schema

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from nag.bench.atlas.moved import moved_case
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.files.cases import read_case

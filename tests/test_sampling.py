@@ -13,7 +13,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import discover, real_points_near, sample
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.witness import moving

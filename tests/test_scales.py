@@ -8,7 +8,7 @@ import pytest
 from systems import kinds, system
 
 from nag.algebra.symmetry import SignedPermutation
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.solving.solve import solve
 from nag.witness.witness import Decomposition
 

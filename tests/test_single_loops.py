@@ -6,7 +6,7 @@ import pytest
 from linkages import exact, kinds
 from solved import answer, modelled
 
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.mechanism.coordinates import carry_to_euler
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.model import model

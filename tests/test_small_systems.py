@@ -9,7 +9,7 @@ import pytest
 from random_small import small_system
 from systems import kinds, system
 
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.solving.solve import solve
 
 VARIABLES = {3: "x y z", 4: "x y z w"}

@@ -15,7 +15,7 @@ import nag
 from nag.algebra.branches import search_branches
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.errors import StartError
 from nag.files.cases import read_case
 from nag.mechanism.model import model

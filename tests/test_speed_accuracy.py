@@ -20,7 +20,7 @@ from nag.bench.reference import Reference, ReferenceError, compare_in_balls, com
 from nag.bench.speed_accuracy import chart_of, ratios
 from nag.bench.speed_accuracy_picture import COLOURS, MARKS, PEERS
 from nag.bench.whole_paths import WHOLE_TOLERANCES, WholePaths, tracked_in
-from nag.bench.work_precision import Curve, Point, Subject, best_form, document, read_charts
+from nag.bench.work_precision import Curve, MeasuredCase, Point, best_form, document, read_charts
 from nag.cli import main
 from nag.files.cases import read_case
 from nag.solving.solve import solve
@@ -122,7 +122,7 @@ def test_errors_in_balls_are_those_in_doubles_and_go_on_beyond_them() -> None:
 
 
 def test_a_chart_reads_back_and_is_compared(once: None) -> None:
-    chart = chart_of(Subject("roots", SYSTEM, False, ((0, 1, 4),)), seeds=1, peers=False)
+    chart = chart_of(MeasuredCase("roots", SYSTEM, False, ((0, 1, 4),)), seeds=1, peers=False)
     assert (chart.expected, chart.certified) == (4, 4)
     assert chart.proved_paths == chart.paths
     again = read_charts(json.loads(json.dumps(document([chart]))))
@@ -142,13 +142,13 @@ def test_damaged_data_are_refused_in_one_line(key: str, tmp_path: Path, capsys) 
 
 def test_a_number_of_solutions_that_is_not_known_to_be_so_is_no_reference() -> None:
     with pytest.raises(ReferenceError):
-        chart_of(Subject("roots", SYSTEM, False, ((0, 1, 5),)), seeds=1, peers=False)
+        chart_of(MeasuredCase("roots", SYSTEM, False, ((0, 1, 5),)), seeds=1, peers=False)
 
 
 def test_without_isolated_solutions_there_is_no_reference() -> None:
     none = PolynomialSystem(("x", "y"), (x * y - 1, x * y - 2))
     with pytest.raises(ReferenceError, match="no isolated solutions"):
-        chart_of(Subject("none", none, False, ()), seeds=1, peers=False)
+        chart_of(MeasuredCase("none", none, False, ()), seeds=1, peers=False)
 
 
 def test_paths_that_end_on_a_curve_are_not_sharpened_in_balls() -> None:
@@ -262,11 +262,11 @@ def test_a_slice_meets_the_components_in_as_many_points_as_their_degrees() -> No
     whole = PolynomialSystem(("x", "y"), ((x**2 + y**2 - 1) * (x - 3 * y), 0 * x))
     rng = np.random.default_rng(0)
     degrees = ((1, 2, 1), (1, 1, 1))
-    section, square, reference = witness_section(Subject("both", whole, True, degrees), rng)
+    section, square, reference = witness_section(MeasuredCase("both", whole, True, degrees), rng)
     assert len(square.polynomials) == 2 < len(section.polynomials)
     assert len(reference.high) == 3
     with pytest.raises(ReferenceError, match="in 4 simple points"):
-        witness_section(Subject("both", whole, True, ((1, 2, 2),)), rng)
+        witness_section(MeasuredCase("both", whole, True, ((1, 2, 2),)), rng)
 
 
 def test_the_best_form_finds_most_then_to_the_accuracy_then_soonest() -> None:

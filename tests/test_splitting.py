@@ -15,7 +15,7 @@ from systems import system
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition import monodromy, splitting
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.final_checks import Examined, check_class
 from nag.decomposition.monodromy import LoopEnds, run_loop
 from nag.decomposition.reduction import Reduction

@@ -12,7 +12,7 @@ from systems import benchmark
 
 from nag.errors import StartError
 from nag.solving.start import monodromy as module
-from nag.solving.start.fibre_monodromy import GenericSystem, find_by_loops
+from nag.solving.start.coefficient_monodromy import GenericSystem, find_by_loops
 from nag.solving.start.mixed_cells import mixed_cells
 from nag.solving.start.monodromy import (
     Pencil,

@@ -22,7 +22,7 @@ from nag.solving.start.multihomogeneous import (
     count,
     multihomogeneous,
 )
-from nag.solving.start.target import Start, Target
+from nag.solving.start.target import StartSystem, Target
 from nag.solving.start.total_degree import bezout, total_degree
 from nag.tracking.paths import PathStatus
 from nag.tracking.track import track
@@ -41,12 +41,12 @@ SYSTEMS = [
 EIGENVALUES = target("l a b", "2*a + b - l*a", "a - 3*b - l*b", "3*a + 5*b - 1")
 
 
-def residual_at_start(start: Start) -> float:
+def residual_at_start(start: StartSystem) -> float:
     points = start.homotopy.normalized(start.points)
     return float(np.abs(values(start.homotopy, points, 1.0)).max(initial=0.0))
 
 
-def are_distinct_and_regular(start: Start) -> bool:
+def are_distinct_and_regular(start: StartSystem) -> bool:
     homotopy = start.homotopy
     points = homotopy.normalized(start.points)
     rows = np.concatenate([jacobian(homotopy, points, 1.0), patch(homotopy, points)], axis=1)

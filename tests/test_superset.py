@@ -11,7 +11,7 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import superset
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.tracking.run import Run
 from nag.witness import membership

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem, system_line
 from nag.cli.running import INTERVAL, progress_line
-from nag.report.agreement import Verdict, agreement_text, compare
+from nag.report.agreement import AgreementKind, agreement_text, compare
 from nag.text.table import align, labelled, magnitude, printable
 from nag.witness.shown import component_table, multidegree_text, remarks, title_line
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
@@ -168,46 +168,46 @@ TWO_LINES = decomposition(component(1, 1), component(1, 1))
         (
             TWO_LINES,
             [Known(1, 1, count=2)],
-            Verdict.AGREES,
+            AgreementKind.AGREES,
             "agrees with what is known: 2 components of dimension 1, degree 1 (a book)",
         ),
         (
             TWO_LINES,
             [Known(1, 1), Known(1, 1, source="a paper")],
-            Verdict.AGREES,
+            AgreementKind.AGREES,
             "agrees with what is known: 2 components of dimension 1, degree 1 (a book; a paper)",
         ),
         (
             TWO_LINES,
             [Known(1, 1, count=3)],
-            Verdict.DIFFERS,
+            AgreementKind.DIFFERS,
             "differs from what is known: not found: 1 component of dimension 1, degree 1 (a book)",
         ),
         (
             TWO_LINES,
             [Known(1, 1)],
-            Verdict.DIFFERS,
+            AgreementKind.DIFFERS,
             "differs from what is known: found but not known: "
             "1 component of dimension 1, degree 1 (a book)",
         ),
         (
             decomposition(component(1, 2)),
             [Known(1, 1, count=2)],
-            Verdict.DIFFERS,
+            AgreementKind.DIFFERS,
             "differs from what is known: not found: 2 components of dimension 1, degree 1; "
             "found but not known: 1 component of dimension 1, degree 2 (a book)",
         ),
         (
             decomposition(component(1, 2, multiplicity=2)),
             [Known(1, 2)],
-            Verdict.DIFFERS,
+            AgreementKind.DIFFERS,
             "differs from what is known: not found: 1 component of dimension 1, degree 2; "
             "found but not known: 1 component of dimension 1, degree 2, multiplicity 2 (a book)",
         ),
         (
             decomposition(component(1, 2), undecided(1, 2)),
             [Known(1, 2), Known(1, 2, multiplicity=2)],
-            Verdict.OPEN,
+            AgreementKind.OPEN,
             "agrees with what is known as far as it is decided: "
             "1 component of dimension 1, degree 2; known but not decided here: "
             "1 component of dimension 1, degree 2, multiplicity 2 (a book)",
@@ -215,7 +215,7 @@ TWO_LINES = decomposition(component(1, 1), component(1, 1))
         (
             decomposition(component(1, 2), component(0, 1)),
             [Known(1, 2)],
-            Verdict.AGREES,
+            AgreementKind.AGREES,
             "agrees with what is known: 1 component of dimension 1, degree 2; "
             "nothing is known of: 1 component of dimension 0, degree 1 (a book)",
         ),
@@ -229,8 +229,8 @@ def test_an_answer_is_compared_with_what_is_known(answer, truth, verdict, text) 
 
 def test_known_things_of_another_formulation_say_nothing() -> None:
     truth = [Known(1, 1, count=2, formulation="H"), Known(1, 4, formulation="E")]
-    assert compare(TWO_LINES, truth, "H").verdict is Verdict.AGREES
-    assert compare(TWO_LINES, truth, "E").verdict is Verdict.DIFFERS
+    assert compare(TWO_LINES, truth, "H").verdict is AgreementKind.AGREES
+    assert compare(TWO_LINES, truth, "E").verdict is AgreementKind.DIFFERS
     assert compare(TWO_LINES, truth) is None
     assert compare(TWO_LINES, []) is None
 
@@ -241,9 +241,15 @@ def test_multidegrees_are_compared_where_they_are_known() -> None:
         component(1, 3, multidegree=[1, 2]), component(1, 3, multidegree=[2, 1]), groups=groups
     )
     either = Known(1, 3)
-    assert compare(answer, [either, Known(1, 3, multidegree=(1, 2))]).verdict is Verdict.AGREES
-    assert compare(answer, [either, Known(1, 3, multidegree=(2, 1))]).verdict is Verdict.AGREES
-    assert compare(answer, [either, Known(1, 3, multidegree=(3, 0))]).verdict is Verdict.DIFFERS
+    assert (
+        compare(answer, [either, Known(1, 3, multidegree=(1, 2))]).verdict is AgreementKind.AGREES
+    )
+    assert (
+        compare(answer, [either, Known(1, 3, multidegree=(2, 1))]).verdict is AgreementKind.AGREES
+    )
+    assert (
+        compare(answer, [either, Known(1, 3, multidegree=(3, 0))]).verdict is AgreementKind.DIFFERS
+    )
 
 
 class Terminal(io.StringIO):

@@ -18,7 +18,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import looped_turns
 from nag.cli.command_line import main
 from nag.decomposition import several_equations
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Superset
 from nag.decomposition.toric_section import paths_at_once, section_at_once, turns_to_cut

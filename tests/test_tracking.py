@@ -16,7 +16,7 @@ from nag.solving.start.choice import choose
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.jumps import collisions
-from nag.tracking.known import Known
+from nag.tracking.known import KnownOfPaths
 from nag.tracking.newton import refine
 from nag.tracking.paths import PathStatus, Reason
 from nag.tracking.projective import aligned_difference
@@ -127,7 +127,7 @@ def test_paths_beside_all_zeros_that_there_can_be_lead_to_infinity():
     x, y = Polynomial.variables(2)
     # Two zeros, which is the mixed volume.
     homotopy, starts = total_degree([x * y + x + 2, x * y - 3 * y + 5], 2)
-    followed, counted = track(homotopy, starts), track(homotopy, starts, known=Known(most=2))
+    followed, counted = track(homotopy, starts), track(homotopy, starts, known=KnownOfPaths(most=2))
     assert (counted.status == followed.status).all()
     assert len(counted.where(PathStatus.REGULAR)) == 2
     infinite = counted.where(PathStatus.AT_INFINITY)
@@ -135,14 +135,14 @@ def test_paths_beside_all_zeros_that_there_can_be_lead_to_infinity():
     assert not np.isfinite(counted.accuracy[infinite]).any()
     # Where zeros seem to be missing, or there are too many, each path is followed.
     for most in (1, 3):
-        other = track(homotopy, starts, known=Known(most=most))
+        other = track(homotopy, starts, known=KnownOfPaths(most=most))
         assert np.array_equal(other.points, followed.points)
 
 
 def test_zeros_on_coordinate_hyperplanes_do_not_count_as_all():
     x, y = Polynomial.variables(2)
     homotopy, starts = total_degree([x * y, x * y + x + y - 1], 2)
-    followed, counted = track(homotopy, starts), track(homotopy, starts, known=Known(most=2))
+    followed, counted = track(homotopy, starts), track(homotopy, starts, known=KnownOfPaths(most=2))
     assert len(followed.where(PathStatus.REGULAR)) == 2
     assert np.array_equal(counted.points, followed.points)
 

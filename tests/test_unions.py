@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from unions import found, random_union
 
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.witness.witness import Status
 
 

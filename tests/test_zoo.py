@@ -7,7 +7,7 @@ from linkages import CASES
 from solved import answer, shipped
 
 from nag.mechanism.problem import problem_of
-from nag.report.agreement import Verdict, compare
+from nag.report.agreement import AgreementKind, compare
 
 FOLDERS = ("planar", "spherical", "spatial", "shaky")
 ZOO = sorted(
@@ -32,7 +32,7 @@ def test_a_linkage_decomposes_as_is_known(name: str) -> None:
     agreement = compare(found, shipped(name).truth, problem_of(shipped(name)).formulation)
     assert found.complete
     assert agreement is not None
-    assert agreement.verdict is Verdict.AGREES
+    assert agreement.verdict is AgreementKind.AGREES
     assert not agreement.unlisted
 
 

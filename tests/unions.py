@@ -22,7 +22,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.witness.witness import Decomposition
 
 NAMES = ("x", "y", "z", "w")

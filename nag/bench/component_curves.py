@@ -21,15 +21,15 @@ from nag.bench.work_precision import (
     PATIENCE,
     Chart,
     Curve,
+    MeasuredCase,
     Point,
     Progress,
-    Subject,
     best_form,
     in_arithmetics,
     own_curves,
     timed,
 )
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.numerics.certified_points import independent_equations
 from nag.solving.solve import solve
 from nag.tracking.evaluations import count_evaluations
@@ -50,7 +50,9 @@ class Listed:
     doubtful: bool = False
 
 
-def components_chart(subject: Subject, seeds: int, peers: bool, progress: Progress | None) -> Chart:
+def components_chart(
+    subject: MeasuredCase, seeds: int, peers: bool, progress: Progress | None
+) -> Chart:
     """Measure the decomposition of a case.
 
     Raises:
@@ -116,7 +118,7 @@ def agreement(system: PolynomialSystem, found: Iterable[Listed], wanted: Wanted)
 
 
 def witness_section(
-    subject: Subject, rng: np.random.Generator
+    subject: MeasuredCase, rng: np.random.Generator
 ) -> tuple[PolynomialSystem, PolynomialSystem, Reference]:
     """The system with a rational slice that cuts its largest components in points.
 

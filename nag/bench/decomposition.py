@@ -15,10 +15,10 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.peers import in_macaulay2
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.errors import NagError
 from nag.files.cases import Truth
-from nag.report.agreement import Verdict, compare
+from nag.report.agreement import AgreementKind, compare
 
 # Best of so many runs; a run that takes longer than LONG seconds is not repeated.
 RUNS = 5
@@ -91,7 +91,9 @@ def measure_decomposition(
         if runs > 1 and seconds > LONG:
             break
     agreement = compare(answer, truth, formulation)
-    agrees = agreement is None or (agreement.verdict is Verdict.AGREES and not agreement.unlisted)
+    agrees = agreement is None or (
+        agreement.verdict is AgreementKind.AGREES and not agreement.unlisted
+    )
     return Decomposed(
         case=name,
         components=sum(c.orbit for c in answer.components),

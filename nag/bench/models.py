@@ -10,7 +10,7 @@ from math import prod
 from typing import Any
 
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.dh import DHLoop
 from nag.mechanism.dh_euler import table_alternatives, table_model

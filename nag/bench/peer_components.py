@@ -49,7 +49,7 @@ class PeerComponents:
     remark: str = ""
 
 
-Answer = tuple[float | None, list[PeerComponent]] | str
+TimedComponents = tuple[float | None, list[PeerComponent]] | str
 
 
 def decomposing_programs() -> list[str]:
@@ -80,7 +80,7 @@ def _excluded(system: PolynomialSystem, component: PeerComponent) -> bool:
     return bool((values < NEAR).all(axis=0).any())
 
 
-def _macaulay2(system: PolynomialSystem, limit: float, seed: int) -> Answer:
+def _macaulay2(system: PolynomialSystem, limit: float, seed: int) -> TimedComponents:
     work = f"setRandomSeed {seed};\nS = numericalIrreducibleDecomposition ideal F;\n"
     listed = (
         "for d in keys S do for w in S#d do (\n"
@@ -104,7 +104,7 @@ def _macaulay2(system: PolynomialSystem, limit: float, seed: int) -> Answer:
     return said(head), found
 
 
-def _phcpack(system: PolynomialSystem, limit: float, seed: int) -> Answer:
+def _phcpack(system: PolynomialSystem, limit: float, seed: int) -> TimedComponents:
     # It asks for the largest dimension, and may say that equations are left over.
     asked = f"{system.n - 1}\n" + "y\n" * 4
     _, written = in_phcpack(system, ("-B", f"-0{1 + seed}"), limit, asked)
@@ -157,7 +157,7 @@ def _row(text: str, names: Sequence[str]) -> list[complex]:
     return row
 
 
-def _bertini(system: PolynomialSystem, limit: float, _seed: int) -> Answer:
+def _bertini(system: PolynomialSystem, limit: float, _seed: int) -> TimedComponents:
     work = (
         "try:\n"
         "    bertini.nag_algorithm.NIDCauchyAdaptivePrecision(system).solve()\n"

@@ -68,7 +68,7 @@ def peer_points(program: str, system: PolynomialSystem, limit: float) -> PeerPoi
     return PeerPoints(program, seconds if said is None else said, points)
 
 
-Answer = tuple[float | None, list[complex]] | None
+TimedPoints = tuple[float | None, list[complex]] | None
 
 
 def children_seconds() -> float:
@@ -109,17 +109,17 @@ def told_by_macaulay2(system: PolynomialSystem, work: str, listed: str, limit: f
     return None if output is None else output.replace("p53", "")
 
 
-def _refined(system: PolynomialSystem, limit: float) -> Answer:
+def _refined(system: PolynomialSystem, limit: float) -> TimedPoints:
     return _macaulay2(system, limit, "S = refine(F, S, ErrorTolerance => 1e-14);\n")
 
 
-def _macaulay2(system: PolynomialSystem, limit: float, further: str = "") -> Answer:
+def _macaulay2(system: PolynomialSystem, limit: float, further: str = "") -> TimedPoints:
     listed = "for s in S do for z in coordinates s do tell z;\n"
     output = told_by_macaulay2(system, f"S = solveSystem F;\n{further}", listed, limit)
     return None if output is None else (said(output), pairs(output))
 
 
-def _phcpack(system: PolynomialSystem, limit: float) -> Answer:
+def _phcpack(system: PolynomialSystem, limit: float) -> TimedPoints:
     names, _ = plain_texts(system)
     _, written = in_phcpack(system, ("-b", "-0"), limit)
     if written is None:
@@ -143,7 +143,7 @@ def _coordinates(block: str) -> list[tuple[str, complex]]:
     return [(name, complex(float(re), float(im))) for name, re, im in found]
 
 
-def _bertini(system: PolynomialSystem, limit: float) -> Answer:
+def _bertini(system: PolynomialSystem, limit: float) -> TimedPoints:
     work = (
         "begin = time.process_time()\n"
         "found = bertini.solve(system, show_progress=False, directory='records', seed=1)\n"

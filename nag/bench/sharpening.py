@@ -33,7 +33,7 @@ RUNS = 0.05
 
 
 @dataclass(frozen=True)
-class Sharpened:
+class SharpeningCost:
     """What so many steps gave: processor seconds for one point, and errors."""
 
     steps: int
@@ -44,7 +44,7 @@ class Sharpened:
 
 def sharpening(
     system: PolynomialSystem, reference: Reference, seed: int = 0
-) -> dict[str, list[Sharpened]]:
+) -> dict[str, list[SharpeningCost]]:
     """Curves by arithmetic: after one Newton step, two, and so on."""
     rng = np.random.default_rng(seed)
     shape = reference.high.shape
@@ -78,7 +78,7 @@ def _apart(reference: Reference) -> np.ndarray:
 
 def _curve(
     work: Callable[[int], np.ndarray], reference: Reference, count: int, most: int
-) -> list[Sharpened]:
+) -> list[SharpeningCost]:
     found = []
     places = np.arange(len(reference.high))
     work(1)
@@ -89,7 +89,9 @@ def _curve(
             points = work(steps)
             best = min(best, time.process_time() - begin)
         errors = reference.errors(points, places)
-        found.append(Sharpened(steps, best / count, float(errors.max()), float(np.median(errors))))
+        found.append(
+            SharpeningCost(steps, best / count, float(errors.max()), float(np.median(errors)))
+        )
     return found
 
 
@@ -123,7 +125,7 @@ def _with_exact_residuals(
 
 def _word_curve(
     system: PolynomialSystem, reference: Reference, rough: np.ndarray, words: int
-) -> list[Sharpened]:
+) -> list[SharpeningCost]:
     """Newton's method in sums of doubles, as ends of paths are sharpened by."""
     rows = compile_rows(system.polynomials)
     homotopy = Homotopy(rows, np.zeros((0, rows.N), dtype=complex))
@@ -137,13 +139,15 @@ def _word_curve(
             points = newton_steps(homotopy, start, words, steps)
             best = min(best, time.process_time() - begin)
         errors = [reference.fine_error(x, i) for i, x in enumerate(affine_points(points))]
-        found.append(Sharpened(steps, best / len(rough), max(errors), float(np.median(errors))))
+        found.append(
+            SharpeningCost(steps, best / len(rough), max(errors), float(np.median(errors)))
+        )
     return found
 
 
 def _ball_curve(
     exact: BallPolynomials, reference: Reference, rough: np.ndarray, digits: int
-) -> list[Sharpened]:
+) -> list[SharpeningCost]:
     """Newton's method in balls, used by their midpoints."""
     found = []
     points = [[flint.acb(complex(z)) for z in x] for x in rough]
@@ -156,5 +160,7 @@ def _ball_curve(
         seconds += time.process_time() - begin
         steps += 1
         errors = [reference.fine_error(x, i) for i, x in enumerate(points)]
-        found.append(Sharpened(steps, seconds / len(points), max(errors), float(np.median(errors))))
+        found.append(
+            SharpeningCost(steps, seconds / len(points), max(errors), float(np.median(errors)))
+        )
     return found

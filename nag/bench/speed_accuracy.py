@@ -16,9 +16,9 @@ from nag.bench.work_precision import (
     PATIENCE,
     Chart,
     Curve,
+    MeasuredCase,
     Point,
     Progress,
-    Subject,
     best_form,
     in_arithmetics,
     own_curves,
@@ -32,7 +32,7 @@ SEEDS = 5
 
 
 def chart_of(
-    subject: Subject,
+    subject: MeasuredCase,
     seeds: int = SEEDS,
     peers: bool = True,
     progress: Progress | None = None,
@@ -59,7 +59,7 @@ def chart_of(
     return replace(chart, curves=(*chart.curves, *others))
 
 
-def _reference(subject: Subject) -> Reference:
+def _reference(subject: MeasuredCase) -> Reference:
     found = solve(subject.system, settings="careful")
     if not found.complete or any(s.multiplicity > 1 for s in found.solutions):
         raise ReferenceError("not all solutions are simple and known")
@@ -72,7 +72,7 @@ def _reference(subject: Subject) -> Reference:
     return Reference.of(subject.system, found.points, none)
 
 
-def _solutions(subject: Subject, seeds: int, progress: Progress | None) -> Chart:
+def _solutions(subject: MeasuredCase, seeds: int, progress: Progress | None) -> Chart:
     from nag.solving.certificate import certify_solutions
     from nag.solving.certified_paths import prove_paths
 

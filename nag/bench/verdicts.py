@@ -10,7 +10,7 @@ from statistics import median
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.timed_runs import TimedRun
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.solving.solve import solve
 
 # Components by dimension, degree and multiplicity.

@@ -25,7 +25,7 @@ from nag.numerics.newton import newton_step, subtract_step
 from nag.solving.isolated_zero import affine_point
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
-from nag.solving.start.target import Start, Target
+from nag.solving.start.target import StartSystem, Target
 from nag.tracking.ends.follow import follow_whole
 from nag.tracking.evaluations import count_evaluations
 from nag.tracking.newton import refine
@@ -59,7 +59,7 @@ class WholePaths:
     others: tuple[Polynomial, ...]
     nonzero: tuple[Polynomial, ...]
     target: Target
-    begin: Start
+    begin: StartSystem
 
     @classmethod
     def of(cls, system: PolynomialSystem, seed: int) -> WholePaths:

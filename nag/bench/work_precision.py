@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.bench.reference import Found, Reference, joined
-from nag.bench.sharpening import Sharpened
+from nag.bench.sharpening import SharpeningCost
 from nag.bench.whole_paths import ARITHMETICS, WHOLE_TOLERANCES, WholePaths, tracked_in
 from nag.files.json_values import (
     as_count,
@@ -40,7 +40,7 @@ Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True)
-class Subject:
+class MeasuredCase:
     """A case to be measured.
 
     Attributes:
@@ -115,7 +115,7 @@ class Chart:
     path_proof: float
     proved_paths: int
     paths: int
-    sharpened: dict[str, tuple[Sharpened, ...]]
+    sharpened: dict[str, tuple[SharpeningCost, ...]]
 
 
 def timed(work: Callable[[], Any]) -> tuple[float, Any]:
@@ -249,7 +249,7 @@ def _chart(value: Any, place: str) -> Chart:
     sharpened = as_table(entry(table, "sharpened", place), f"{place}.sharpened")
     steps = {
         name: tuple(
-            Sharpened(**_fields(p, f"{place}.sharpened", ("steps",), ERRORS))
+            SharpeningCost(**_fields(p, f"{place}.sharpened", ("steps",), ERRORS))
             for p in as_list(points, f"{place}.sharpened")
         )
         for name, points in sharpened.items()

@@ -10,7 +10,7 @@ from nag.algebra.rational_function import FunctionField
 from nag.check.identities import Residuals, identity, labelled
 from nag.check.loops import axis_equations
 from nag.check.rings import euler_ring, intersect_in, unit
-from nag.check.statement import Kind, Verdict, decided, fails, statement
+from nag.check.statement import Verdict, VerdictKind, decided, fails, statement
 from nag.mechanism.axes import difference
 from nag.mechanism.quaternion import norm_squared, rotate
 from nag.symbolic import bennett, bennett_geometry
@@ -144,7 +144,7 @@ def constraint_11() -> Verdict:
     printed = constraints(OWN, a, b, moved, printed=True)
     true = constraints(OWN, a, b, moved)
     if printed[10:12] != [0, 0]:
-        return Verdict(Kind.OPEN, "the point does not satisfy what is printed")
+        return Verdict(VerdictKind.OPEN, "the point does not satisfy what is printed")
     if true[11] == 0:
         return decided(True, "the axes are parallel", "")
     return fails(

@@ -7,7 +7,7 @@ from typing import Any
 
 from nag.check.identities import Residuals, labelled, surviving
 from nag.check.loops import bennett_equations
-from nag.check.statement import Kind, Verdict, decided, fails, statement
+from nag.check.statement import Verdict, VerdictKind, decided, fails, statement
 from nag.mechanism.axes import difference
 from nag.symbolic import bennett, bennett_geometry
 
@@ -73,9 +73,9 @@ def equations() -> Verdict:
     values = bennett.variety_q5_zero((m0, m2), a[0], a[3], c[0], c[2], printed=True)
     true = bennett.variety_q5_zero((m0, m2), a[0], a[3], c[0], c[2])
     if any(true) or _at_the_point(_variety(False)):
-        return Verdict(Kind.OPEN, "the equations that were thought to be true fail")
+        return Verdict(VerdictKind.OPEN, "the equations that were thought to be true fail")
     if not any(values):
-        return Verdict(Kind.OPEN, "the equations hold at the initial configuration")
+        return Verdict(VerdictKind.OPEN, "the equations hold at the initial configuration")
     return fails(
         "true is the denominator (m0^2 - 1)^2 m2^2 + 4 m0^2, from (17): identity in m0, m2 and "
         "cos t with roots adjoined",
@@ -109,9 +109,9 @@ def last_entries() -> Verdict:
     off = [difference(printed, [s * x for x in b]) for s in (1, -1)]
     on = [difference(true, [s * x for x in b]) for s in (1, -1)]
     if _at_the_point(_mechanism(False)) or not any(not any(d) for d in on):
-        return Verdict(Kind.OPEN, "what was thought to be true fails")
+        return Verdict(VerdictKind.OPEN, "what was thought to be true fails")
     if any(not any(d) for d in off):
-        return Verdict(Kind.OPEN, "the formulas hold at the initial configuration")
+        return Verdict(VerdictKind.OPEN, "the formulas hold at the initial configuration")
     return fails(
         "true is the other way round: b_2 has -a_3 c_0 and b_3 has m2 (m0^2 - 1)/(2 m0) a_3 c_0, "
         "identically in m0, m2 and cos t",

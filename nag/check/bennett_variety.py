@@ -12,7 +12,7 @@ from nag.check.bennett_elimination import Parameters, everywhere, i_5, names
 from nag.check.identities import Residuals, identity, labelled, surviving
 from nag.check.loops import bennett_equations, bennett_mechanism
 from nag.check.rings import contains, smooth
-from nag.check.statement import Kind, Verdict, decided, fails, statement
+from nag.check.statement import Verdict, VerdictKind, decided, fails, statement
 from nag.mechanism.axes import difference
 from nag.mechanism.loops import gruebler_kutzbach
 from nag.symbolic import bennett, bennett_geometry
@@ -59,7 +59,7 @@ def second_form() -> Verdict:
         "in I_benn by division",
     )
     return Verdict(
-        found.kind if inside.kind is Kind.EXACT else inside.kind,
+        found.kind if inside.kind is VerdictKind.EXACT else inside.kind,
         f"{found.how}; {inside.how}",
         found.counterexample or inside.counterexample,
     )
@@ -193,7 +193,7 @@ def initial_point() -> Verdict:
     at = (Fraction(2), Fraction(3, 4), Fraction(1, 3), Fraction(5, 4))
     found = identity(M, _initial(True), at, (INITIAL,))
     if surviving(M, _initial(False), (INITIAL,)):
-        return Verdict(Kind.OPEN, "the point is neither with b nor with -b the initial one")
+        return Verdict(VerdictKind.OPEN, "the point is neither with b nor with -b the initial one")
     return fails(
         "true is: it is the initial point with -b_init for b_init, identically in m; as "
         "R(b) = R(-b), the same configuration",

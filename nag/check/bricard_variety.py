@@ -19,7 +19,7 @@ from nag.algebra.rational_function import FunctionField
 from nag.check.identities import Residuals, labelled, surviving
 from nag.check.loops import bricard_equations, bricard_mechanism, bricard_ring
 from nag.check.rings import contains, smooth
-from nag.check.statement import Kind, Verdict, decided, fails, statement
+from nag.check.statement import Verdict, VerdictKind, decided, fails, statement
 from nag.mechanism.axes import difference, dot
 from nag.mechanism.loops import gruebler_kutzbach
 from nag.mechanism.quaternion import rotate
@@ -111,12 +111,12 @@ def basis_of_the_mechanism() -> Verdict:
     point = _signed(signs)
     values = bricard_equations(point)
     if any(values):
-        return Verdict(Kind.OPEN, "the point does not satisfy the equations")
+        return Verdict(VerdictKind.OPEN, "the point does not satisfy the equations")
     whole = ideal(RING, bricard_equations(BODIES))
     part = component()
     copies = 2**5 // _stabiliser(part)
     if (whole.dimension, whole.degree) != (1, copies * part.degree):
-        return Verdict(Kind.OPEN, "the degrees of the components do not add up")
+        return Verdict(VerdictKind.OPEN, "the degrees of the components do not add up")
     return fails(
         f"true is: <h_0, .., h_18> is one of {copies} prime components, images of each other by "
         f"signs of bodies: degrees {copies} x {part.degree} = {whole.degree}, Groebner basis by "

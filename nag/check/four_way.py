@@ -20,8 +20,8 @@ from nag.algebra.groebner import Ideal, ideal
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_function import FunctionField
 from nag.check.identities import labelled, surviving
-from nag.check.known import Known, PaperComponent
-from nag.check.statement import Kind, Statement, Verdict, decided, holds
+from nag.check.known import KnownDecomposition, PaperComponent
+from nag.check.statement import Statement, Verdict, VerdictKind, decided, holds
 from nag.witness.witness import Decomposition, Status, WitnessSet
 
 # A witness point satisfies generators if it does so to this relative residual; they are told
@@ -43,7 +43,7 @@ class Compared:
         coordinates: from points of that to the papers' coordinates.
     """
 
-    known: Known
+    known: KnownDecomposition
     decompose: Decompose
     coordinates: Callable[[np.ndarray], np.ndarray] = np.asarray
 
@@ -111,15 +111,15 @@ def numerical(compared: Compared) -> Verdict:
     """Every witness point is a zero of exactly one component's generators."""
     answer = compared.decomposition
     if not answer.complete:
-        return Verdict(Kind.OPEN, "the decomposition is incomplete")
+        return Verdict(VerdictKind.OPEN, "the decomposition is incomplete")
     hits = [found for _, found, _ in compared.matches]
     if sorted(hits) != [[i] for i in range(len(compared.ideals))]:
         text = f"{len(answer.components)} components found, on {hits} of the papers'"
-        return Verdict(Kind.FAILS, "components do not match one to one", text)
+        return Verdict(VerdictKind.FAILS, "components do not match one to one", text)
     worst = max(r for _, _, r in compared.matches)
     count = sum(len(c.points) for c in answer.components)
     return Verdict(
-        Kind.NUMERICAL,
+        VerdictKind.NUMERICAL,
         f"{count} witness points, each on one of {len(compared.ideals)}",
         digits=digits(worst),
     )
@@ -135,7 +135,7 @@ def converse(compared: Compared) -> Verdict:
     return holds(f"identities in {', '.join(sorted(' '.join(names).split()))}")
 
 
-def _not_vanishing(known: Known, component: PaperComponent) -> list[str]:
+def _not_vanishing(known: KnownDecomposition, component: PaperComponent) -> list[str]:
     given = component.parametrisation
 
     def residuals(*x: Any) -> dict[str, Any]:
@@ -153,7 +153,7 @@ def dimension_and_degree(compared: Compared) -> Verdict:
         here = (component.dimension, component.degree)
         there = [(compared.ideals[i].dimension, compared.ideals[i].degree) for i in hits]
         if component.status is not Status.IRREDUCIBLE:
-            return Verdict(Kind.OPEN, component.note or "a component is undecided")
+            return Verdict(VerdictKind.OPEN, component.note or "a component is undecided")
         if there != [here]:
             return decided(False, "", f"{here} found, {there} by Groebner bases")
         rows.append(here)
@@ -161,7 +161,7 @@ def dimension_and_degree(compared: Compared) -> Verdict:
         f"{rows.count(row)} of dimension {row[0]}, degree {row[1]}" for row in sorted(set(rows))
     )
     how = f"{text}: witness sets with a trace test, and Groebner bases by FLINT"
-    return Verdict(Kind.NUMERICAL, how)
+    return Verdict(VerdictKind.NUMERICAL, how)
 
 
 def reduction(compared: Compared) -> Verdict:
@@ -183,7 +183,7 @@ WAYS = (
 
 
 def four_ways(
-    known: Known,
+    known: KnownDecomposition,
     decompose: Decompose,
     coordinates: Callable[[np.ndarray], np.ndarray] = np.asarray,
 ) -> tuple[Statement, ...]:

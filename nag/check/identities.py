@@ -8,7 +8,7 @@ from typing import Any
 
 from nag.algebra.groebner import divisor, remainder
 from nag.algebra.rational_function import FunctionField, RationalFunction
-from nag.check.statement import Kind, Verdict, fails, holds
+from nag.check.statement import Verdict, VerdictKind, fails, holds
 
 # Label of what must vanish, and its value.
 Residuals = Mapping[str, Any]
@@ -66,7 +66,9 @@ def misprinted(names: str, printed: Formula, mended: Formula, at: Sequence[Fract
     if not kept:
         return holds(f"identity in {', '.join(names.split())}")
     if surviving(names, mended):
-        return Verdict(Kind.OPEN, "neither what is printed nor what was thought to be true holds")
+        return Verdict(
+            VerdictKind.OPEN, "neither what is printed nor what was thought to be true holds"
+        )
     text = f"mended, it is an identity in {', '.join(names.split())}"
     return fails(text, counterexample(names, printed, at, kept))
 

@@ -45,7 +45,7 @@ class PaperComponent:
 
 
 @dataclass(frozen=True)
-class Known:
+class KnownDecomposition:
     """A system and all its components.
 
     Attributes:

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from nag.check.known import (
-    Known,
+    KnownDecomposition,
     PaperComponent,
     Parameters,
     Parametrisation,
@@ -65,7 +65,7 @@ def modes(a: Any, b: Any) -> tuple[str, ...]:
     return ("parallelogram", "antiparallelogram")
 
 
-def free_four_bar(p: Parameters) -> Known:
+def free_four_bar(p: Parameters) -> KnownDecomposition:
     """All four bars may turn."""
     a, b = p["a"], p["b"]
 
@@ -79,7 +79,7 @@ def free_four_bar(p: Parameters) -> Known:
             Parametrisation("t z", point),
         )
 
-    return Known(
+    return KnownDecomposition(
         "four-bar",
         four_bar.VARIABLES,
         lambda v: four_bar.four_bar(a, b, v[::2], v[1::2]),
@@ -87,7 +87,7 @@ def free_four_bar(p: Parameters) -> Known:
     )
 
 
-def fixed_four_bar(p: Parameters) -> Known:
+def fixed_four_bar(p: Parameters) -> KnownDecomposition:
     """Bar 0 is fixed."""
     a, b = p["a"], p["b"]
 
@@ -102,7 +102,7 @@ def fixed_four_bar(p: Parameters) -> Known:
             Parametrisation("t", lambda t: flat(bars(which, a, b, t)[1:])),
         )
 
-    return Known(
+    return KnownDecomposition(
         "four-bar, bar 0 fixed",
         four_bar.VARIABLES[2:],
         lambda v: four_bar.four_bar(a, b, *all_bars(v)),
@@ -110,7 +110,7 @@ def fixed_four_bar(p: Parameters) -> Known:
     )
 
 
-def two_four_bars(p: Parameters) -> Known:
+def two_four_bars(p: Parameters) -> KnownDecomposition:
     """PT13 (9)."""
     a, b = p["a"], p["b"]
 
@@ -137,7 +137,7 @@ def two_four_bars(p: Parameters) -> Known:
             f"{place}: {first} and {second}", generators, Parametrisation("t z", point)
         )
 
-    return Known(
+    return KnownDecomposition(
         "two four-bars",
         four_bar.TWO_VARIABLES,
         lambda v: four_bar.two_four_bars(a, b, v[::2], v[1::2]),
@@ -156,7 +156,7 @@ GONZALEZ_CURVES = {
 }
 
 
-def gonzalez(p: Parameters) -> Known:
+def gonzalez(p: Parameters) -> KnownDecomposition:
     """PT13 section 7.2: two rhombi between fixed bars."""
 
     def all_bars(v: Values) -> tuple[list[Any], list[Any]]:
@@ -182,7 +182,7 @@ def gonzalez(p: Parameters) -> Known:
 
         return PaperComponent(f"PT13 7.2: {name}", generators, Parametrisation("t", point))
 
-    return Known(
+    return KnownDecomposition(
         "two rhombi between fixed bars",
         four_bar.GONZALEZ_VARIABLES,
         lambda v: four_bar.gonzalez(*all_bars(v)),
@@ -190,7 +190,7 @@ def gonzalez(p: Parameters) -> Known:
     )
 
 
-def slider(p: Parameters) -> Known:
+def slider(p: Parameters) -> KnownDecomposition:
     """PT13 (15)."""
     lengths = slider_crank.LENGTHS
 
@@ -210,7 +210,7 @@ def slider(p: Parameters) -> Known:
         lambda v: slider_crank.equations(lengths, *split(v)),
         Parametrisation("s1 s2", point, roots),
     )
-    return Known(
+    return KnownDecomposition(
         "slider crank",
         tuple(f"{x}{i}" for i in (1, 2, 3) for x in "cs"),
         lambda v: slider_crank.equations(lengths, *split(v)),

@@ -7,7 +7,14 @@ from fractions import Fraction
 from typing import Any
 
 from nag.check.identities import Root
-from nag.check.known import Known, PaperComponent, Parameters, Parametrisation, Values, circle
+from nag.check.known import (
+    KnownDecomposition,
+    PaperComponent,
+    Parameters,
+    Parametrisation,
+    Values,
+    circle,
+)
 from nag.symbolic import bennett, bricard, triangle
 from nag.symbolic.bennett_geometry import abbreviations
 
@@ -29,7 +36,7 @@ def has_variety(p: Parameters) -> bool:
     return in_omega(m) and abbreviations(m)["q5"] != 0
 
 
-def three_bars(p: Parameters) -> Known:
+def three_bars(p: Parameters) -> KnownDecomposition:
     """PT13 5.2."""
     L1, L2 = p["L1"], p["L2"]
     alpha = triangle.constants(L1, L2)
@@ -51,7 +58,7 @@ def three_bars(p: Parameters) -> Known:
         lambda v: triangle.basis(L1, L2, v[:4], v[4:]),
         Parametrisation("a1 a3 b1", point, roots),
     )
-    return Known(
+    return KnownDecomposition(
         "three bars",
         tuple(f"{x}{i}" for x in "ab" for i in range(4)),
         lambda v: triangle.equations(L1, L2, v[:4], v[4:]),
@@ -59,7 +66,7 @@ def three_bars(p: Parameters) -> Known:
     )
 
 
-def graph(p: Parameters) -> Known:
+def graph(p: Parameters) -> KnownDecomposition:
     """PT13 (2)."""
 
     def equations(v: Values) -> list[Any]:
@@ -71,7 +78,7 @@ def graph(p: Parameters) -> Known:
         return [x, y, 4 * x**4 + 3 * y**3 + x * y + 4]
 
     component = PaperComponent("PT13 (2)", equations, Parametrisation("t", point))
-    return Known("graph over the circle", ("x", "y", "z"), equations, (component,))
+    return KnownDecomposition("graph over the circle", ("x", "y", "z"), equations, (component,))
 
 
 BRICARD_ROOTS = (
@@ -81,7 +88,7 @@ BRICARD_ROOTS = (
 )
 
 
-def bricards_variety(p: Parameters) -> Known:
+def bricards_variety(p: Parameters) -> KnownDecomposition:
     """T25 section 4, I_bric."""
 
     def equations(v: Values) -> list[Any]:
@@ -93,7 +100,7 @@ def bricards_variety(p: Parameters) -> Known:
     component = PaperComponent(
         "T25 section 4", equations, Parametrisation("cos", point, BRICARD_ROOTS)
     )
-    return Known("Bricard's variety", ("a0", "a2", "c2"), equations, (component,))
+    return KnownDecomposition("Bricard's variety", ("a0", "a2", "c2"), equations, (component,))
 
 
 def bennett_roots(m: Sequence[Any]) -> tuple[Root, ...]:
@@ -106,7 +113,7 @@ def bennett_roots(m: Sequence[Any]) -> tuple[Root, ...]:
     )
 
 
-def bennetts_variety(p: Parameters) -> Known:
+def bennetts_variety(p: Parameters) -> KnownDecomposition:
     """T25 section 6, I_benn."""
     m = (p["m0"], p["m1"], p["m2"])
 
@@ -119,4 +126,6 @@ def bennetts_variety(p: Parameters) -> Known:
     component = PaperComponent(
         "T25 (17)", equations, Parametrisation("cos", point, bennett_roots(m))
     )
-    return Known("Bennett's variety", ("a0", "a2", "c0", "c2"), equations, (component,))
+    return KnownDecomposition(
+        "Bennett's variety", ("a0", "a2", "c0", "c2"), equations, (component,)
+    )

@@ -28,7 +28,7 @@ from nag.check.loops import (
     bricard_mechanism,
 )
 from nag.check.rings import euler_ring
-from nag.check.statement import Kind, Statement, Verdict, decided
+from nag.check.statement import Statement, Verdict, VerdictKind, decided
 from nag.mechanism.axes import difference, dot
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import Model, model
@@ -170,13 +170,13 @@ def numerical(compared: ComparedMechanism) -> Verdict:
     """Every witness point lifts to a zero of the generators."""
     answer = compared.decomposition
     if not answer.complete:
-        return Verdict(Kind.OPEN, "the decomposition is incomplete")
+        return Verdict(VerdictKind.OPEN, "the decomposition is incomplete")
     points = [p for c in answer.components for p in c.points]
     worst = max((compared.residual(p) for p in points), default=1.0)
     if worst > RESIDUAL:
         return decided(False, "", f"a witness point leaves a residual of {worst:.1e}")
     how = f"{len(points)} witness points in half-angles, lifted, up to the signs of bodies"
-    return Verdict(Kind.NUMERICAL, how, digits=digits(worst))
+    return Verdict(VerdictKind.NUMERICAL, how, digits=digits(worst))
 
 
 def converse(compared: ComparedMechanism) -> Verdict:
@@ -199,14 +199,14 @@ def dimension_and_degree(compared: ComparedMechanism) -> Verdict:
     answer, part = compared.decomposition, compared.ideal
     undecided = [c for c in answer.components if c.status is not Status.IRREDUCIBLE]
     if undecided:
-        return Verdict(Kind.OPEN, undecided[0].note or "a component is undecided")
+        return Verdict(VerdictKind.OPEN, undecided[0].note or "a component is undecided")
     found = [(c.dimension, c.degree) for c in answer.components]
     exact = degree_in_half_angles(compared.model.system)
     here, wanted = sum(d for _, d in found), {(part.dimension, exact)}
     if {(dim, here) for dim, _ in found} != wanted or len(found) != 1:
         return decided(False, "", f"{found} found, {sorted(wanted)} by Groebner bases")
     return Verdict(
-        Kind.NUMERICAL,
+        VerdictKind.NUMERICAL,
         f"dimension {part.dimension} in both; degree {exact} in half-angles, by a trace test and "
         f"by a Groebner basis; degree {part.degree} in Euler parameters",
     )

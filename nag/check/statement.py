@@ -9,7 +9,7 @@ from enum import StrEnum
 from nag.algebra.groebner import UnfinishedBasis
 
 
-class Kind(StrEnum):
+class VerdictKind(StrEnum):
     """What is known of a statement."""
 
     EXACT = "holds exactly"
@@ -29,7 +29,7 @@ class Verdict:
         digits: of a numerical answer about equations, to how many digits they hold.
     """
 
-    kind: Kind
+    kind: VerdictKind
     how: str
     counterexample: str = ""
     digits: int | None = None
@@ -56,7 +56,7 @@ class Statement:
         try:
             return self.decide()
         except UnfinishedBasis as error:
-            return Verdict(Kind.OPEN, str(error))
+            return Verdict(VerdictKind.OPEN, str(error))
 
 
 def statement(
@@ -72,12 +72,12 @@ def statement(
 
 def holds(how: str) -> Verdict:
     """It holds exactly."""
-    return Verdict(Kind.EXACT, how)
+    return Verdict(VerdictKind.EXACT, how)
 
 
 def fails(how: str, counterexample: str) -> Verdict:
     """It fails at an exact point; ``how`` says what is true."""
-    return Verdict(Kind.FAILS, how, counterexample)
+    return Verdict(VerdictKind.FAILS, how, counterexample)
 
 
 def decided(true: bool, how: str, otherwise: str) -> Verdict:

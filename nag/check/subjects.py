@@ -30,7 +30,7 @@ from nag.check import (
     triangle,
 )
 from nag.check.four_way import Decompose, as_polynomial
-from nag.check.known import Known, parameter_text
+from nag.check.known import KnownDecomposition, parameter_text
 from nag.check.mechanisms import KnownMechanism, bennett_parameters
 from nag.check.planar_mechanism import equal_sides
 from nag.check.statement import Statement
@@ -93,7 +93,7 @@ class SystemFamily:
 
     subject: str
     parameters: tuple[str, ...]
-    build: Callable[[Parameters], Known]
+    build: Callable[[Parameters], KnownDecomposition]
     examples: tuple[tuple[str, ...], ...] = ((),)
     admissible: Callable[[Parameters], bool] = lambda given: True
 
@@ -169,13 +169,15 @@ def everything(decompose: Decompose) -> list[tuple[str, tuple[Statement, ...]]]:
     return found
 
 
-def _named(family: SystemFamily, given: Parameters) -> Known:
+def _named(family: SystemFamily, given: Parameters) -> KnownDecomposition:
     """The family at given parameters, which its name says."""
     known = family.build(given)
     if not given:
         return known
     text = parameter_text(", ".join(f"{k} = {v}" for k, v in given.items()))
-    return Known(f"{known.name}, {text}", known.variables, known.equations, known.components)
+    return KnownDecomposition(
+        f"{known.name}, {text}", known.variables, known.equations, known.components
+    )
 
 
 def recognised(case: Case, decompose: Decompose) -> Recognised | None:
@@ -234,7 +236,7 @@ def same_mechanism(left: Mechanism, right: Mechanism) -> bool:
     return len(set(names.values())) == len(names)
 
 
-def _same_system(case: Case, known: Known) -> bool:
+def _same_system(case: Case, known: KnownDecomposition) -> bool:
     """Whether the equations are the same up to order and constant factors."""
     if case.system is None or set(case.system.variables) != set(known.variables):
         return False

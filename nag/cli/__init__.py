@@ -6,10 +6,10 @@ is what those that work with components begin with; `sweep` belongs to `decompos
 as ``bench`` and ``chart`` do to these. Only `nag.__main__` imports this package.
 
 Each command has ``add_arguments(parser)`` and ``run(options)``, which turns the options into a call
-and hands back a `running.Answer`: the lines to print, whether it is complete, and the document that
-``--json`` writes. `running.answer_of` makes one of a title, rows and the document's own fields; the
-documents of `decompose`, `solve` and `certify` are made in `nag.files`, that of `eliminate` in
-`nag.report`.
+and hands back a `running.CommandAnswer`: the lines to print, whether it is complete, and the
+document that ``--json`` writes. `running.answer_of` makes one of a title, rows and the document's
+own fields; the documents of `decompose`, `solve` and `certify` are made in `nag.files`, that of
+`eliminate` in `nag.report`.
 
 To add a command, write such a file, enter it in `command_line.COMMANDS` and the README; what it
 exports has a ``format`` and its schema in the folder `nag/files/schema`, to which
@@ -19,7 +19,7 @@ The way of ``nag decompose cases/bennett.toml`` from the command to the table le
 `cli/command_line`, `cli/running`, `cli/decompose`, `cli/arguments`; `files/cases`,
 `files/mechanism_case`; `mechanism/graph`, `mechanism/problem`, `mechanism/model`,
 `mechanism/loops`, `mechanism/formulations`, `mechanism/half_angles`, `mechanism/loop_product`,
-`mechanism/joint_factors`; `algebra/system`; `tracking/run`; `decomposition/components`,
+`mechanism/joint_factors`; `algebra/system`; `tracking/run`; `decomposition/decompose`,
 `decomposition/method`; `decomposition/independent_parts` and `decomposition/branch_components`,
 which leave it to the next; `decomposition/one_equation`, `decomposition/reduction`,
 `decomposition/roots`, `decomposition/final_checks`; `witness/witness`; `report/answer`,

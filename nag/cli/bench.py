@@ -8,7 +8,7 @@ from pathlib import Path
 
 from nag.cli import bench_decompose, bench_models
 from nag.cli.arguments import UsageError, add_quiet, problem_of_case, read_case_file, whole
-from nag.cli.running import Answer
+from nag.cli.running import CommandAnswer
 
 FOLDER = Path("cases") / "benchmarks"
 # Another program is given up after so many seconds.
@@ -89,7 +89,7 @@ def files(names: list[str] | None, folder: str) -> list[Path]:
     return result
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """The benchmarks; complete if all counts are right."""
     if options.what == "models":
         return bench_models.run(options)
@@ -124,7 +124,7 @@ def run(options: argparse.Namespace) -> Answer:
     documents = {
         name: {p: peer.document() for p, peer in found.items()} for name, found in peers.items()
     }
-    return Answer(
+    return CommandAnswer(
         table(rows, peers, programs, rate),
         all(row.right for row in rows),
         lambda: as_json(rows, rate, documents),

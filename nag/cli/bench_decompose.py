@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import UsageError, problem_of_case, read_case_file
-from nag.cli.running import Answer
+from nag.cli.running import CommandAnswer
 
 if TYPE_CHECKING:
     from nag.bench.decomposition import Decomposed, PeerDecomposed
@@ -56,7 +56,7 @@ def _chain(text: str) -> int:
     return int(text)
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """Decompositions or their growth; complete if all answers are right."""
     from nag.files.written_file import TargetError, check_target
 
@@ -85,7 +85,7 @@ def run(options: argparse.Namespace) -> Answer:
     else:
         rows, peers = _cases(options)
         lines = decomposition_table(rows, peers)
-    return Answer(lines, all(row.right for row in rows), lambda: as_json(rows, peers))
+    return CommandAnswer(lines, all(row.right for row in rows), lambda: as_json(rows, peers))
 
 
 def _cases(options: argparse.Namespace) -> tuple[list[Decomposed], dict[str, PeerDecomposed]]:

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 from nag.cli.arguments import UsageError, read_case_file
-from nag.cli.running import Answer
+from nag.cli.running import CommandAnswer
 
 FOLDER = Path("cases")
 # A formulation is given up after so many seconds.
@@ -35,7 +35,7 @@ def files(names: list[str] | None, folder: str) -> list[Path]:
     return paths
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """Formulations side by side; complete if every answer that came is."""
     from nag.bench.models import measure_models, measure_parts, measure_table
     from nag.bench.table import models_table
@@ -61,4 +61,4 @@ def run(options: argparse.Namespace) -> Answer:
             raise UsageError(f"{path}: {error}") from None
     document = {"format": "nag-bench-models", "rows": [r.document() for r in rows]}
     complete = all(r.complete for r in rows if r.paths is not None)
-    return Answer(models_table(rows), complete, lambda: json.dumps(document) + "\n")
+    return CommandAnswer(models_table(rows), complete, lambda: json.dumps(document) + "\n")

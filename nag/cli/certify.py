@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import add_quiet
-from nag.cli.running import Answer
+from nag.cli.running import CommandAnswer
 
 if TYPE_CHECKING:
     from nag.numerics.claims import Claim
@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_quiet(parser)
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """What is proved of an export."""
     from nag.algebra.system import system_line
     from nag.files.certificate_export import certificate_document
@@ -48,7 +48,7 @@ def run(options: argparse.Namespace) -> Answer:
     found, title, lost = read_file(options.export, _read_result)
     proved = certify_result(found, options.paths, lost)
     rows = [("system", system_line(found.system)), *proved.rows]
-    return Answer(
+    return CommandAnswer(
         sheet(title, rows),
         proved.all_proved,
         lambda: certificate_document(proved.certificate, proved.claims, proved.paths),

@@ -6,7 +6,7 @@ import argparse
 
 from nag.cli import chart_speed, chart_stability
 from nag.cli.arguments import Parser
-from nag.cli.running import Answer
+from nag.cli.running import CommandAnswer
 
 
 def add_arguments(parser: Parser) -> None:
@@ -18,7 +18,7 @@ def add_arguments(parser: Parser) -> None:
         command.set_defaults(of_chart=module)
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """A chart; complete if all answers were right."""
     return options.of_chart.run(options)
 

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 from nag.cli.arguments import UsageError, problem_of_case, read_case_file, whole
 from nag.cli.chart_files import check_targets, write_picture, write_text
-from nag.cli.running import Answer
+from nag.cli.running import CommandAnswer
 
 if TYPE_CHECKING:
-    from nag.bench.work_precision import Chart, Subject
+    from nag.bench.work_precision import Chart, MeasuredCase
 
 FOLDERS = (Path("cases"), Path("cases/benchmarks"), Path("cases/hard"))
 # A system of the atlas: eight pairs of solutions at distances of 1e-8.
@@ -59,7 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """Measured or read; complete if default settings found everything.
 
     Raises:
@@ -85,7 +85,7 @@ def run(options: argparse.Namespace) -> Answer:
     lines += ["", "ratio: the other program's processor time over ours; in brackets where one of"]
     lines.append(f"the two did not find all solutions to 1e-12; * {SCALED}")
     right = all(p.share == 1 for chart in charts for p in _default(chart))
-    return Answer(lines, right)
+    return CommandAnswer(lines, right)
 
 
 def _default(chart: Chart) -> list:
@@ -120,8 +120,8 @@ def _run(options: argparse.Namespace) -> list[Chart]:
     return charts
 
 
-def _subject(name: str) -> Subject:
-    from nag.bench.work_precision import Subject
+def _subject(name: str) -> MeasuredCase:
+    from nag.bench.work_precision import MeasuredCase
 
     if name == CLUSTER:
         import numpy as np
@@ -129,7 +129,7 @@ def _subject(name: str) -> Subject:
         from nag.bench.atlas.points import cluster
 
         problem = cluster((3, 2, 8), np.random.default_rng(0))
-        return Subject(name, problem.system, False, ((0, 1, 16),))
+        return MeasuredCase(name, problem.system, False, ((0, 1, 16),))
 
     path = Path(name)
     if not name.endswith(".toml"):
@@ -139,4 +139,4 @@ def _subject(name: str) -> Subject:
     problem = problem_of_case(case)
     known = case.known_in(problem.formulation)
     degrees = tuple((t.dimension, t.degree, t.count) for t in known)
-    return Subject(path.stem, problem.system, any(d for d, _, _ in degrees), degrees)
+    return MeasuredCase(path.stem, problem.system, any(d for d, _, _ in degrees), degrees)

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from nag.cli.arguments import SETTINGS, UsageError, whole
 from nag.cli.chart_files import check_targets, write_picture, write_text
-from nag.cli.running import Answer
+from nag.cli.running import CommandAnswer
 
 if TYPE_CHECKING:
-    from nag.bench.atlas.stability import Atlas, Row
+    from nag.bench.atlas.stability import Atlas, FamilyRow
 
 KEPT = Path(__file__).parents[1] / "bench" / "charts" / "stability.json"
 
@@ -52,7 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """The atlas, run or read; complete if no answer was wrong.
 
     Raises:
@@ -85,7 +85,7 @@ def run(options: argparse.Namespace) -> Answer:
     if before is not None and options.data is None:
         told = list(changes(atlas, before))
         lines += ["", *(told or ["nothing changed against the atlas that is kept"])]
-    return Answer(lines, atlas.wrong == 0)
+    return CommandAnswer(lines, atlas.wrong == 0)
 
 
 def _read(path: str) -> Atlas:
@@ -110,7 +110,7 @@ def _run(options: argparse.Namespace) -> Atlas:
         text = f"the family {moved[0]!r} needs the folder {CASES}; run it where that is"
         raise UsageError(text)
 
-    def progress(row: Row) -> None:
+    def progress(row: FamilyRow) -> None:
         if not options.quiet:
             wrong = sum(c.wrong for c in row.cells)
             print(f"{row.name}: {wrong} wrong", file=sys.stderr, flush=True)

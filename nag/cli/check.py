@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_parameters, add_tracking, read_case_file
-from nag.cli.running import Answer, Progress, chosen_run, run_row
+from nag.cli.running import CommandAnswer, Progress, chosen_run, run_row
 
 if TYPE_CHECKING:
     from nag.check.statement import Statement, Verdict
@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_tracking(parser)
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """The papers' statements; complete if all are decided as expected."""
     if options.all == (options.case is not None):
         raise UsageError("give either a case file or --all, and not both")
@@ -38,12 +38,12 @@ def run(options: argparse.Namespace) -> Answer:
     lines = [line for title, pairs in decided for line in section(title, pairs)]
     pairs = [pair for _, rows in decided for pair in rows]
     lines += labelled([("answer", summary(pairs)), run_row(options)])
-    return Answer(lines, all(is_as_expected(*pair) for pair in pairs))
+    return CommandAnswer(lines, all(is_as_expected(*pair) for pair in pairs))
 
 
 def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[Statement, ...]]]:
     from nag.check.subjects import WITH_CASES, everything, recognised
-    from nag.decomposition.components import decompose
+    from nag.decomposition.decompose import decompose
 
     def decomposed(system: Any) -> Any:
         return decompose(system, run=chosen_run(options))

@@ -15,7 +15,7 @@ from nag.cli.arguments import (
     whole,
 )
 from nag.cli.certify import proof_asked_for
-from nag.cli.running import Answer, chosen_run, run_row
+from nag.cli.running import CommandAnswer, chosen_run, run_row
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of
 
@@ -77,7 +77,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(arguments: argparse.Namespace) -> Answer:
+def run(arguments: argparse.Namespace) -> CommandAnswer:
     """The irreducible components of a case."""
     if arguments.sweep is not None:
         return run_sweep(arguments)
@@ -97,7 +97,7 @@ def run(arguments: argparse.Namespace) -> Answer:
         decomposition = expanded(decomposition)
     points = through_points(decomposition, problem.named, arguments.threads)
     decomposition = note_doubts(decomposition, points)
-    return Answer(
+    return CommandAnswer(
         answer_lines(decomposition, case, problem, points, run_row(arguments)),
         decomposition.complete,
         lambda: document(decomposition, Origin.of(case, problem)),
@@ -149,7 +149,7 @@ def _decompose(arguments: argparse.Namespace, problem: Problem) -> tuple[Problem
     return carry_to_euler(problem, decomposition, threads=arguments.threads)
 
 
-def _all_modes(arguments: argparse.Namespace, case: Case) -> Answer:
+def _all_modes(arguments: argparse.Namespace, case: Case) -> CommandAnswer:
     """Decompose one combination of modes of each class, as `run` does the one of the reference."""
     from nag.files.export import modes_document
     from nag.mechanism.mode_decomposition import decompose_modes
@@ -166,4 +166,4 @@ def _all_modes(arguments: argparse.Namespace, case: Case) -> Answer:
     except ModelError as error:
         raise UsageError(f"{arguments.case}: {error}") from None
     lines = modes_lines(answer, case.title, run_row(arguments))
-    return Answer(lines, answer.complete, lambda: modes_document(answer, case))
+    return CommandAnswer(lines, answer.complete, lambda: modes_document(answer, case))

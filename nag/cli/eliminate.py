@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, read_case_file, read_problem, whole
-from nag.cli.running import Answer, answer_of, chosen_run, name_case
+from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
 from nag.cli.witness_input import (
     add_component,
     add_input,
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from nag.files.cases import Case
-    from nag.interpolation.point_cloud import Ambient, Cloud
+    from nag.interpolation.point_cloud import AmbientVariables, Cloud
     from nag.interpolation.precise_samples import Source
     from nag.mechanism.problem import Problem
     from nag.witness.witness import WitnessSet
@@ -67,7 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """Equations of a component's image, and maps to the other variables."""
     if options.at is not None and options.component is not None:
         raise UsageError("--at: --component names a component already; give one of the two")
@@ -157,7 +157,7 @@ def _begin(options: argparse.Namespace) -> Begun:
     """
     import numpy as np
 
-    from nag.interpolation.point_cloud import Ambient, Cloud
+    from nag.interpolation.point_cloud import AmbientVariables, Cloud
     from nag.interpolation.precise_samples import SourceError, source_of_component
     from nag.report.model import body_rows
 
@@ -178,7 +178,7 @@ def _begin(options: argparse.Namespace) -> Begun:
     number = options.component or 1
     component = component_of(found, number, "--component")
     system = found.decomposition.system
-    ambient = Ambient.itself(system) if problem is None else _ambient(problem)
+    ambient = AmbientVariables.itself(system) if problem is None else _ambient(problem)
     if component.dimension == 0:
         raise SourceError("the component is a point; there is nothing to eliminate from")
     top = [numbered_row(number, component), *top]
@@ -230,13 +230,13 @@ def _through_point(
     return name_case(case), Cloud(source, ambient, rng, run), top, [], {}
 
 
-def _ambient(problem: Problem) -> Ambient:
+def _ambient(problem: Problem) -> AmbientVariables:
     """All variables of a mechanism, where linear equations left only some in its system."""
-    from nag.interpolation.point_cloud import Ambient
+    from nag.interpolation.point_cloud import AmbientVariables
 
     made = problem.mechanism
     elimination = None if made is None else getattr(made.form, "elimination", None)
     if elimination is None or elimination.system.variables != problem.system.variables:
-        return Ambient.itself(problem.system)
+        return AmbientVariables.itself(problem.system)
     names, kept = elimination.original_variables, elimination.kept
-    return Ambient.of(problem.system, names, kept, elimination.images)
+    return AmbientVariables.of(problem.system, names, kept, elimination.images)

@@ -6,7 +6,7 @@ import argparse
 from dataclasses import asdict
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import Answer, answer_of, chosen_run
+from nag.cli.running import CommandAnswer, answer_of, chosen_run
 from nag.cli.witness_input import (
     add_input,
     component_facts,
@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """The intersection of two components."""
     from nag.decomposition.intersection import IntersectionError, intersect_components
     from nag.files.export import component_document

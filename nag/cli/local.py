@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_case, add_running, read_problem
-from nag.cli.running import Answer, answer_of, chosen_run, name_case
+from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
 from nag.cli.witness_input import Points, add_point, chosen_point
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """The local dimension at points."""
     case, problem = read_problem(options)
     from nag.algebra.number import number_text

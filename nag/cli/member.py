@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import Answer, answer_of, chosen_run
+from nag.cli.running import CommandAnswer, answer_of, chosen_run
 from nag.cli.witness_input import (
     ONE_POINT,
     add_input,
@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_point(parser)
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """Which components a point lies on."""
     import numpy as np
 

@@ -12,7 +12,7 @@ from nag.cli.arguments import (
     read_case_file,
     read_problem,
 )
-from nag.cli.running import Answer, answer_of, chosen_run, name_case
+from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
 from nag.cli.witness_input import point_at
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """How a mechanism moves at a configuration."""
     case, problem = _read_moving(options)
     at = None if options.at is None else point_at(options.at, problem.system.variables)

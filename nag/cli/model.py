@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from nag.cli.arguments import add_case, read_problem
-from nag.cli.running import Answer
+from nag.cli.running import CommandAnswer
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -13,8 +13,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_case(parser)
 
 
-def run(arguments: argparse.Namespace) -> Answer:
+def run(arguments: argparse.Namespace) -> CommandAnswer:
     """The polynomial system of a case."""
     from nag.report.answer import model_lines
 
-    return Answer(model_lines(*read_problem(arguments)))
+    return CommandAnswer(model_lines(*read_problem(arguments)))

@@ -28,7 +28,7 @@ _ERASE = "\r\x1b[K"
 
 
 # No dataclass: loading those takes a fifth of the time of `nag --help`.
-class Answer(NamedTuple):
+class CommandAnswer(NamedTuple):
     """What a command hands back.
 
     Attributes:
@@ -55,7 +55,7 @@ def answer_of(
     rests_on: Sequence[str] = ("seed", "settings"),
     said: str = "",
     width: int = 0,
-) -> Answer:
+) -> CommandAnswer:
     """An answer whose document begins, and whose lines end, as those of all commands do.
 
     Args:
@@ -74,7 +74,7 @@ def answer_of(
     head = {"format": fields["format"], "version": 1, "case": {"title": case[0], "file": case[1]}}
     document = head | chosen | {"complete": complete} | fields
     lines = sheet(case[0], *blocks, [*tail, run_row(options, rests_on, said)], width=width)
-    return Answer(lines, complete, lambda: document)
+    return CommandAnswer(lines, complete, lambda: document)
 
 
 def name_case(case: Case) -> tuple[str, str]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import whole
-from nag.cli.running import Answer, answer_of, chosen_run
+from nag.cli.running import CommandAnswer, answer_of, chosen_run
 from nag.cli.witness_input import (
     add_component,
     add_input,
@@ -42,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """Points of a component."""
     from nag.text.json_text import pairs
     from nag.text.table import magnitude

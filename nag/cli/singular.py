@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from nag.cli.arguments import UsageError, read_case_file
-from nag.cli.running import Answer, answer_of, chosen_run, name_case
+from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
 from nag.cli.witness_input import (
     add_component,
     add_input,
@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """Singular points of components, or the parameters for which there are any."""
     if options.free is not None:
         return _for_parameters(options)
@@ -66,7 +66,7 @@ def run(options: argparse.Namespace) -> Answer:
     return answer_of(options, found.case, blocks, tail, fields, locus.complete and whole.complete)
 
 
-def _for_parameters(options: argparse.Namespace) -> Answer:
+def _for_parameters(options: argparse.Namespace) -> CommandAnswer:
     """For which parameters there are singular points: they are solved for as well."""
     from nag.decomposition.singular_members import singular_parameters
     from nag.files.cases import freed_system

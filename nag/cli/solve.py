@@ -6,7 +6,7 @@ import argparse
 
 from nag.cli.arguments import UsageError, add_case, add_certify, add_running, read_problem
 from nag.cli.certify import proof_asked_for
-from nag.cli.running import Answer, chosen_run, name_case, run_row
+from nag.cli.running import CommandAnswer, chosen_run, name_case, run_row
 from nag.solving.start import ASKED_FOR
 
 
@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> Answer:
+def run(options: argparse.Namespace) -> CommandAnswer:
     """All isolated solutions of a case."""
     from nag.errors import StartError
     from nag.files.solutions_export import document
@@ -35,7 +35,7 @@ def run(options: argparse.Namespace) -> Answer:
         result = problem.solve(start=options.start, run=chosen_run(options))
     except StartError as error:
         raise UsageError(f"{options.case}: {error}") from None
-    return Answer(
+    return CommandAnswer(
         solution_lines(result, case, problem, run_row(options, places=2)),
         result.complete,
         lambda: document(result, *name_case(case)),

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from nag.cli.arguments import UsageError, read_problem
-from nag.cli.running import Answer, chosen_run, run_row
+from nag.cli.running import CommandAnswer, chosen_run, run_row
 
 MOST_VALUES = 1000
 _NUMBER = re.compile(r"[+-]?[0-9]{1,15}(\.[0-9]{1,15}|/[0-9]{1,15})?")
@@ -48,7 +48,7 @@ def sweep_of(text: str) -> Sweep:
     return Sweep(name.strip(), tuple(first + step * k for k in range(count)))
 
 
-def run(arguments: argparse.Namespace) -> Answer:
+def run(arguments: argparse.Namespace) -> CommandAnswer:
     """The table of a sweep, which is complete if every line of it is.
 
     Raises:
@@ -81,4 +81,4 @@ def run(arguments: argparse.Namespace) -> Answer:
         lambda value: problem_at(value)[1].system, asked.values, run=chosen_run(arguments)
     )
     lines = sweep_lines(case.title, asked.name, swept, run_row(arguments, ()))
-    return Answer(lines, all(each.decomposition.complete for each in swept))
+    return CommandAnswer(lines, all(each.decomposition.complete for each in swept))

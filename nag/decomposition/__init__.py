@@ -1,6 +1,6 @@
 """Irreducible decomposition: supersets of witness points, split into components, then judged.
 
-Read in this order, top-down: `components` (the list of methods) on `method` (what one is) and
+Read in this order, top-down: `decompose` (the list of methods) on `method` (what one is) and
 `reduction` (fewer variables). Methods that take a system apart: `independent_parts` (variables) and
 `branch_components` (factors: each branch decomposed, and their components joined without repeats,
 by `nag.numerics.branch_union`); without paths: `one_equation` and `rational_curve` on `roots`; with
@@ -14,10 +14,10 @@ alike. `through` says which components a case's points are on, `singular_points`
 `curve_genus` by `branch_points` the genus.
 
 To add a method of decomposition, write a file that makes a `nag.Decomposition` of a `method.Task`,
-or None where it does not apply; in `components` a function of the task, and of `method.Others`
+or None where it does not apply; in `decompose` a function of the task, and of `method.Others`
 (which decompose a part of it by the methods after this one), that makes a `method.Attempt` of that,
 with the paths that were tracked in vain; and put this function, with the sentence that `nag.report`
-prints of it, in `components.METHODS` at the place where it is asked. Its name is what
+prints of it, in `decompose.METHODS` at the place where it is asked. Its name is what
 `Decomposition.method` and exports say. A method that tracks paths is imported in that function.
 
 `nag.thresholds` lists what decides, beside the errors of points; each number is set where it is

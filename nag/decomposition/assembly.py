@@ -24,7 +24,7 @@ from nag.witness.witness import PathCounts, Status, WitnessSet
 
 
 @dataclass(frozen=True, eq=False)
-class Known:
+class KnownOfSets:
     """What is known of sets before they are split.
 
     Attributes:
@@ -40,7 +40,7 @@ class Known:
     embedded: bool = False
 
 
-NOTHING = Known()
+NOTHING = KnownOfSets()
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ def assemble_components(
     reduction: Reduction,
     rng: np.random.Generator,
     run: Run,
-    known: Known = NOTHING,
+    known: KnownOfSets = NOTHING,
 ) -> Assembly:
     """The irreducible components of sets that are given by their points, by dimension."""
     evidence = digits_of_evidence(reduction.natural.system(reduction.system).polynomials)

@@ -18,7 +18,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.ends import ROUNDED, seem_excluded
-from nag.decomposition.factor import NOT_MOVED, Factor, move_to_flag
+from nag.decomposition.factor import NOT_MOVED, Operand, move_to_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import are_new_alone
@@ -32,7 +32,7 @@ from nag.witness.close_to_sets import find_nearby_zeros, is_among_points
 from nag.witness.confirm import find_vanishing, zero_in_digits
 from nag.witness.cutting import Cut, is_end, regular_on, sharpen
 from nag.witness.cutting_in_digits import admit_zero
-from nag.witness.fibres import STEEPER, Fibre, PathEnds, admit_end
+from nag.witness.fibres import STEEPER, Fibre, SliceEnds, admit_end
 from nag.witness.membership import Membership, is_on_larger_set
 from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.points import with_fine
@@ -59,8 +59,8 @@ class DiagonalSection:
 class _Product:
     """Two factors, their coordinates side by side."""
 
-    first: Factor
-    second: Factor
+    first: Operand
+    second: Operand
 
     @property
     def n(self) -> int:
@@ -144,8 +144,8 @@ def _pair(
 
 
 def meet_on_diagonal(
-    first: Factor,
-    second: Factor,
+    first: Operand,
+    second: Operand,
     common: Reduction,
     rng: np.random.Generator,
     run: Run,
@@ -187,7 +187,7 @@ def meet_on_diagonal(
 
 
 def _regular(
-    ends: PathEnds, away: np.ndarray, gaps: np.ndarray, probe: Polynomial | None
+    ends: SliceEnds, away: np.ndarray, gaps: np.ndarray, probe: Polynomial | None
 ) -> tuple[Fibre, int]:
     """The ends off the diagonal as regular zeros of a cut, and how many of them are none.
 
@@ -280,7 +280,7 @@ class _Diagonal:
         return off
 
     def classify_ends(
-        self, gaps: np.ndarray, ends: PathEnds, probe: Polynomial | None, close: bool
+        self, gaps: np.ndarray, ends: SliceEnds, probe: Polynomial | None, close: bool
     ) -> tuple[np.ndarray, np.ndarray]:
         """Which ends of paths are on the diagonal, and of which that is not clear.
 

@@ -17,10 +17,10 @@ import numpy as np
 from nag.algebra.given import check_listed, check_whole
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.assembly import Assembly, Known, assemble_components
+from nag.decomposition.assembly import Assembly, KnownOfSets, assemble_components
 from nag.decomposition.ends import seem_excluded
 from nag.decomposition.final_checks import judge_components
-from nag.decomposition.given_points import CommonSlices, Start
+from nag.decomposition.given_points import CommonSlices, GivenPoint
 from nag.decomposition.orbits import group_into_orbits
 from nag.decomposition.reduction import Reduction
 from nag.numerics.double_ranks import NEARLY_SINGULAR
@@ -87,7 +87,9 @@ def discover(
     reduction = Reduction.of(system, scaled=True)
     search = _Search(reduction, CommonSlices.random(reduction.equations, rng), rng, run)
     search.from_random_points(starts)
-    found = assemble_components(search.slices.points, reduction, rng, run, Known(embedded=True))
+    found = assemble_components(
+        search.slices.points, reduction, rng, run, KnownOfSets(embedded=True)
+    )
     notes = search.notes(starts, found)
     components, counts = list(found.components), search.counts + found.counts
     if symmetries:
@@ -143,7 +145,7 @@ class _Search:
         zero = polish(equations.evaluator, x)
         if not zero.converged:
             return None
-        return self._brought(Start(zero.x, LEAST, [zero.corank], False))
+        return self._brought(GivenPoint(zero.x, LEAST, [zero.corank], False))
 
     def _multiple(self, x: np.ndarray) -> tuple[int, int] | None:
         """The same from a point near a component that is not reduced."""
@@ -153,9 +155,9 @@ class _Search:
             return None
         s = np.linalg.svd(evaluator.balanced_jacobian(near), compute_uv=False)
         rank = int(np.sum(s > NEARLY_SINGULAR * max(1.0, s.max(initial=0.0))))
-        return self._brought(Start(near, MULTIPLE, range(len(near) - rank - 1, -1, -1), True))
+        return self._brought(GivenPoint(near, MULTIPLE, range(len(near) - rank - 1, -1, -1), True))
 
-    def _brought(self, start: Start) -> tuple[int, int] | None:
+    def _brought(self, start: GivenPoint) -> tuple[int, int] | None:
         self.slices, place, spent = self.slices.with_start(start, self.rng, self.run)
         self.counts += spent
         return place

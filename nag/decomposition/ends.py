@@ -16,7 +16,7 @@ from nag.numerics.coincidence import SAFETY, clusters, coincident
 from nag.numerics.zero_values import ON, possible_zeros, vanishes_at
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Fibre, PathEnds
+from nag.witness.fibres import Fibre, SliceEnds
 from nag.witness.slices import padded
 
 # Failed paths that are known to lead next to a point are known to so much of it, no better: what
@@ -44,7 +44,7 @@ class Candidates:
     lost: list[tuple[Cluster, int]]
 
 
-def collect(pieces: Sequence[PathEnds], nonzero: Sequence[Polynomial]) -> Candidates:
+def collect(pieces: Sequence[SliceEnds], nonzero: Sequence[Polynomial]) -> Candidates:
     """The ends of paths to points on a slice, with the systems that cut them.
 
     Args:
@@ -99,7 +99,7 @@ def seem_excluded(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np
     return (residuals < limit[:, None]).any(axis=1)
 
 
-def find_excluded(nonzero: Sequence[Polynomial], ends: PathEnds) -> tuple[np.ndarray, int]:
+def find_excluded(nonzero: Sequence[Polynomial], ends: SliceEnds) -> tuple[np.ndarray, int]:
     """Which ends lie where a polynomial that must not vanish does, decided in digits.
 
     Also of how many of these that is not known; they are left out.
@@ -129,7 +129,7 @@ def find_excluded(nonzero: Sequence[Polynomial], ends: PathEnds) -> tuple[np.nda
     return result, unclear + sum(doubtful.values())
 
 
-def _twin(ends: PathEnds, i: int, others: Iterable[int], real: bool) -> int | None:
+def _twin(ends: SliceEnds, i: int, others: Iterable[int], real: bool) -> int | None:
     """The end among ``others`` that an end is as well, or whose conjugate, as far as is known.
 
     Several paths end at a singular zero. Equations are real, and what is true of a zero of theirs

@@ -32,14 +32,14 @@ class IntersectionError(ComponentError):
 
 
 @dataclass(frozen=True, eq=False)
-class Factor:
+class Operand:
     """A component to be intersected, and the coordinates of the system that it is one of."""
 
     reduction: Reduction
     component: WitnessSet
 
     @classmethod
-    def of(cls, system: PolynomialSystem, component: WitnessSet) -> Factor:
+    def of(cls, system: PolynomialSystem, component: WitnessSet) -> Operand:
         if component.points.shape[1] != system.n:
             raise IntersectionError(
                 f"the component has {component.points.shape[1]} coordinates, its system {system.n}"
@@ -47,16 +47,16 @@ class Factor:
         return cls(Reduction.of(system), component)
 
     @classmethod
-    def in_branch(cls, system: PolynomialSystem, component: WitnessSet) -> Factor:
+    def in_branch(cls, system: PolynomialSystem, component: WitnessSet) -> Operand:
         """`of` the branch of a system that the component is one of, if it has branches."""
         return cls.of(component_system(system, component), component)
 
-    def carry(self, natural: NaturalCoordinates) -> Factor:
+    def carry(self, natural: NaturalCoordinates) -> Operand:
         """The component in other coordinates."""
         if natural.is_identity:
             return self
         system = natural.system(self.reduction.system)
-        return Factor.of(system, carry_component(self.component, natural, system))
+        return Operand.of(system, carry_component(self.component, natural, system))
 
     @property
     def n(self) -> int:

@@ -30,7 +30,7 @@ from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 
 @dataclass(frozen=True, eq=False)
-class Start:
+class GivenPoint:
     """A solution through which there is a component to be found.
 
     Attributes:
@@ -77,7 +77,7 @@ class CommonSlices:
         return replace(self, points=points, errors=errors), len(known)
 
     def with_start(
-        self, start: Start, rng: np.random.Generator, run: Run
+        self, start: GivenPoint, rng: np.random.Generator, run: Run
     ) -> tuple[CommonSlices, tuple[int, int] | None, PathCounts]:
         """With the point that a solution leads to, and its dimension and index.
 
@@ -103,7 +103,7 @@ class CommonSlices:
     def _residual(self, x: np.ndarray) -> float:
         return float(self.equations.evaluator.residuals(x[None]).max(initial=0.0))
 
-    def _local(self, start: Start, rng: np.random.Generator) -> Fibre | None:
+    def _local(self, start: GivenPoint, rng: np.random.Generator) -> Fibre | None:
         """A fibre on a slice through a point that has it as a regular point there."""
         for d in start.dimensions:
             rows = rows_through(rng, d, start.x)
@@ -191,7 +191,9 @@ def _on_common_slices(
         zero = polish(reduction.equations.evaluator, x)
         near, accuracy = (zero.x, LEAST) if zero.converged else (x, ROUGH)
         simple = zero.converged and zero.corank == d
-        slices, place, spent = slices.with_start(Start(near, accuracy, [d], not simple), rng, run)
+        slices, place, spent = slices.with_start(
+            GivenPoint(near, accuracy, [d], not simple), rng, run
+        )
         counts += spent
         if place is None:
             notes.append(f"a point of dimension {d} led to no component")

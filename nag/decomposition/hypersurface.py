@@ -23,7 +23,7 @@ from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut, leading_power
 from nag.witness.fibres import (
     Fibre,
-    PathEnds,
+    SliceEnds,
     ends_of_paths,
     homogeneous,
     join_ends,
@@ -53,7 +53,7 @@ class HypersurfaceSection:
     """
 
     kept: Mapping[int, Sequence[Fibre]]
-    ends: Mapping[int, Sequence[PathEnds]]
+    ends: Mapping[int, Sequence[SliceEnds]]
     counts: PathCounts
 
     @property
@@ -67,7 +67,7 @@ class HypersurfaceSection:
         return sum(int(ends.failed.sum()) for ends in self.ends.get(d, ()))
 
 
-def intersect(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> PathEnds:
+def intersect(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> SliceEnds:
     """The ends of the paths from a fibre's points, none of them on f, to the hypersurface f = 0.
 
     They are on all rows of the fibre's slice but the last one.
@@ -99,7 +99,7 @@ def intersect(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> PathEnds
     return ends_of_paths(paths, after, fibre.rows[:-1])
 
 
-def _on_line(cut: Cut, rows: np.ndarray) -> PathEnds | None:
+def _on_line(cut: Cut, rows: np.ndarray) -> SliceEnds | None:
     """The zeros of one polynomial on the line of the slices ``rows``, without paths.
 
     None where they cannot be told apart, or are not as many as its degree.
@@ -110,7 +110,7 @@ def _on_line(cut: Cut, rows: np.ndarray) -> PathEnds | None:
     points = points_in_balls(cut, rows, balls)
     found = np.ones(len(points), dtype=bool)
     accuracy = np.full(len(points), ROUNDED)
-    return PathEnds(cut, rows, points.x, found, found, ~found, accuracy, fine=points.fine)
+    return SliceEnds(cut, rows, points.x, found, found, ~found, accuracy, fine=points.fine)
 
 
 def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:
@@ -122,7 +122,7 @@ def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:
     return compile_rows(rows, n=total + 1)
 
 
-def _intersect_close(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> PathEnds:
+def _intersect_close(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> SliceEnds:
     """`intersect` where some points are close to others: their paths are tracked in more digits.
 
     The slices that stay turn with ``gamma`` as well, which leaves them as they are.
@@ -155,7 +155,7 @@ def hypersurface_section(
     """All points of sets, by dimension, where ``f`` vanishes, and how many paths led there."""
     gamma, counts = complex(unit_complex(rng)), PathCounts()
     kept: dict[int, list[Fibre]] = {}
-    ends: dict[int, list[PathEnds]] = {}
+    ends: dict[int, list[SliceEnds]] = {}
     for d in sorted(sets, reverse=True):
         own = [fibre for fibre in sets[d] if len(fibre)]
         for fibre in with_fine(own) if own else ():

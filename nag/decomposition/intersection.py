@@ -13,9 +13,9 @@ import numpy as np
 
 from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.assembly import Known, assemble_components
+from nag.decomposition.assembly import KnownOfSets, assemble_components
 from nag.decomposition.diagonal import meet_on_diagonal
-from nag.decomposition.factor import NOT_MOVED, Factor, IntersectionError, move_to_flag
+from nag.decomposition.factor import NOT_MOVED, IntersectionError, Operand, move_to_flag
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import (
     Ambient,
@@ -88,12 +88,12 @@ def intersect_components(
     check_type(second, WitnessSet, "second", "a component, as nag.decompose finds them")
     other = second.system or system
     _check_variables(system, other)
-    factors = Factor.in_branch(system, first), Factor.in_branch(other, second)
+    factors = Operand.in_branch(system, first), Operand.in_branch(other, second)
     return intersect_factors(*factors, run=run)
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def intersect_factors(first: Factor, second: Factor, *, run: Run) -> Decomposition:
+def intersect_factors(first: Operand, second: Operand, *, run: Run) -> Decomposition:
     """`intersect_components` for components whose equations have been looked at before.
 
     Raises:
@@ -172,7 +172,7 @@ def intersect_equations(
     system = component_system(system, component)
     whole = _union(system, equations)
     natural = coordinates_of(whole)
-    factor = Factor.of(system, component).carry(natural)
+    factor = Operand.of(system, component).carry(natural)
     common = Reduction.of(natural.system(whole))
 
     rng = run.random(6)
@@ -194,7 +194,7 @@ def intersect_equations(
 
 
 def _meet_equations(
-    factor: Factor, equations: PolynomialSystem, rng: np.random.Generator, run: Run
+    factor: Operand, equations: PolynomialSystem, rng: np.random.Generator, run: Run
 ) -> Superset:
     """Witness points of all dimensions where a component meets equations, in its coordinates."""
     further = [f.compose(factor.reduction.images) for f in equations.polynomials]
@@ -212,7 +212,7 @@ def _meet_equations(
 
 def _in_common(
     found: Sequence[Fibre],
-    factor: Factor,
+    factor: Operand,
     common: Reduction,
     rng: np.random.Generator,
 ) -> tuple[Points, int]:
@@ -252,7 +252,7 @@ def _intersection(
     run: Run,
 ) -> Decomposition:
     """The points of all dimensions, split into irreducible components."""
-    found = assemble_components(points, reduction, rng, run, Known(scheme=False))
+    found = assemble_components(points, reduction, rng, run, KnownOfSets(scheme=False))
     return Decomposition(
         system=reduction.system,
         components=found.components,

@@ -20,7 +20,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
-from nag.interpolation.point_cloud import Ambient, Cloud
+from nag.interpolation.point_cloud import AmbientVariables, Cloud
 from nag.interpolation.precise_samples import SourceError, source_of_component
 from nag.interpolation.vanishing import InterpolationError, next_degree, start
 from nag.tracking.run import Run
@@ -47,7 +47,7 @@ def add_hull_equations(
     component = mark_simple(system, component)
     try:
         source = source_of_component(system, component)
-        cloud = Cloud(source, Ambient.itself(system), rng, run)
+        cloud = Cloud(source, AmbientVariables.itself(system), rng, run)
         known = next_degree(cloud, start(range(system.n)))
         own = _beside(known.basis, system)
         if component.multiplicity == 1 and Reduction.of(own).n == Reduction.of(system).n:

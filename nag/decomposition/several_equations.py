@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from nag.decomposition.assembly import Known, assemble_components
+from nag.decomposition.assembly import KnownOfSets, assemble_components
 from nag.decomposition.final_checks import judge_components
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.isolated import (
@@ -78,7 +78,9 @@ def _settle(
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
     points = {d: Points.of(fibres) for d, fibres in superset.fibres.items() if fibres}
     moving = [g for g in task.symmetries if not g.is_identity]
-    known = Known(actions=[Action.of(g, task.reduction.frame) for g in moving], scheme=task.scheme)
+    known = KnownOfSets(
+        actions=[Action.of(g, task.reduction.frame) for g in moving], scheme=task.scheme
+    )
     found = assemble_components(points, task.reduction, rng, task.run, known)
     answer = judge_components(
         task.system,

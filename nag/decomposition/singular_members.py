@@ -27,12 +27,12 @@ from nag.algebra.given import check_whole
 from nag.algebra.groebner import Ideal, UnfinishedBasis, ideal_of
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.rank_drop import BITS, new_names, product
 from nag.errors import NagError
 from nag.interpolation.conjugates import conjugate_classes
 from nag.interpolation.image_ideal import common_zeros, equations_of_image
-from nag.interpolation.point_cloud import Ambient, Cloud
+from nag.interpolation.point_cloud import AmbientVariables, Cloud
 from nag.interpolation.precise_samples import Source, SourceError, source_of_component
 from nag.interpolation.proof import largest_value, proved_by_reduction
 from nag.interpolation.vanishing import (
@@ -250,7 +250,7 @@ class _Family:
     def cloud(self, sources: Sequence[Source]) -> Cloud:
         """Points of components of one dimension, one after the other."""
         rng = self.run.random(9)
-        return Cloud(sources[0], Ambient.itself(self.whole), rng, self.run, sources[1:])
+        return Cloud(sources[0], AmbientVariables.itself(self.whole), rng, self.run, sources[1:])
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ import numpy as np
 
 from nag.algebra.given import check_listed
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.factor import Factor, IntersectionError
+from nag.decomposition.factor import IntersectionError, Operand
 from nag.decomposition.intersection import intersect_factors
 from nag.decomposition.linear_hull import add_hull_equations, mark_simple
 from nag.decomposition.rank_drop import ROUNDED, SetOfPoints, rank_drop
@@ -177,7 +177,7 @@ class _Search:
     proved: list[int] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     counts: PathCounts = field(default=PathCounts())
-    _factors: dict[int, Factor] = field(default_factory=dict)
+    _factors: dict[int, Operand] = field(default_factory=dict)
 
     def on_component(self, i: int) -> None:
         """Points of a component where the rank of its own equations drops."""
@@ -219,10 +219,10 @@ class _Search:
             if not c.note
         ]
 
-    def _factor(self, i: int) -> Factor:
+    def _factor(self, i: int) -> Operand:
         """A component as one of several that are intersected with each other."""
         if i not in self._factors:
-            self._factors[i] = Factor.in_branch(*self.own[i])
+            self._factors[i] = Operand.in_branch(*self.own[i])
         return self._factors[i]
 
     def of_pairs(self, chosen: Sequence[int]) -> None:

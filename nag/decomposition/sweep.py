@@ -20,7 +20,7 @@ from nag.algebra.family import Family
 from nag.algebra.interpolation import family_of
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.given_points import components_through_points
 from nag.numerics.zero_values import ON
 from nag.solving.parameter_line import parameter_line

@@ -11,12 +11,12 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapError, MapGroup, RationalMap
 from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.tokens import is_name, nearest, quote
-from nag.files.case_table import Table, key_text, kind_of
+from nag.files.case_table import CaseTable, key_text, kind_of
 
 Parse = Callable[[str, Sequence[str]], Polynomial]
 
 
-def family_parameters(table: Table, parameters: Mapping[str, Number]) -> list[str]:
+def family_parameters(table: CaseTable, parameters: Mapping[str, Number]) -> list[str]:
     """Names of the parameters that may have any values."""
     table.allow(("parameters", "plane", "solutions", "map"))
     names = table.texts("parameters", "names of parameters")
@@ -33,7 +33,7 @@ def family_parameters(table: Table, parameters: Mapping[str, Number]) -> list[st
 
 
 def read_family(
-    table: Table, family: Family, values: Sequence[Number], parse: Parse
+    table: CaseTable, family: Family, values: Sequence[Number], parse: Parse
 ) -> FamilyMember:
     """The family with what its table says of it; ``parse`` reads polynomials in given names."""
     names = [*family.variables, *family.parameters]
@@ -58,7 +58,7 @@ def read_family(
     return FamilyMember(symmetric, tuple(values), solutions)
 
 
-def _pairs(plane: Table, names: list[str]) -> list[tuple[int, int]]:
+def _pairs(plane: CaseTable, names: list[str]) -> list[tuple[int, int]]:
     pairs = []
     for name in plane.values:
         if not is_name(name):
@@ -75,7 +75,7 @@ def _pairs(plane: Table, names: list[str]) -> list[tuple[int, int]]:
     return pairs
 
 
-def _map(table: Table, unknowns: list[str], others: list[str], parse: Parse) -> RationalMap:
+def _map(table: CaseTable, unknowns: list[str], others: list[str], parse: Parse) -> RationalMap:
     table.allow(("image",))
     wanted = '{ unknown = "polynomial" or ["numerator", "denominator"], ... }'
     images = table.get("image", dict, wanted)

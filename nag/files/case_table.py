@@ -45,7 +45,7 @@ def _line(*parts: str | None) -> str:
 
 
 @dataclass(frozen=True)
-class Table:
+class CaseTable:
     """A TOML table that knows where it stands and complains about its keys.
 
     Attributes:
@@ -137,14 +137,14 @@ class Table:
                 numbers.append(read(value))
         return tuple(numbers)
 
-    def table(self, key: str) -> Table:
+    def table(self, key: str) -> CaseTable:
         """The table inside, empty if it is not there."""
         values = self.get(key, dict, f"a table [{key}]") if key in self.values else {}
         if len(values) > MAX_ENTRIES:
             self.fail(key, f"has {len(values)} entries; at most {MAX_ENTRIES} are read")
-        return Table(self.file, f"{self.place}[{key}]", values)
+        return CaseTable(self.file, f"{self.place}[{key}]", values)
 
-    def tables(self, key: str, prefix: str = "") -> list[Table]:
+    def tables(self, key: str, prefix: str = "") -> list[CaseTable]:
         """The array of tables inside, empty if it is not there; names of them start with prefix."""
         if key not in self.values:
             return []
@@ -153,11 +153,11 @@ class Table:
         for value in values:
             if not isinstance(value, dict):
                 self.fail(key, f"holds {kind_of(value)}; write tables {name}")
-        return [Table(self.file, f"{name} {i}", value) for i, value in enumerate(values, 1)]
+        return [CaseTable(self.file, f"{name} {i}", value) for i, value in enumerate(values, 1)]
 
-    def called(self, name: str) -> Table:
+    def called(self, name: str) -> CaseTable:
         """The same table, its name shown in messages."""
-        return Table(self.file, f"{self.place} {quote(name)}", self.values)
+        return CaseTable(self.file, f"{self.place} {quote(name)}", self.values)
 
 
 def key_text(key: str) -> str:
@@ -215,7 +215,7 @@ def read_toml(path: Path) -> dict[str, Any]:
         fail("holds a number of more than 4300 digits; write a shorter one")
 
 
-def read_parameters(table: Table, budget: Budget) -> Mapping[str, Number]:
+def read_parameters(table: CaseTable, budget: Budget) -> Mapping[str, Number]:
     """Values of the parameters, which may refer to each other in any order but not in circles."""
     uses = {}
     for name, value in table.values.items():
@@ -245,7 +245,7 @@ def read_parameters(table: Table, budget: Budget) -> Mapping[str, Number]:
     return MappingProxyType({name: values[name] for name in table.values})
 
 
-def with_values(table: Table, values: Mapping[str, str | Number]) -> Table:
+def with_values(table: CaseTable, values: Mapping[str, str | Number]) -> CaseTable:
     """The table of parameters with other values for some of them."""
     check_type(values, Mapping, "values", "a dict of numbers or expressions by name")
     for name in values:

@@ -25,8 +25,8 @@ from nag.algebra.tokens import is_name, names_in, nearest, quote
 from nag.errors import NagError
 from nag.files.case_table import (
     CaseError,
+    CaseTable,
     ReadNumber,
-    Table,
     kind_of,
     read_parameters,
     read_toml,
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Case", "CaseError", "NamedPoint", "Truth", "read_case"]
 
-Kind = Literal["system", "mechanism", "dh", "framework", "linkage"]
+CaseKind = Literal["system", "mechanism", "dh", "framework", "linkage"]
 
 _KEYS = {
     "system": (
@@ -117,7 +117,7 @@ class Case:
     """
 
     title: str
-    kind: Kind
+    kind: CaseKind
     path: Path
     parameters: Mapping[str, Number]
     system: PolynomialSystem | None = None
@@ -162,7 +162,7 @@ def read_case(
     """
     check_path(path)
     path = Path(path)
-    top = Table(str(path), "", read_toml(path))
+    top = CaseTable(str(path), "", read_toml(path))
     for key in {"plate", "plates"} & top.values.keys():
         top.fail(key, 'plates are links of kind = "linkage": [[link]] with pins and their shape')
     top.allow(sorted({key for keys in _KEYS.values() for key in keys}))
@@ -221,7 +221,7 @@ def freed_system(
                 f"{path}: {quote(name)} is no parameter{nearest(name, case.parameters)}; it has "
                 f"{', '.join(case.parameters) or 'none'}"
             )
-    top = Table(str(path), "", read_toml(Path(path)))
+    top = CaseTable(str(path), "", read_toml(Path(path)))
     for other, text in with_values(top.table("parameters"), values or {}).values.items():
         used = sorted(names_in(text) & set(names)) if isinstance(text, str) else []
         if used and other not in names:
@@ -236,7 +236,7 @@ def freed_system(
     return PolynomialSystem(variables, tuple(equations))
 
 
-def _read_parts(kind: str, top: Table, number: ReadNumber) -> AssemblyModel | Mechanism:
+def _read_parts(kind: str, top: CaseTable, number: ReadNumber) -> AssemblyModel | Mechanism:
     """The model of all assemblies, or a mechanism where the case fixes how it is assembled."""
     if kind == "mechanism":
         from nag.files.mechanism_case import read_mechanism
@@ -259,7 +259,7 @@ def _assembly_case(
     made: AssemblyModel | Mechanism,
     *,
     title: str,
-    kind: Kind,
+    kind: CaseKind,
     path: Path,
     truth: tuple[Truth, ...],
     of: Mapping[str, Number],
@@ -285,7 +285,7 @@ def _assembly_case(
     )
 
 
-def _with_points(case: Case, top: Table, numbers: _Numbers) -> Case:
+def _with_points(case: Case, top: CaseTable, numbers: _Numbers) -> Case:
     if case.system is None:
         if "point" in top.values:
             top.fail("point", "the places fix the point, `reference`; leave it out")
@@ -309,7 +309,7 @@ class _Numbers:
         return parse_polynomial(text, variables, known, self.budget)
 
 
-def _read_system(top: Table, numbers: _Numbers) -> tuple[PolynomialSystem, FamilyMember | None]:
+def _read_system(top: CaseTable, numbers: _Numbers) -> tuple[PolynomialSystem, FamilyMember | None]:
     variables = top.texts("variables", "names of variables")
     for i, name in enumerate(variables, 1):
         if not is_name(name):
@@ -331,7 +331,7 @@ def _read_system(top: Table, numbers: _Numbers) -> tuple[PolynomialSystem, Famil
     return PolynomialSystem(tuple(variables), equations, groups=groups), None
 
 
-def _read_equations(top: Table, numbers: _Numbers, names: list[str]) -> tuple[Polynomial, ...]:
+def _read_equations(top: CaseTable, numbers: _Numbers, names: list[str]) -> tuple[Polynomial, ...]:
     equations = []
     for i, text in enumerate(top.texts("equations", "equations"), 1):
         with top.at(f"equations {i}"):
@@ -339,7 +339,7 @@ def _read_equations(top: Table, numbers: _Numbers, names: list[str]) -> tuple[Po
     return tuple(equations)
 
 
-def _read_family(top: Table, numbers: _Numbers, variables: list[str]) -> FamilyMember:
+def _read_family(top: CaseTable, numbers: _Numbers, variables: list[str]) -> FamilyMember:
     from nag.files.case_family import family_parameters, read_family
 
     table = top.table("family")
@@ -358,7 +358,7 @@ def _read_family(top: Table, numbers: _Numbers, variables: list[str]) -> FamilyM
     return read_family(table, family, values, numbers.polynomial)
 
 
-def _read_groups(top: Table, variables: list[str]) -> tuple[tuple[int, ...], ...]:
+def _read_groups(top: CaseTable, variables: list[str]) -> tuple[tuple[int, ...], ...]:
     if "groups" not in top.values:
         return ()
     groups, seen = [], set()
@@ -383,7 +383,7 @@ def _read_groups(top: Table, variables: list[str]) -> tuple[tuple[int, ...], ...
 
 
 def _read_points(
-    top: Table, system: PolynomialSystem, numbers: _Numbers, known: Sequence[NamedPoint] = ()
+    top: CaseTable, system: PolynomialSystem, numbers: _Numbers, known: Sequence[NamedPoint] = ()
 ) -> tuple[NamedPoint, ...]:
     """The named points, besides those that are known."""
     points: list[NamedPoint] = []
@@ -393,7 +393,7 @@ def _read_points(
         table = table.called(name)
         if any(name == p.name for p in (*known, *points)):
             table.fail("name", "another point has that name; give each a name of its own")
-        coordinates = Table(
+        coordinates = CaseTable(
             table.file, f"{table.place}: at", table.get("at", dict, "{ variable = number, ... }")
         )
         coordinates.allow(system.variables)
@@ -407,7 +407,7 @@ def _read_points(
     return tuple(points)
 
 
-def _read_symmetries(top: Table, system: PolynomialSystem) -> tuple[SignedPermutation, ...]:
+def _read_symmetries(top: CaseTable, system: PolynomialSystem) -> tuple[SignedPermutation, ...]:
     symmetries = []
     for table in top.tables("symmetry"):
         table.allow(("map",))
@@ -428,13 +428,13 @@ def _read_symmetries(top: Table, system: PolynomialSystem) -> tuple[SignedPermut
     return tuple(symmetries)
 
 
-def _read_truth(top: Table, kind: str) -> tuple[Truth, ...]:
+def _read_truth(top: CaseTable, kind: str) -> tuple[Truth, ...]:
     known = top.table("truth")
     known.allow(("component",))
     return tuple(_read_component(t, kind) for t in known.tables("component", "truth."))
 
 
-def _read_component(table: Table, kind: str) -> Truth:
+def _read_component(table: CaseTable, kind: str) -> Truth:
     table.allow(_TRUTH_KEYS)
     formulation = None
     if "formulation" in table.values:
@@ -458,7 +458,7 @@ def _read_component(table: Table, kind: str) -> Truth:
     )
 
 
-def _read_multidegree(table: Table, values: list[Any]) -> tuple[Any, ...]:
+def _read_multidegree(table: CaseTable, values: list[Any]) -> tuple[Any, ...]:
     def is_degree(value: Any) -> bool:
         return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 10**9
 

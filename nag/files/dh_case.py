@@ -6,14 +6,14 @@ from fractions import Fraction
 
 from nag.algebra.number import cosine, pi_multiple, sine
 from nag.algebra.tokens import is_name
-from nag.files.case_table import ReadNumber, Table
+from nag.files.case_table import CaseTable, ReadNumber
 from nag.mechanism.dh import DHError, DHLoop, DHModel, HalfAngle, Row, assemble_table, dh_model
 from nag.mechanism.graph import Mechanism
 
 _JOINT_KEYS = ("name", "a", "d", "alpha", "alpha_half_tangent", "theta", "theta_half_tangent")
 
 
-def read_dh(top: Table, number: ReadNumber) -> DHModel | Mechanism:
+def read_dh(top: CaseTable, number: ReadNumber) -> DHModel | Mechanism:
     """A table with open angles as a model of its closings, one without as a mechanism."""
     if "joint" not in top.values:
         top.fail("joint", "is missing; write a table [[joint]] for every joint")
@@ -28,7 +28,7 @@ def read_dh(top: Table, number: ReadNumber) -> DHModel | Mechanism:
         tables[error.joint].fail(error.key, error.message)
 
 
-def _read_row(i: int, table: Table, number: ReadNumber) -> Row:
+def _read_row(i: int, table: CaseTable, number: ReadNumber) -> Row:
     table.allow(_JOINT_KEYS)
     name = table.text("name") if "name" in table.values else f"J{i}"
     if not is_name(name):
@@ -43,7 +43,7 @@ def _read_row(i: int, table: Table, number: ReadNumber) -> Row:
     return Row(name, *lengths, twist, _half_angle(table, "theta", number))
 
 
-def _half_angle(table: Table, key: str, number: ReadNumber) -> HalfAngle | None:
+def _half_angle(table: CaseTable, key: str, number: ReadNumber) -> HalfAngle | None:
     """(cos : sin) of half an angle that is given itself or by its half-tangent; None if neither."""
     tangent = f"{key}_half_tangent"
     if key in table.values and tangent in table.values:

@@ -6,14 +6,14 @@ from typing import Any
 
 from nag.algebra.number import Number
 from nag.algebra.tokens import is_name, quote
-from nag.files.case_table import ReadNumber, Table, kind_of
+from nag.files.case_table import CaseTable, ReadNumber, kind_of
 from nag.mechanism.framework import Framework, FrameworkError, placed_framework
 from nag.mechanism.framework_model import FrameworkModel, framework_model
 
 _LENGTHS = ("lengths", "squared_lengths")
 
 
-def read_framework(top: Table, number: ReadNumber) -> FrameworkModel:
+def read_framework(top: CaseTable, number: ReadNumber) -> FrameworkModel:
     """The model of a framework, given by a placement or by lengths."""
     dimension = top.count("dimension", 2, default=2)
     if dimension > 3:
@@ -34,20 +34,22 @@ def read_framework(top: Table, number: ReadNumber) -> FrameworkModel:
         top.fail(error.key, error.message)
 
 
-def _read_names(names: list[str], top: Table) -> list[str]:
+def _read_names(names: list[str], top: CaseTable) -> list[str]:
     for name in names:
         if not is_name(name):
             top.fail("points", f"{quote(name)} cannot name a point; use letters, digits and _")
     return names
 
 
-def _read_places(top: Table, dimension: int, number: ReadNumber) -> dict[str, tuple[Number, ...]]:
+def _read_places(
+    top: CaseTable, dimension: int, number: ReadNumber
+) -> dict[str, tuple[Number, ...]]:
     table = top.table("points")
     _read_names(list(table.values), top)
     return {name: table.vector(name, dimension, number) for name in table.values}
 
 
-def _read_bars(top: Table) -> list[tuple[str, str]]:
+def _read_bars(top: CaseTable) -> list[tuple[str, str]]:
     bars = []
     for i, bar in enumerate(top.items("bars", 'pairs of points ["A", "B"]'), 1):
         if not isinstance(bar, list) or len(bar) != 2 or not all(isinstance(p, str) for p in bar):
@@ -57,7 +59,7 @@ def _read_bars(top: Table) -> list[tuple[str, str]]:
     return bars
 
 
-def _read_squared_lengths(top: Table, count: int, number: ReadNumber) -> list[Any]:
+def _read_squared_lengths(top: CaseTable, count: int, number: ReadNumber) -> list[Any]:
     given = [key for key in _LENGTHS if key in top.values]
     if len(given) != 1:
         top.fail(

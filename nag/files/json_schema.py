@@ -16,8 +16,8 @@ from importlib import resources
 from typing import Any
 
 # What is wrong: where below the value, and what; None if nothing is.
-Problem = tuple[str, str]
-Check = Callable[[Any], Problem | None]
+Violation = tuple[str, str]
+Check = Callable[[Any], Violation | None]
 
 # Keywords that say nothing of values.
 REMARKS = frozenset({"$schema", "$id", "$defs", "title", "description"})
@@ -44,7 +44,7 @@ def schema(name: str, version: int = 1) -> dict[str, Any]:
     return json.loads(file.read_text("utf-8"))
 
 
-def find_problem(value: Any, published: dict[str, Any]) -> Problem | None:
+def find_problem(value: Any, published: dict[str, Any]) -> Violation | None:
     """The first place where a document does not fit a schema, and what is wrong there.
 
     >>> find_problem({"seed": -1}, {"properties": {"seed": {"type": "integer", "minimum": 0}}})
@@ -102,7 +102,7 @@ def _check_of(node: Mapping[str, Any], defs: Mapping[str, Any], made: dict[str, 
 
 
 def _all(checks: list[Check]) -> Check:
-    def check(value: Any) -> Problem | None:
+    def check(value: Any) -> Violation | None:
         return next(filter(None, (one(value) for one in checks)), None)
 
     return check
@@ -116,7 +116,7 @@ def _where(kind: type, one: Check) -> Check:
 def _one_of(values: list[Any]) -> Check:
     wanted = " or ".join(v if isinstance(v, str) else json.dumps(v) for v in values)
 
-    def check(value: Any) -> Problem | None:
+    def check(value: Any) -> Violation | None:
         # True equals 1.
         same = any(value == v and type(value) is type(v) for v in values)
         return None if same else ("", f"must be {wanted}")
@@ -127,7 +127,7 @@ def _one_of(values: list[Any]) -> Check:
 def _alternatives(checks: list[Check]) -> Check:
     """Of what is wrong with each alternative what lies deepest, or comes last: that was meant."""
 
-    def check(value: Any) -> Problem | None:
+    def check(value: Any) -> Violation | None:
         problems = [one(value) for one in reversed(checks)]
         return None if None in problems else max(problems, key=lambda problem: len(problem[0]))
 
@@ -146,7 +146,7 @@ def _of_type(
     low, high = -math.inf if least is None else least, math.inf if most is None else most
     bounded = bool(bounds)
 
-    def check(value: Any) -> Problem | None:
+    def check(value: Any) -> Violation | None:
         # By its very type: true and false are integers to `isinstance`.
         if type(value) not in allowed:
             return "", f"must be {text}"
@@ -162,19 +162,19 @@ def _of_type(
 def _of_length(least: int, most: int | None, wanted: str | None) -> Check:
     text = wanted or (f"{least} entries" if least == most else f"{least} entries or more")
 
-    def check(value: Any) -> Problem | None:
+    def check(value: Any) -> Violation | None:
         right = least <= len(value) and (most is None or len(value) <= most)
         return None if right else ("", f"must be {text}")
 
     return check
 
 
-def _distinct(value: Any) -> Problem | None:
+def _distinct(value: Any) -> Violation | None:
     return None if len({json.dumps(v) for v in value}) == len(value) else ("", "has an entry twice")
 
 
 def _items(one: Check) -> Check:
-    def check(value: Any) -> Problem | None:
+    def check(value: Any) -> Violation | None:
         for i, item in enumerate(value):
             problem = one(item)
             if problem is not None:
@@ -187,7 +187,7 @@ def _items(one: Check) -> Check:
 def _together(needed: Mapping[str, list[str]]) -> Check:
     """Keys that are needed where another one is."""
 
-    def check(value: Any) -> Problem | None:
+    def check(value: Any) -> Violation | None:
         wanted = (key for one, keys in needed.items() if one in value for key in keys)
         missing = next((key for key in wanted if key not in value), None)
         return None if missing is None else ("", f"the key {missing!r} is missing")
@@ -196,7 +196,7 @@ def _together(needed: Mapping[str, list[str]]) -> Check:
 
 
 def _keys(required: list[str], known: Mapping[str, Check], other: Check | None) -> Check:
-    def check(value: Any) -> Problem | None:
+    def check(value: Any) -> Violation | None:
         for key, item in value.items():
             one = known.get(key, other)
             problem = None if one is None else one(item)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from fractions import Fraction
 
 from nag.algebra.tokens import is_name, quote
-from nag.files.case_table import ReadNumber, Table
+from nag.files.case_table import CaseTable, ReadNumber
 from nag.mechanism.linkage import Link, Linkage, LinkageError, LinkageModel, Place, linkage_model
 
 _LINK_KEYS = ("name", "pins", "length", "shape")
 
 
-def read_linkage(top: Table, number: ReadNumber) -> LinkageModel:
+def read_linkage(top: CaseTable, number: ReadNumber) -> LinkageModel:
     """The model of a linkage."""
     ground = top.text("ground")
     if "link" not in top.values:
@@ -28,7 +28,7 @@ def read_linkage(top: Table, number: ReadNumber) -> LinkageModel:
         top.fail(error.key, error.message)
 
 
-def _read_link(name: str, table: Table, number: ReadNumber) -> Link:
+def _read_link(name: str, table: CaseTable, number: ReadNumber) -> Link:
     table.allow(_LINK_KEYS)
     if not is_name(name):
         table.fail("name", f"{quote(name)} cannot name a link; use letters, digits and _")
@@ -47,7 +47,7 @@ def _read_link(name: str, table: Table, number: ReadNumber) -> Link:
     return Link(name, tuple(pins), ((Fraction(0), Fraction(0)), (length, Fraction(0))))
 
 
-def _read_shape(table: Table, count: int, number: ReadNumber) -> tuple[Place, ...]:
+def _read_shape(table: CaseTable, count: int, number: ReadNumber) -> tuple[Place, ...]:
     shape = []
     for i, place in enumerate(table.items("shape", "places [x, y], one for each pin", count), 1):
         if not isinstance(place, list) or len(place) != 2:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from nag.algebra.number import Number, is_zero, number_text
 from nag.errors import MechanismError
-from nag.files.case_table import ReadNumber, Table
+from nag.files.case_table import CaseTable, ReadNumber
 from nag.mechanism.axes import Vector, cross, difference, dot, nearest, vanishes
 from nag.mechanism.graph import ORIGIN, Body, Joint, Mechanism
 from nag.mechanism.joint_types import JOINT_TYPES, SYNONYMS, VECTORS
@@ -19,7 +19,7 @@ SECOND_KEYS = ("second_through", "second_line")
 Line = tuple[Vector, Vector]
 
 
-def read_mechanism(top: Table, number: ReadNumber) -> Mechanism:
+def read_mechanism(top: CaseTable, number: ReadNumber) -> Mechanism:
     """The mechanism of a case of kind ``mechanism``; ``number`` reads an exact number."""
     ground = top.text("ground")
     if "joint" not in top.values:
@@ -39,7 +39,7 @@ def read_mechanism(top: Table, number: ReadNumber) -> Mechanism:
         top.fail(error.key, error.message)
 
 
-def _read_joint(name: str, table: Table, number: ReadNumber) -> Joint:
+def _read_joint(name: str, table: CaseTable, number: ReadNumber) -> Joint:
     kind = table.text("type")
     known = JOINT_TYPES.get(SYNONYMS.get(kind, kind))
     # What the type needs is asked for here; what does not belong to it, the joint itself refuses.
@@ -71,7 +71,7 @@ def _read_joint(name: str, table: Table, number: ReadNumber) -> Joint:
     )
 
 
-def _read_body(name: str, table: Table, number: ReadNumber) -> Body:
+def _read_body(name: str, table: CaseTable, number: ReadNumber) -> Body:
     table.allow(("name", "orientation"))
     orientation = None
     if "orientation" in table.values:
@@ -79,12 +79,12 @@ def _read_body(name: str, table: Table, number: ReadNumber) -> Body:
     return Body(name=name, orientation=orientation)
 
 
-def _read_line(table: Table, number: ReadNumber) -> Line | None:
+def _read_line(table: CaseTable, number: ReadNumber) -> Line | None:
     """A point and the direction of the axis, where it is given by two points or by ``line``."""
     return _line_by(table, number, LINE_KEYS, ("point", "axis"))
 
 
-def _read_second_line(table: Table, number: ReadNumber, first: Line) -> Line | None:
+def _read_second_line(table: CaseTable, number: ReadNumber, first: Line) -> Line | None:
     """Where a universal joint's axis in its second body, given as a line, meets the first axis.
 
     The point that both have in common, and the direction of the second one; None if it is not
@@ -110,7 +110,7 @@ def _read_second_line(table: Table, number: ReadNumber, first: Line) -> Line | N
 
 
 def _line_by(
-    table: Table, number: ReadNumber, keys: tuple[str, str], others: tuple[str, ...]
+    table: CaseTable, number: ReadNumber, keys: tuple[str, str], others: tuple[str, ...]
 ) -> Line | None:
     given = [key for key in keys if key in table.values]
     if not given:
@@ -121,9 +121,9 @@ def _line_by(
     return (_through if given[0] == keys[0] else _line)(table, number, given[0])
 
 
-def _through(table: Table, number: ReadNumber, key: str) -> Line:
+def _through(table: CaseTable, number: ReadNumber, key: str) -> Line:
     places = table.items(key, "points [x, y, z] of the axis", 2)
-    inner = Table(table.file, f"{table.place}: {key}", dict(zip("12", places, strict=True)))
+    inner = CaseTable(table.file, f"{table.place}: {key}", dict(zip("12", places, strict=True)))
     first, second = (inner.vector(place, 3, number) for place in "12")
     axis = difference(second, first)
     if vanishes(axis):
@@ -131,9 +131,9 @@ def _through(table: Table, number: ReadNumber, key: str) -> Line:
     return first, axis
 
 
-def _line(table: Table, number: ReadNumber, key: str) -> Line:
+def _line(table: CaseTable, number: ReadNumber, key: str) -> Line:
     wanted = "{ direction = [x, y, z], moment = [x, y, z] }"
-    inner = Table(table.file, f"{table.place}: {key}", table.get(key, dict, wanted))
+    inner = CaseTable(table.file, f"{table.place}: {key}", table.get(key, dict, wanted))
     inner.allow(("direction", "moment"))
     axis, moment = (inner.vector(key, 3, number) for key in ("direction", "moment"))
     if vanishes(axis):

@@ -27,7 +27,7 @@ Exponents = tuple[int, ...]
 
 
 @dataclass(frozen=True)
-class Ambient:
+class AmbientVariables:
     """The variables that polynomials are looked for in, as polynomials in those of a system.
 
     Attributes:
@@ -48,7 +48,7 @@ class Ambient:
         names: Sequence[str],
         kept: Sequence[int],
         images: Sequence[Polynomial],
-    ) -> Ambient:
+    ) -> AmbientVariables:
         """The variables ``names``, of which ``system`` keeps those at ``kept``."""
         n = len(names)
         equations = [f.with_variables(n, kept) for f in system.polynomials]
@@ -59,7 +59,7 @@ class Ambient:
         return cls(whole, tuple(kept), tuple(images))
 
     @classmethod
-    def itself(cls, system: PolynomialSystem) -> Ambient:
+    def itself(cls, system: PolynomialSystem) -> AmbientVariables:
         """The variables of the system and no others."""
         plain = replace(system, nonzero=(), groups=())
         return cls(plain, tuple(range(system.n)), Polynomial.variables(system.n))
@@ -81,7 +81,7 @@ class Cloud:
     def __init__(
         self,
         source: Source,
-        ambient: Ambient,
+        ambient: AmbientVariables,
         rng: np.random.Generator,
         run: Run,
         further: Sequence[Source] = (),

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.given_points import best_lifted, components_through_points
 from nag.mechanism.framework_model import FrameworkModel
 from nag.mechanism.isotropic import conjugates

@@ -28,7 +28,7 @@ from nag.mechanism.axes import across, direction, dot
 from nag.mechanism.graph import Joint
 from nag.mechanism.quaternion import DualQuaternion, Quaternion, dual_conjugate, line
 
-Kind = Literal["turn", "slide", "ball", "plane", "free"]
+FactorKind = Literal["turn", "slide", "ball", "plane", "free"]
 
 ZERO, ONE = Fraction(0), Fraction(1)
 NOTHING: Quaternion = (ZERO, ZERO, ZERO, ZERO)
@@ -65,7 +65,7 @@ class Factor:
     """
 
     joint: str
-    kind: Kind
+    kind: FactorKind
     generators: tuple[DualQuaternion, ...]
     number: int = 0
     charts: tuple[Fraction, ...] = ()
@@ -131,7 +131,7 @@ def factors_of_joint(joint: Joint) -> tuple[Factor, ...]:
     )
 
 
-def _generators(joint: Joint, kind: Kind, number: int) -> tuple[DualQuaternion, ...]:
+def _generators(joint: Joint, kind: FactorKind, number: int) -> tuple[DualQuaternion, ...]:
     """What a factor is combined of besides the unit, ``number`` the same ones before it."""
     if kind == "ball":
         axes = [tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3)]

@@ -14,8 +14,8 @@ one turn or one slide; formulation H eliminates from each loop one factor of thr
 neighbouring ones of one each.
 
 A factor of a kind that is not there yet asks for its freedoms here, and in `joint_factors` for
-`Kind`, generators, letters, the number of coordinates that turn, and `Factor.norm`. A vector that
-no type has had is a field of `nag.mechanism.graph.Joint` and one of `VECTORS`.
+`FactorKind`, generators, letters, the number of coordinates that turn, and `Factor.norm`. A vector
+that no type has had is a field of `nag.mechanism.graph.Joint` and one of `VECTORS`.
 """
 
 from __future__ import annotations

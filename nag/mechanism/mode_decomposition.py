@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from nag.algebra.exact_ranks import rank
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.intersection import intersect_components
 from nag.mechanism.coordinates import carry_to_euler
 from nag.mechanism.euler import mode_conditions

@@ -126,7 +126,7 @@ class Problem:
             from nag.mechanism.framework_decomposition import decompose_framework
 
             return decompose_framework(self.model, run=run, symmetries=used)  # type: ignore[arg-type]
-        from nag.decomposition.components import decompose
+        from nag.decomposition.decompose import decompose
 
         return decompose(self.system, run=run, symmetries=used)
 

@@ -20,7 +20,7 @@ from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel, cartesian_model
 from nag.mechanism.linkage import LinkageModel
 from nag.text.table import join_words
-from nag.witness.gauss_newton import Zero, descend, polish
+from nag.witness.gauss_newton import IterationEnd, descend, polish
 
 STARTS = 24
 # Values, beside their terms, of what must not vanish at an assembly, at a zero known to rounding.
@@ -64,7 +64,7 @@ def obstacle(parts: AssemblyModel) -> str:
     return ""
 
 
-def real_assemblies(parts: AssemblyModel, seed: int = 0) -> Iterator[Zero]:
+def real_assemblies(parts: AssemblyModel, seed: int = 0) -> Iterator[IterationEnd]:
     """Real assemblies that may move, found by Newton's method from some random starts.
 
     The Jacobian's rank is not full there, as it is nowhere where assemblies move. In the variables

@@ -8,7 +8,7 @@ from math import inf
 import flint
 import numpy as np
 
-from nag.numerics.deflation import Deflated
+from nag.numerics.deflation import DeflatedPoint
 from nag.numerics.descent import Point, Round, descend
 from nag.numerics.digits import bits_of, log_size
 from nag.numerics.exact_system import ExactSystem
@@ -25,7 +25,7 @@ ALIKE = 1e-5
 
 
 def find_zeros_of_cluster(
-    system: ExactSystem, found: Deflated, reach: float, rng: np.random.Generator
+    system: ExactSystem, found: DeflatedPoint, reach: float, rng: np.random.Generator
 ) -> Iterator[tuple[Point, float, bool]]:
     """Approximate zeros of a cluster about a point that is no exact zero, and their distance.
 

@@ -9,12 +9,12 @@ import flint
 import numpy as np
 
 from nag.numerics.ball_ranks import regular_block
-from nag.numerics.deflation import MOST_WORK_ROUGHLY, Deflated, NotDeflated, deflate
+from nag.numerics.deflation import MOST_WORK_ROUGHLY, DeflatedPoint, NotDeflated, deflate
 from nag.numerics.descent import Block, Point, Round, series_cost
 from nag.numerics.digits import LOG10_2, bits_of, log_norm, log_size, middle, working_digits
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.far_along import far_value
-from nag.numerics.implicit_function import Reduction, eliminate
+from nag.numerics.implicit_function import SeriesReduction, eliminate
 from nag.numerics.newton import find_zero, inverse_of
 from nag.numerics.power_series import evaluate
 from nag.numerics.series_zeros import STEPS, ScaledSeries
@@ -57,7 +57,7 @@ def _length(system: ExactSystem) -> float:
     return system.largest_degree * max(0.0, system.longest - ROUND_NUMBERS)
 
 
-def is_exact_zero(system: ExactSystem, found: Deflated) -> bool:
+def is_exact_zero(system: ExactSystem, found: DeflatedPoint) -> bool:
     """Whether what should vanish at a zero does so to as many digits as the coefficients ask for.
 
     Where they are long, zeros may be so close together that fewer digits take them for one.
@@ -109,7 +109,7 @@ def _near(inverse: float) -> list[int]:
     return [k + nearer for k in NEAR]
 
 
-def point_beside(system: ExactSystem, found: Deflated) -> Point | None:
+def point_beside(system: ExactSystem, found: DeflatedPoint) -> Point | None:
     """A point of the smooth set of zeros through a zero, a little off it; None if not found."""
     tries = (_beside(system, found.point, found.rounds, k) for k in _near(found.inverse))
     return next((point for point in tries if point is not None), None)
@@ -146,7 +146,7 @@ def _reduced(
 
 def curve_through(
     system: ExactSystem,
-    found: Deflated,
+    found: DeflatedPoint,
     rng: np.random.Generator,
     attempts: int,
     steps: int = STEPS,
@@ -180,7 +180,7 @@ def curve_through(
     return 0
 
 
-def _trusted(series: Reduction) -> int:
+def _trusted(series: SeriesReduction) -> int:
     """The first of the distances where the last terms of series are small beside the first ones."""
     ring = series.ring
     norms = [-inf] * (ring.order + 1)
@@ -193,15 +193,15 @@ def _trusted(series: Reduction) -> int:
 
 def _followed(
     system: ExactSystem,
-    found: Deflated,
-    series: Reduction,
+    found: DeflatedPoint,
+    series: SeriesReduction,
     begin: int,
     plane: np.ndarray,
     rng: np.random.Generator,
     steps: int,
 ) -> int:
     u: np.ndarray | None = None
-    zero: Deflated | None = None
+    zero: DeflatedPoint | None = None
     for k in [k for k in DISTANCES if k >= begin]:
         scaled = ScaledSeries.of(series.ring, series.rest, -k * LOG10_2)
         u = (
@@ -237,7 +237,9 @@ def _begun(
     return None
 
 
-def _on_hyperplane(system: ExactSystem, found: Deflated, k: int, plane: np.ndarray) -> ExactSystem:
+def _on_hyperplane(
+    system: ExactSystem, found: DeflatedPoint, k: int, plane: np.ndarray
+) -> ExactSystem:
     """The equations on the hyperplane at distance 2^-k."""
     free = [i for i in range(system.n) if i not in found.rounds[0].columns]
     weights = [flint.acb(complex(c)) for c in plane]
@@ -252,7 +254,7 @@ def _on_hyperplane(system: ExactSystem, found: Deflated, k: int, plane: np.ndarr
 
 def _zero_near(
     sliced: ExactSystem, start: Point, k: int, rng: np.random.Generator
-) -> Deflated | None:
+) -> DeflatedPoint | None:
     """The zero on the hyperplane at distance 2^-k beside a point, if it is one to all digits."""
     tries = [(start, -k * LOG10_2 - closer) for closer in CLOSER]
     regular = find_zero(sliced.functions, start, DIGITS, tries[-1][1])
@@ -268,7 +270,7 @@ def _zero_near(
     return None
 
 
-def _on_set(system: ExactSystem, zero: Deflated, rng: np.random.Generator) -> bool:
+def _on_set(system: ExactSystem, zero: DeflatedPoint, rng: np.random.Generator) -> bool:
     """Whether a zero on a hyperplane lies on a smooth set of zeros that leaves the hyperplane."""
     try:
         whole = deflate(system, zero.point, ARRIVED + CLOSE, rng, PATIENCE)
@@ -277,7 +279,7 @@ def _on_set(system: ExactSystem, zero: Deflated, rng: np.random.Generator) -> bo
     return whole.exact and whole.free > zero.free
 
 
-def _continues(sliced: ExactSystem, start: Point, k: int, zero: Deflated) -> bool:
+def _continues(sliced: ExactSystem, start: Point, k: int, zero: DeflatedPoint) -> bool:
     """Whether there is a zero of the same kind by ``start`` on the hyperplane at distance 2^-k."""
     within = 1 - k * LOG10_2 - CLOSER[-1]
     if len(zero.rounds) == 1 and not zero.free:
@@ -289,7 +291,7 @@ def _continues(sliced: ExactSystem, start: Point, k: int, zero: Deflated) -> boo
     return log_norm(a - b for a, b in zip(found[0], start, strict=True)) < within
 
 
-def _vanishes(system: ExactSystem, zero: Deflated, digits: int) -> bool:
+def _vanishes(system: ExactSystem, zero: DeflatedPoint, digits: int) -> bool:
     """Whether a zero is one to so many digits."""
     found = sharpen(system, zero.point, zero.rounds, digits)
     return found is not None and found[1].defect < -VANISHING * digits

@@ -49,7 +49,7 @@ MOST_WORK, MOST_WORK_ROUGHLY = 1e6, 1.5e5
 
 
 @dataclass(frozen=True, eq=False)
-class Deflated:
+class DeflatedPoint:
     """A point where the rounds' equations vanish, to `digits` digits.
 
     Attributes:
@@ -181,7 +181,7 @@ def deflate(
     reach: float,
     rng: np.random.Generator,
     patience: float = 1.0,
-) -> Deflated:
+) -> DeflatedPoint:
     """Rounds that make the zero within ``reach`` of ``x`` regular, and that zero.
 
     Where what remains after a round vanishes to all orders that were looked at, the point is left
@@ -225,7 +225,7 @@ def deflate(
                 return _regular(system, point, rounds, descent)
             lowest = _lowest_terms(system, point, rounds, reach, patience)
             if lowest is None:
-                return Deflated(point, tuple(rounds), left, descent.defect, descent.inverse)
+                return DeflatedPoint(point, tuple(rounds), left, descent.defect, descent.inverse)
             order, descent = lowest
             rounds[-1] = replace(rounds[-1], order=order)
             rows = derivatives(descent.remaining, descent.ring, order - 1)
@@ -249,7 +249,7 @@ def _first_step(rows: Sequence[Terms], this: Round, n: int) -> float:
 
 def _regular(
     system: ExactSystem, point: Point, rounds: Sequence[Round], descent: Descent
-) -> Deflated:
+) -> DeflatedPoint:
     """The zero that the rounds determine, to as many digits whatever its condition."""
     found: tuple[Point, Descent] | None = (point, descent)
     if descent.inverse > ARRIVED + DIGITS - ROUNDING:
@@ -258,7 +258,7 @@ def _regular(
         if found is None:
             raise NotDeflated("Newton's method does not converge in more digits")
     point, descent = found
-    return Deflated(point, tuple(rounds), 0, descent.defect, descent.inverse)
+    return DeflatedPoint(point, tuple(rounds), 0, descent.defect, descent.inverse)
 
 
 def _lowest_terms(

@@ -21,7 +21,7 @@ from nag.numerics.algebraic_point import prime_images
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import Field, UnclearRank
 from nag.numerics.curves import curve_through
-from nag.numerics.deflation import MOST_WORK, Deflated
+from nag.numerics.deflation import MOST_WORK, DeflatedPoint
 from nag.numerics.descent import Round, series_cost
 from nag.numerics.digits import bits_of, doubles, log_size, middle, to_ball, working_digits
 from nag.numerics.dual_space import CurveSearch, DualSpace, dual_space
@@ -29,7 +29,7 @@ from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import LocalDimension
 from nag.numerics.local_structure import FURTHEST, HIGHEST, NUMBERS, REACHES, known_digits
-from nag.numerics.located_zero import Zero, is_exact, locate_zero
+from nag.numerics.located_zero import LocatedZero, is_exact, locate_zero
 from nag.numerics.power_series import Series, SeriesRing, Terms
 from nag.numerics.sharpening import DIGITS, ZERO, sharpen
 
@@ -117,7 +117,7 @@ def reduced_bounds(
 
 
 def _on_hypersurface(
-    polynomials: Sequence[Polynomial], zero: Zero, units: Sequence[flint.arb]
+    polynomials: Sequence[Polynomial], zero: LocatedZero, units: Sequence[flint.arb]
 ) -> bool:
     """Whether a common factor of the equations vanishes at a zero of them."""
     common = common_factor(polynomials)
@@ -133,7 +133,7 @@ def _on_hypersurface(
     return log_size(value) < ZERO + log_size(flint.acb(bound))
 
 
-def _at_zero(zero: Zero, hypersurface: bool, rng: np.random.Generator) -> LocalDimension:
+def _at_zero(zero: LocatedZero, hypersurface: bool, rng: np.random.Generator) -> LocalDimension:
     """Bounds at an exact zero, raised from below and lowered from above until they meet."""
     tangent, system = zero.tangent, zero.system
     missing = max(0, system.n - len(system.rows))
@@ -186,7 +186,7 @@ def _on(k: int) -> str:
 
 def _undecided(
     answer: LocalDimension,
-    zero: Zero,
+    zero: LocatedZero,
     images: list[_Image],
     lower: int,
     rng: np.random.Generator,
@@ -204,7 +204,7 @@ def _undecided(
     return replace(answer, lower=lower, upper=upper, reason=reason)
 
 
-def _images(zero: Zero) -> list[_Image]:
+def _images(zero: LocatedZero) -> list[_Image]:
     """The equations modulo primes if the zero is algebraic, else in digits."""
     if zero.exact is not None:
         found = [
@@ -216,7 +216,7 @@ def _images(zero: Zero) -> list[_Image]:
     return [_Image(NUMBERS, zero.system.at(DIGITS), zero.found.point)]
 
 
-def _hyperplanes(zero: Zero, k: int, rng: np.random.Generator) -> np.ndarray:
+def _hyperplanes(zero: LocatedZero, k: int, rng: np.random.Generator) -> np.ndarray:
     """Normals of random hyperplanes in the variables that the regular part leaves, integers."""
     return rng.integers(1, 2**30, size=(k, zero.tangent)) * rng.choice((-1, 1), (k, zero.tangent))
 
@@ -238,7 +238,7 @@ def _through(normals: np.ndarray, free: list[int], image: _Image, n: int) -> lis
 
 
 def _dual_space(
-    zero: Zero,
+    zero: LocatedZero,
     images: list[_Image],
     k: int,
     stop: Callable[[Sequence[int]], bool],
@@ -255,7 +255,7 @@ def _dual_space(
 
 
 def _in_image(
-    zero: Zero, image: _Image, normals: np.ndarray, stop: Callable[[Sequence[int]], bool]
+    zero: LocatedZero, image: _Image, normals: np.ndarray, stop: Callable[[Sequence[int]], bool]
 ) -> DualSpace:
     """The dual space on hyperplanes in one arithmetic, where the regular part is solved first."""
     block, n, k, field = zero.block, zero.system.n, len(normals), image.field
@@ -277,12 +277,16 @@ def _in_image(
     return dual_space(field, m, series, HIGHEST, stop)
 
 
-def _sliced_curve(zero: Zero, hyperplanes: int, rng: np.random.Generator, attempts: int) -> int:
+def _sliced_curve(
+    zero: LocatedZero, hyperplanes: int, rng: np.random.Generator, attempts: int
+) -> int:
     sliced = _sliced(zero, hyperplanes, rng)
     return 0 if sliced is None else curve_through(*sliced, rng, attempts)
 
 
-def _sliced(zero: Zero, k: int, rng: np.random.Generator) -> tuple[ExactSystem, Deflated] | None:
+def _sliced(
+    zero: LocatedZero, k: int, rng: np.random.Generator
+) -> tuple[ExactSystem, DeflatedPoint] | None:
     """The zero on ``k`` random hyperplanes through it, as exact as the searches beside it need."""
     system, block = zero.system, zero.block
     order = max(zero.found.rounds[0].order, 2)
@@ -306,7 +310,7 @@ def _sliced(zero: Zero, k: int, rng: np.random.Generator) -> tuple[ExactSystem, 
     return system, replace(zero.found, rounds=(here,))
 
 
-def _passing(zero: Zero) -> Sequence[Any] | None:
+def _passing(zero: LocatedZero) -> Sequence[Any] | None:
     """The zero, exact or to so many digits that hyperplanes through it may be told from others."""
     if zero.exact is not None and all(isinstance(c, Fraction) for c in zero.exact):
         return zero.exact

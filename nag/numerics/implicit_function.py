@@ -138,7 +138,7 @@ CONSTANT_STEPS, ROUNDING = 2, 5.0
 
 
 @dataclass(frozen=True, eq=False)
-class Reduction:
+class SeriesReduction:
     """Equations in the variables that are left.
 
     Attributes:
@@ -181,7 +181,7 @@ def eliminate(
     order: int,
     modulus: int = 0,
     at_points: PointValues | None = None,
-) -> Reduction | None:
+) -> SeriesReduction | None:
     """Solve the equations ``solved`` for the variables ``columns`` as series in the others.
 
     Args:
@@ -203,7 +203,9 @@ def eliminate(
     rest_rows = [rows[i] for i in others]
     if not columns:
         images = _images(centre, free, ring)
-        return Reduction(ring, images, shift_polynomials(rest_rows, centre, ring), -float("inf"))
+        return SeriesReduction(
+            ring, images, shift_polynomials(rest_rows, centre, ring), -float("inf")
+        )
     chosen = [rows[i] for i in solved]
     functions = at_points or _Rows(rows, modulus)
     found = _at_centre(functions, centre, solved, columns, modulus)
@@ -231,7 +233,7 @@ def eliminate(
             ring.add(series, change, -1)
         if degree < ring.order:
             composition.lower(dict(zip(columns, steps, strict=True)))
-    return Reduction(ring, images, rest, 0.0 if modulus else _size(inverse))
+    return SeriesReduction(ring, images, rest, 0.0 if modulus else _size(inverse))
 
 
 def _images(centre: Sequence[Any], free: Sequence[int], ring: SeriesRing) -> list[Series]:

@@ -15,7 +15,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_ranks import Digits, Field, UnclearRank
 from nag.numerics.clusters import find_zeros_of_cluster
 from nag.numerics.curves import curve_through, is_exact_zero, point_beside
-from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
+from nag.numerics.deflation import MOST_WORK, DeflatedPoint, NotDeflated, deflate
 from nag.numerics.descent import series_cost
 from nag.numerics.digits import (
     LOG10_2,
@@ -152,7 +152,7 @@ def _judged(
 
 
 def _at_zero(
-    system: ExactSystem, found: Deflated, rng: np.random.Generator, effort: Effort
+    system: ExactSystem, found: DeflatedPoint, rng: np.random.Generator, effort: Effort
 ) -> SingularEnd:
     """The judgement of an exact zero."""
     if found.free:
@@ -183,7 +183,9 @@ def _at_zero(
         return _end(system, found, Place.UNDECIDED, 0, str(reason))
 
 
-def _on_a_curve(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> tuple[str, int]:
+def _on_a_curve(
+    system: ExactSystem, found: DeflatedPoint, rng: np.random.Generator
+) -> tuple[str, int]:
     """Why a zero lies on a set of positive dimension, and of which; 0 where that is not seen soon.
 
     Where it succeeds this is the cheapest proof: no dual space, and no more digits than long
@@ -196,7 +198,7 @@ def _on_a_curve(system: ExactSystem, found: Deflated, rng: np.random.Generator) 
     return "a curve of zeros was followed to the point", dimension
 
 
-def _held(system: ExactSystem, found: Deflated) -> bool:
+def _held(system: ExactSystem, found: DeflatedPoint) -> bool:
     """Whether what vanishes at a zero does so to as many digits as long coefficients ask for.
 
     Zeros may be as near to each other as the coefficients are long, times the number of zeros.
@@ -208,7 +210,7 @@ def _held(system: ExactSystem, found: Deflated) -> bool:
 
 
 def _by_dual_space(
-    system: ExactSystem, found: Deflated, rng: np.random.Generator, patience: float
+    system: ExactSystem, found: DeflatedPoint, rng: np.random.Generator, patience: float
 ) -> SingularEnd:
     exact = rational_point(found.point, DIGITS) if system.rational else None
     if exact is not None and not system.vanishes_exactly(exact):
@@ -244,7 +246,7 @@ def _dual_space(
     system: ExactSystem,
     field: Field,
     centre: Sequence[Any],
-    found: Deflated,
+    found: DeflatedPoint,
     stop: Callable[[Sequence[int]], bool],
     patience: float,
 ) -> DualSpace:
@@ -266,7 +268,7 @@ def _dual_space(
 
 def _resolved(
     system: ExactSystem,
-    found: Deflated,
+    found: DeflatedPoint,
     reach: float,
     rng: np.random.Generator,
     effort: Effort,
@@ -296,7 +298,9 @@ def _resolved(
     return result if component is None else [*result, component]
 
 
-def _cluster(system: ExactSystem, found: Deflated, nearby: Sequence[SingularEnd]) -> SingularEnd:
+def _cluster(
+    system: ExactSystem, found: DeflatedPoint, nearby: Sequence[SingularEnd]
+) -> SingularEnd:
     isolated = tuple(one for one in nearby if one.place is Place.ISOLATED)
     total = sum(one.multiplicity for one in isolated)
     reason = f"{len(isolated)} zeros close together, of multiplicities that add up to {total}"
@@ -318,7 +322,7 @@ def _cluster(system: ExactSystem, found: Deflated, nearby: Sequence[SingularEnd]
     )
 
 
-def _precise(system: ExactSystem, found: Deflated, y: Sequence[flint.acb]) -> PrecisePoint:
+def _precise(system: ExactSystem, found: DeflatedPoint, y: Sequence[flint.acb]) -> PrecisePoint:
     """A zero as well as the conditions of one beside it let it be known."""
     x = _unscaled(system, y)
     error = max(ERROR, 10.0 ** max(found.inverse, 0.0) * ROUNDED)
@@ -332,7 +336,7 @@ def _unscaled(system: ExactSystem, y: Sequence[flint.acb]) -> list[flint.acb]:
 
 def _end(
     system: ExactSystem,
-    found: Deflated,
+    found: DeflatedPoint,
     place: Place,
     multiplicity: int,
     reason: str,

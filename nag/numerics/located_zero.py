@@ -14,7 +14,7 @@ import numpy as np
 from nag.algebra.number import Irrational, Number
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.curves import is_exact_zero
-from nag.numerics.deflation import Deflated, NotDeflated, SeriesTooLong, certain_round, deflate
+from nag.numerics.deflation import DeflatedPoint, NotDeflated, SeriesTooLong, certain_round, deflate
 from nag.numerics.descent import Round
 from nag.numerics.digits import doubles, middle, rational_point, to_ball
 from nag.numerics.exact_system import ExactSystem
@@ -28,7 +28,7 @@ ROUNDING = 5.0
 
 
 @dataclass(frozen=True, eq=False)
-class Zero:
+class LocatedZero:
     """An exact zero of exact equations in scaled variables.
 
     Attributes:
@@ -38,7 +38,7 @@ class Zero:
     """
 
     system: ExactSystem
-    found: Deflated
+    found: DeflatedPoint
     block: Round
     exact: tuple[Number, ...] | None
 
@@ -67,7 +67,7 @@ def exact_zero(
     point: Sequence[Any] | np.ndarray,
     accuracy: float,
     rng: np.random.Generator,
-) -> tuple[Zero | None, list[flint.arb]]:
+) -> tuple[LocatedZero | None, list[flint.arb]]:
     """The exact zero that a point stands for, and the sizes of its variables' units.
 
     Args:
@@ -89,7 +89,7 @@ def locate_zero(
     point: Sequence[Any],
     error: float | None,
     rng: np.random.Generator,
-) -> tuple[Zero | None, list[flint.arb], str]:
+) -> tuple[LocatedZero | None, list[flint.arb], str]:
     """The zero, the sizes of its variables' units, and why there is none if there is none.
 
     Args:
@@ -122,11 +122,11 @@ def _exact_zero(
     error: float | None,
     known: Sequence[Any],
     rng: np.random.Generator,
-) -> tuple[Zero | None, str]:
+) -> tuple[LocatedZero | None, str]:
     """The exact zero that a point stands for, or why there is none."""
     if not system.rows:
-        nothing = Deflated(y, (Round((), ()),), system.n, -np.inf, 0.0)
-        return Zero(system, nothing, nothing.rounds[0], None), ""
+        nothing = DeflatedPoint(y, (Round((), ()),), system.n, -np.inf, 0.0)
+        return LocatedZero(system, nothing, nothing.rounds[0], None), ""
     slopes = system.values_at(DIGITS).jacobian
     if error is None:
         block = certain_round(slopes, y, ROUNDING - DIGITS, rng)
@@ -134,8 +134,8 @@ def _exact_zero(
             found = deflate(system, y, ROUNDING - DIGITS, rng)
             found = replace(found, point=y)
         except NotDeflated:
-            found = Deflated(y, (replace(block, order=2),), 0, ZERO, 0.0)
-        return Zero(system, found, block, tuple(known)), ""
+            found = DeflatedPoint(y, (replace(block, order=2),), 0, ZERO, 0.0)
+        return LocatedZero(system, found, block, tuple(known)), ""
     reasons = []
     # Less reach than what may hold a singular zero shows no other that stands for the point.
     least = -np.inf
@@ -157,6 +157,6 @@ def _exact_zero(
             exact = rational_point(found.point, DIGITS) if system.rational else None
             if exact is not None and not system.vanishes_exactly(exact):
                 exact = None
-            return Zero(system, found, block, None if exact is None else tuple(exact)), ""
+            return LocatedZero(system, found, block, None if exact is None else tuple(exact)), ""
         reasons.append(f"what should vanish there is of size 1e{found.defect:.0f}")
     return None, reasons[0]

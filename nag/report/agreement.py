@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from nag.witness.shown import Kind, flat, kinds, kinds_text
+from nag.witness.shown import ComponentKind, flat, kinds, kinds_text
 from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:
     from nag.files.cases import Truth
 
 
-class Verdict(StrEnum):
+class AgreementKind(StrEnum):
     """How an answer stands to what is known."""
 
     AGREES = "agrees"
@@ -37,11 +37,11 @@ class Agreement:
         sources: where the known things come from.
     """
 
-    verdict: Verdict
-    confirmed: Counter[Kind]
-    missing: Counter[Kind]
-    surplus: Counter[Kind]
-    unlisted: Counter[Kind]
+    verdict: AgreementKind
+    confirmed: Counter[ComponentKind]
+    missing: Counter[ComponentKind]
+    surplus: Counter[ComponentKind]
+    unlisted: Counter[ComponentKind]
     undecided: int
     sources: tuple[str, ...]
 
@@ -60,11 +60,13 @@ def compare(
         return None
     left = kinds(c for c in decomposition.components if c.status is Status.IRREDUCIBLE)
     undecided = sum(c.orbit for c in decomposition.components if c.status is not Status.IRREDUCIBLE)
-    confirmed: Counter[Kind] = Counter()
-    missing: Counter[Kind] = Counter()
+    confirmed: Counter[ComponentKind] = Counter()
+    missing: Counter[ComponentKind] = Counter()
     # The more specific statements choose first among the components that fit.
     for item in sorted(known, key=lambda t: t.multidegree is None):
-        wanted = Kind(item.dimension, item.degree, item.multiplicity, flat(item.multidegree))
+        wanted = ComponentKind(
+            item.dimension, item.degree, item.multiplicity, flat(item.multidegree)
+        )
         due = item.count
         for found in list(left):
             fits = (found.dimension, found.degree, found.multiplicity) == (
@@ -81,9 +83,9 @@ def compare(
     surplus = Counter({k: n for k, n in left.items() if n and k.dimension in covered})
     unlisted = Counter({k: n for k, n in left.items() if n and k.dimension not in covered})
     if surplus or (missing.total() and not undecided):
-        verdict = Verdict.DIFFERS
+        verdict = AgreementKind.DIFFERS
     else:
-        verdict = Verdict.OPEN if missing.total() or undecided else Verdict.AGREES
+        verdict = AgreementKind.OPEN if missing.total() or undecided else AgreementKind.AGREES
     return Agreement(
         verdict=verdict,
         confirmed=+confirmed,
@@ -99,9 +101,9 @@ def agreement_text(agreement: Agreement) -> str:
     """The comparison as one sentence."""
     confirmed, missing = kinds_text(agreement.confirmed), kinds_text(agreement.missing)
     sources = f" ({'; '.join(agreement.sources)})" if any(agreement.sources) else ""
-    if agreement.verdict is Verdict.AGREES:
+    if agreement.verdict is AgreementKind.AGREES:
         text = f"agrees with what is known: {confirmed}"
-    elif agreement.verdict is Verdict.OPEN:
+    elif agreement.verdict is AgreementKind.OPEN:
         text = f"agrees with what is known as far as it is decided: {confirmed}"
         if agreement.missing:
             text += f"; known but not decided here: {missing}"

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.algebra.system import system_line, values_text
-from nag.decomposition.components import METHODS, ONE_EQUATION
+from nag.decomposition.decompose import METHODS, ONE_EQUATION
 from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through

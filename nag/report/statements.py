@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from nag.check.statement import Kind, Statement, Verdict
+from nag.check.statement import Statement, Verdict, VerdictKind
 from nag.text.table import labelled, printable
 
 Decided = tuple[Statement, Verdict]
@@ -15,7 +15,7 @@ def label(statement: Statement, verdict: Verdict) -> str:
     """The answer in a few words."""
     if verdict.digits is not None:
         return f"holds to {verdict.digits} digits"
-    if verdict.kind is Kind.FAILS and statement.misprint:
+    if verdict.kind is VerdictKind.FAILS and statement.misprint:
         return "fails, misprint"
     return str(verdict.kind)
 
@@ -33,25 +33,25 @@ def statement_rows(decided: Sequence[Decided]) -> list[tuple[str, str]]:
 
 def is_as_expected(statement: Statement, verdict: Verdict) -> bool:
     """Whether a statement is decided, and a failure is one of the known misprints."""
-    if verdict.kind is Kind.OPEN:
+    if verdict.kind is VerdictKind.OPEN:
         return False
-    return (verdict.kind is Kind.FAILS) == statement.misprint
+    return (verdict.kind is VerdictKind.FAILS) == statement.misprint
 
 
 def summary(decided: Sequence[Decided]) -> str:
     """Counts of the answers."""
     kinds = [verdict.kind for _, verdict in decided]
-    known = sum(s.misprint and v.kind is Kind.FAILS for s, v in decided)
+    known = sum(s.misprint and v.kind is VerdictKind.FAILS for s, v in decided)
     parts = [
-        f"{kinds.count(Kind.EXACT)} hold exactly",
-        f"{kinds.count(Kind.NUMERICAL)} hold numerically",
+        f"{kinds.count(VerdictKind.EXACT)} hold exactly",
+        f"{kinds.count(VerdictKind.NUMERICAL)} hold numerically",
         f"{known} fail as {ERRATA} says",
     ]
-    unknown = kinds.count(Kind.FAILS) - known
+    unknown = kinds.count(VerdictKind.FAILS) - known
     if unknown:
         parts.append(f"{unknown} fail and are not in {ERRATA}")
-    if kinds.count(Kind.OPEN):
-        parts.append(f"{kinds.count(Kind.OPEN)} are not decided")
+    if kinds.count(VerdictKind.OPEN):
+        parts.append(f"{kinds.count(VerdictKind.OPEN)} are not decided")
     return f"{len(decided)} statements: {', '.join(parts)}"
 
 

@@ -17,7 +17,7 @@ from nag.solving.solutions import SolveResult
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start import KINDS
 from nag.solving.start.choice import choose
-from nag.solving.start.target import Start, Target
+from nag.solving.start.target import StartSystem, Target
 from nag.tracking.certified_paths import (
     ENDGAME,
     CertifiedPaths,
@@ -133,7 +133,7 @@ def _identify_ends(paths: CertifiedPaths, known: ProvedZeros) -> np.ndarray:
 
 def _start(
     system: PolynomialSystem, kind: str, seed: int, threads: int
-) -> tuple[SquareProblem, Start]:
+) -> tuple[SquareProblem, StartSystem]:
     """The start system of a run, or the one with the least work where it had another."""
     rng = np.random.default_rng(seed)
     equations = [f for f in system.polynomials if f]
@@ -149,7 +149,7 @@ def _start(
     return problem, start
 
 
-def _coordinates(target: Target, start: Start, result: SolveResult) -> np.ndarray:
+def _coordinates(target: Target, start: StartSystem, result: SolveResult) -> np.ndarray:
     """The solutions in the homotopy's coordinates."""
     points = target.scaled_points(result.points)
     shift = len(start.groups)

@@ -12,7 +12,7 @@ from nag.numerics.coincidence import SAFETY
 from nag.numerics.digits import bits_of, in_bits, number_of_words
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import SingularEnd
-from nag.solving.start.target import Start
+from nag.solving.start.target import StartSystem
 from nag.tracking.paths import Ball
 
 # Digits in which the quotients of projective coordinates are worked out.
@@ -25,7 +25,7 @@ TWO = 1e-80
 REAL = 1e-10
 
 
-def affine_point(begin: Start, ball: Ball) -> PrecisePoint:
+def affine_point(begin: StartSystem, ball: Ball) -> PrecisePoint:
     """The affine coordinates of an end that a path reached in more digits."""
     shift, x = len(begin.groups), [number_of_words(c) for c in ball.centre]
     values: dict[int, flint.acb] = {}

@@ -32,7 +32,7 @@ from nag.solving.solve_classes import (
 )
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
-from nag.solving.start.target import Start, Target, unit
+from nag.solving.start.target import StartSystem, Target, unit
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -222,7 +222,9 @@ def begin_of_family(
     return homotopy, time.perf_counter() - started, int(paths.steps.sum())
 
 
-def _start(solved: Solved, values: Sequence[Number]) -> Start:
+def _start(solved: Solved, values: Sequence[Number]) -> StartSystem:
     line = parameter_line(solved.family, solved.values, values)
     groups = (tuple(range(solved.family.n)),)
-    return Start("parameter", line.homotopy, line.starts(solved.points), groups, solved.complete)
+    return StartSystem(
+        "parameter", line.homotopy, line.starts(solved.points), groups, solved.complete
+    )

@@ -22,7 +22,7 @@ from nag.numerics.zero_values import ON, vanishes_at, vanishes_at_point
 from nag.solving.isolated_zero import IsolatedZero, affine_point, which_are_real
 from nag.solving.solutions import LargerSets, Solution
 from nag.solving.square_problem import SquareProblem
-from nag.solving.start.target import Start
+from nag.solving.start.target import StartSystem
 from nag.text.table import count_text
 from nag.tracking.ends.inclusion import prove_end
 from nag.tracking.ends.terms import Terms
@@ -39,7 +39,7 @@ BLOCK = 2048
 
 
 @dataclass(frozen=True, eq=False)
-class PathEnds:
+class SortedEnds:
     """The end points of all paths, sorted; coordinates are those of the original variables.
 
     ``close``: the paths to ends that may be several zeros close together. ``isolated``: the
@@ -110,11 +110,11 @@ class _EndPlace:
 
 def sort_ends(
     problem: SquareProblem,
-    begin: Start,
+    begin: StartSystem,
     paths: Paths,
     rng: np.random.Generator,
     finite: bool = False,
-) -> PathEnds:
+) -> SortedEnds:
     """What the ends of all paths are.
 
     Args:
@@ -163,7 +163,7 @@ def sort_ends(
             may_be = "may or may not be an isolated solution, or several that are close together"
         unclear.append(f"{count_text(len(undecided), 'end point')} {may_be}")
     original = problem.target.original
-    return PathEnds(
+    return SortedEnds(
         *_solutions(problem, isolated),
         LargerSets.of(n, sets).map_points(original),
         original(np.array(undecided).reshape(-1, n)),
@@ -175,10 +175,10 @@ def sort_ends(
 
 def add_zeros(
     problem: SquareProblem,
-    ends: PathEnds,
+    ends: SortedEnds,
     zeros: Sequence[IsolatedZero],
     instead_of: Collection[int] = (),
-) -> PathEnds:
+) -> SortedEnds:
     """The same, with more zeros in the scaled variables, some of which replace known ones."""
     kept = [zero for k, zero in enumerate(ends.isolated) if k not in instead_of]
     isolated = (*kept, *zeros)
@@ -187,7 +187,7 @@ def add_zeros(
 
 
 def _select_zeros(
-    problem: SquareProblem, begin: Start, paths: Paths, evaluator: Evaluator
+    problem: SquareProblem, begin: StartSystem, paths: Paths, evaluator: Evaluator
 ) -> tuple[_Zeros, int]:
     """The finite ends that are zeros, and the number of those that are only roughly."""
     finite = paths.where(PathStatus.REGULAR, PathStatus.SINGULAR)
@@ -206,7 +206,7 @@ def _select_zeros(
 
 
 def _list_regular(
-    begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths
+    begin: StartSystem, zeros: _Zeros, chosen: np.ndarray, paths: Paths
 ) -> list[IsolatedZero]:
     """Regular ends as zeros of the equations."""
     path = zeros.path[chosen]
@@ -226,7 +226,7 @@ def _list_regular(
 
 def _judge_end(
     problem: SquareProblem,
-    begin: Start,
+    begin: StartSystem,
     zeros: _Zeros,
     paths: Paths,
     evaluator: Evaluator,
@@ -393,7 +393,7 @@ def _residuals(evaluator: Evaluator, points: np.ndarray) -> np.ndarray:
     return np.concatenate([np.zeros(0), *found])
 
 
-def list_doubts(begin: Start, paths: Paths) -> list[str]:
+def list_doubts(begin: StartSystem, paths: Paths) -> list[str]:
     """What is left open of the paths that failed, and of those to infinity."""
     notes = []
     failed = len(paths.where(PathStatus.FAILED))
@@ -409,7 +409,7 @@ def list_doubts(begin: Start, paths: Paths) -> list[str]:
     return notes
 
 
-def restore_conjugate_ends(begin: Start, paths: Paths) -> Paths:
+def restore_conjugate_ends(begin: StartSystem, paths: Paths) -> Paths:
     """The paths, those that were lost with the missing conjugates of regular ends as theirs.
 
     They are left as they are unless as many conjugates are missing as paths were lost, each is
@@ -425,7 +425,7 @@ def restore_conjugate_ends(begin: Start, paths: Paths) -> Paths:
     return paths.track_again(lost, missing)
 
 
-def _find_unpaired(begin: Start, paths: Paths) -> np.ndarray:
+def _find_unpaired(begin: StartSystem, paths: Paths) -> np.ndarray:
     """Indices of the finite regular ends whose conjugates are no such ends."""
     regular = paths.where(PathStatus.REGULAR)
     count = len(regular)
@@ -439,7 +439,7 @@ def _find_unpaired(begin: Start, paths: Paths) -> np.ndarray:
     return regular[~paired]
 
 
-def _prove_all(begin: Start, ends: Paths) -> bool:
+def _prove_all(begin: StartSystem, ends: Paths) -> bool:
     terms = Terms(begin.homotopy)
     for i, (x, accuracy) in enumerate(zip(ends.points, ends.accuracy.tolist(), strict=True)):
         ball = ends.balls.get(i)

@@ -14,7 +14,7 @@ from nag.algebra.zero_count import Completeness, ZeroCount
 from nag.numerics.system_facts import SystemFacts
 from nag.solving.isolated_zero import IsolatedZero
 from nag.solving.path_ends import (
-    PathEnds,
+    SortedEnds,
     add_zeros,
     list_doubts,
     restore_conjugate_ends,
@@ -22,7 +22,7 @@ from nag.solving.path_ends import (
 )
 from nag.solving.solutions import PathStatistics, SolveResult
 from nag.solving.square_problem import SquareProblem
-from nag.solving.start.target import Start
+from nag.solving.start.target import StartSystem
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.run import Run
 
@@ -82,12 +82,12 @@ class PathSearch:
 
     task: SolveTask
     problem: SquareProblem
-    begin: Start
+    begin: StartSystem
     reason: str
     rng: np.random.Generator
     tracked: Paths
     paths: Paths
-    ends: PathEnds
+    ends: SortedEnds
     bound: Bound | None = None
 
     @classmethod
@@ -95,7 +95,7 @@ class PathSearch:
         cls,
         task: SolveTask,
         problem: SquareProblem,
-        begin: Start,
+        begin: StartSystem,
         reason: str,
         tracked: Paths,
         rng: np.random.Generator,

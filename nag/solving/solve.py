@@ -25,7 +25,7 @@ from nag.solving.solutions import Solution, SolveResult
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import check_kind, choose, mixed_volume
 from nag.solving.start.isotropic import isotropic
-from nag.solving.start.target import Start
+from nag.solving.start.target import StartSystem
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.tracking.settings import Settings, find_settings, tighten
@@ -224,7 +224,7 @@ PATHLESS: tuple[Finder, ...] = (find_at_lost_paths, find_by_sizes)
 AGAIN: tuple[Finder, ...] = (close_ends, doubtful_ends)
 
 
-def _track_from(task: SolveTask, begin: Start, reason: str) -> SolveResult:
+def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult:
     """The zeros that paths from a start system lead to, and those that are found beside them."""
     run = task.run
     paths = track(begin.homotopy, begin.points, run.settings, run.threads, known=begin.known)

@@ -34,7 +34,7 @@ class PathOrbits:
 
 
 @dataclass(frozen=True, eq=False)
-class Known:
+class KnownOfPaths:
     """What a start system knows of its paths.
 
     Attributes:
@@ -50,4 +50,4 @@ class Known:
     bound: int | None = None
 
 
-NOTHING = Known()
+NOTHING = KnownOfPaths()

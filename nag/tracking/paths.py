@@ -75,7 +75,7 @@ class Ball:
 
 
 @dataclass(frozen=True, eq=False)
-class Branch:
+class PathBranch:
     """What a path is near its end: a power series in ``t ** (1 / winding)``, by its first terms.
 
     Attributes:
@@ -90,11 +90,11 @@ class Branch:
     logs: np.ndarray
     bends: np.ndarray
 
-    def permute(self, sources: np.ndarray, groups: Sequence[Sequence[int]]) -> Branch:
+    def permute(self, sources: np.ndarray, groups: Sequence[Sequence[int]]) -> PathBranch:
         """The same with coordinate ``sources[i]`` in place ``i``."""
         orders = tuple(self.orders[k] for k in sources)
         logs, bends = self.logs[sources], self.bends[sources]
-        return Branch(
+        return PathBranch(
             self.winding,
             orders,
             relative(logs, orders, groups),
@@ -147,7 +147,7 @@ class Paths(ArrayTable):
     reason: np.ndarray
     simple: np.ndarray
     balls: Mapping[int, Ball] = field(default_factory=dict)
-    branches: Mapping[int, Branch] = field(default_factory=dict)
+    branches: Mapping[int, PathBranch] = field(default_factory=dict)
 
     def same(self, homotopy: Homotopy, i: int, j: int) -> bool:
         """Whether two ends coincide in all digits that they are known to.

@@ -17,7 +17,7 @@ from nag.errors import NagError
 from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.jumps import collisions, find_like_branches
-from nag.tracking.known import NOTHING, Known
+from nag.tracking.known import NOTHING, KnownOfPaths
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
 from nag.tracking.settings import Settings, find_settings, tighten
@@ -51,7 +51,7 @@ def track(
     *,
     endgame: bool = True,
     distinct: bool = True,
-    known: Known = NOTHING,
+    known: KnownOfPaths = NOTHING,
 ) -> Paths:
     """Track ``starts`` from t = 1 to t = 0.
 
@@ -152,7 +152,7 @@ def _attempt(
     settings: Settings,
     threads: int,
     endgame: bool,
-    known: Known = NOTHING,
+    known: KnownOfPaths = NOTHING,
 ) -> Paths:
     orbits = known.orbits
     if orbits is not None:

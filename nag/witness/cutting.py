@@ -20,7 +20,7 @@ from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank, pivot_rows
 from nag.numerics.scaling import scaled_terms, variable_scales
 from nag.numerics.zero_values import SLACK
 from nag.tracking.compiled import CompiledRows, compile_rows
-from nag.witness.isosingular import Deflated, Level
+from nag.witness.isosingular import DeflatedEquations, Level
 from nag.witness.slices import padded
 
 # Newton's method may correct an end by this part of its size: errors of singular ones are unsure.
@@ -270,8 +270,8 @@ def find_cut(
     return _deflated_cut(equations, end, rng)
 
 
-def _not_deflated(equations: Equations) -> Deflated:
-    return Deflated.none(equations.polynomials, equations.evaluator, equations.n)
+def _not_deflated(equations: Equations) -> DeflatedEquations:
+    return DeflatedEquations.none(equations.polynomials, equations.evaluator, equations.n)
 
 
 def _deflated_cut(
@@ -306,7 +306,7 @@ class _End:
     accuracy: float
 
     def regular_subset(
-        self, system: Deflated, z: np.ndarray, rng: np.random.Generator
+        self, system: DeflatedEquations, z: np.ndarray, rng: np.random.Generator
     ) -> tuple[Cut, np.ndarray] | None:
         """As many of the equations as are needed, or combinations, and the point sharpened.
 

@@ -23,7 +23,7 @@ from nag.witness.close_to_sets import find_nearby_zeros
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import MOST_DEFLATIONS, Cut, Equations, dyadic
 from nag.witness.fibres import Fibre, admit_end
-from nag.witness.isosingular import Deflated
+from nag.witness.isosingular import DeflatedEquations
 from nag.witness.slices import padded
 
 # Digits that are computed with, and in which a pivot is none (decimal logarithm).
@@ -162,7 +162,7 @@ def _find_cut(
 ) -> tuple[Cut, list[flint.acb]] | None:
     """A square system with ``x`` as a regular zero on the slice, and ``x`` with its unknowns."""
     n, z = equations.n, x
-    system = Deflated.none(equations.polynomials, equations.evaluator, n)
+    system = DeflatedEquations.none(equations.polynomials, equations.evaluator, n)
     for _ in range(1 + MOST_DEFLATIONS):
         chosen = _independent(system.polynomials, padded(rows, 1 + len(z)), z)
         if chosen is not None:

@@ -117,7 +117,7 @@ class Fibre:
 
 
 @dataclass(frozen=True, eq=False)
-class PathEnds:
+class SliceEnds:
     """Ends of paths to a slice, which ``cut`` cuts regularly there where they are regular.
 
     Attributes:
@@ -147,7 +147,7 @@ class PathEnds:
         """The ends without the unknowns that deflation added, shape ``(P, n)``."""
         return self.points[:, : self.cut.n]
 
-    def without(self, indices: Iterable[int]) -> PathEnds:
+    def without(self, indices: Iterable[int]) -> SliceEnds:
         """The ends but for some."""
         kept = np.setdiff1d(np.arange(len(self)), list(indices))
         names = ("points", "finite", "regular", "failed", "accuracy")
@@ -174,7 +174,7 @@ def affine(points: np.ndarray) -> np.ndarray:
     return points[:, 1:] / np.where(first == 0, 1e-300, first)
 
 
-def ends_of_paths(paths: Paths, cut: Cut, rows: np.ndarray) -> PathEnds:
+def ends_of_paths(paths: Paths, cut: Cut, rows: np.ndarray) -> SliceEnds:
     """The ends of ``paths`` as affine points, without unknowns that ``cut`` does not know."""
     # NumPy takes long to compare with members of an enumeration.
     regular = paths.status == int(PathStatus.REGULAR)
@@ -185,7 +185,7 @@ def ends_of_paths(paths: Paths, cut: Cut, rows: np.ndarray) -> PathEnds:
     points = affine(paths.points)[:, : cut.n + cut.aux]
     counts = PathCounts(len(finite), int(failed.sum()), int(infinite.sum()))
     fine = _fine(paths, points, regular, finite & ~regular) if paths.balls else {}
-    return PathEnds(cut, rows, points, finite, regular, failed, accuracy, counts, fine)
+    return SliceEnds(cut, rows, points, finite, regular, failed, accuracy, counts, fine)
 
 
 def _fine(
@@ -230,7 +230,7 @@ def move(
     endgame: bool = False,
     through: Sequence[Number] = (),
     sizes: np.ndarray | None = None,
-) -> list[PathEnds]:
+) -> list[SliceEnds]:
     """Move the slice of a set to the rows ``target``: the ends of each fibre.
 
     All rows turn with the same ``gamma``: only then do all points of a fibre, and all fibres of a
@@ -269,7 +269,7 @@ class _Motion:
     endgame: bool
     through: Sequence[Number]
 
-    def carry(self, fibre: Fibre) -> PathEnds:
+    def carry(self, fibre: Fibre) -> SliceEnds:
         """The ends of a fibre, tracked in coordinates of comparable sizes."""
         powers = fibre.cut.powers
         if not powers.any():
@@ -284,7 +284,7 @@ class _Motion:
         fine = _scale_points(ends.fine, powers, fibre.cut, self.target)
         return replace(ends, cut=fibre.cut, points=finite * np.ldexp(1.0, powers), fine=fine)
 
-    def track(self, fibre: Fibre) -> PathEnds:
+    def track(self, fibre: Fibre) -> SliceEnds:
         """The ends of a fibre, tracked in its own coordinates.
 
         Paths of points that are close to others are tracked in more digits.
@@ -339,7 +339,7 @@ def track_close_points(
     rows: np.ndarray,
     run: Run,
     endgame: bool,
-) -> PathEnds:
+) -> SliceEnds:
     """Where paths end that start at points that are close to others.
 
     Their ends are zeros of ``cut`` on the slice ``rows``; further coordinates are left out.
@@ -364,7 +364,7 @@ def track_close_points(
     return replace(close, fine=fine)
 
 
-def join_ends(places: Mapping[int, np.ndarray], parts: Sequence[PathEnds]) -> PathEnds:
+def join_ends(places: Mapping[int, np.ndarray], parts: Sequence[SliceEnds]) -> SliceEnds:
     """Ends of several parts on one slice in one: those of part ``k`` at ``places[k]``."""
     count = sum(map(len, places.values()))
     arrays = {}

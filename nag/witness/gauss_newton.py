@@ -32,7 +32,7 @@ ARRIVED, NEARLY = 1e-14, 1e-11
 
 
 @dataclass(frozen=True, eq=False)
-class Zero:
+class IterationEnd:
     """Where the iteration arrived.
 
     Attributes:
@@ -84,7 +84,7 @@ def descend(evaluator: Evaluator, x: np.ndarray, close: float = CLOSE) -> np.nda
     return None
 
 
-def polish(evaluator: Evaluator, x: np.ndarray, corank: int | None = None) -> Zero:
+def polish(evaluator: Evaluator, x: np.ndarray, corank: int | None = None) -> IterationEnd:
     """Newton's method with the Jacobian's rank kept at a gap, from a point near the zero set."""
     step, n = np.inf, len(x)
     known = corank
@@ -94,13 +94,13 @@ def polish(evaluator: Evaluator, x: np.ndarray, corank: int | None = None) -> Ze
         corank = numerical_corank(s, n, SMALL) if known is None else known
         rank = min(n - corank, len(s))
         if rank and not s[rank - 1] > 0:
-            return Zero(x, corank, np.inf, False)
+            return IterationEnd(x, corank, np.inf, False)
         delta = vh[:rank].conj().T @ ((u[:, :rank].conj().T @ values) / s[:rank])
         x = x - delta
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(x)))
         if not np.isfinite(step) or step > 1:
-            return Zero(x, corank, np.inf, False)
+            return IterationEnd(x, corank, np.inf, False)
         if step < ARRIVED or (step < NEARLY and step >= last):
             break
     residual = float(evaluator.residuals(x[None]).max(initial=0.0))
-    return Zero(x, corank, step, step < SHARP and residual < ZERO)
+    return IterationEnd(x, corank, step, step < SHARP and residual < ZERO)

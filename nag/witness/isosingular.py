@@ -49,7 +49,7 @@ class Level:
 
 
 @dataclass(frozen=True, eq=False)
-class Deflated:
+class DeflatedEquations:
     """Equations in n variables and in the unknowns that deflation added, ``total`` together."""
 
     polynomials: Sequence[Polynomial]
@@ -59,7 +59,9 @@ class Deflated:
     levels: tuple[Level, ...]
 
     @classmethod
-    def none(cls, polynomials: Sequence[Polynomial], evaluator: Evaluator, n: int) -> Deflated:
+    def none(
+        cls, polynomials: Sequence[Polynomial], evaluator: Evaluator, n: int
+    ) -> DeflatedEquations:
         """Equations that were not deflated."""
         return cls(polynomials, evaluator, n, n, ())
 
@@ -69,12 +71,14 @@ class Deflated:
         unknowns = self.total + (free - m) * m
         return unknowns > MOST_UNKNOWNS or entries * m * (1 + free - m) > MOST_TERMS
 
-    def once_more(self, q1: np.ndarray, q2: np.ndarray) -> Deflated:
+    def once_more(self, q1: np.ndarray, q2: np.ndarray) -> DeflatedEquations:
         """The equations together with ``J (q1 + q2 L) = 0`` in new unknowns ``L``."""
         polynomials = _with_null_vectors(self.polynomials, self.total, q1, q2)
         total = self.total + q1.shape[1] * q2.shape[1]
         levels = (*self.levels, Level(self.polynomials, self.evaluator, q1, q2))
-        return Deflated(polynomials, Evaluator.of(polynomials, total), self.n, total, levels)
+        return DeflatedEquations(
+            polynomials, Evaluator.of(polynomials, total), self.n, total, levels
+        )
 
 
 def _with_null_vectors(

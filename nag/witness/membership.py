@@ -30,7 +30,7 @@ from nag.witness.close_points import BASIN, DIGITS, PointInWords, distance, with
 from nag.witness.component_equations import component_fibres, component_system
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import exact_zeros
-from nag.witness.fibres import Fibre, PathEnds, join_fibres, move
+from nag.witness.fibres import Fibre, SliceEnds, join_fibres, move
 from nag.witness.gauss_newton import polish
 from nag.witness.given_component import check_decomposition, in_doubles, rounded
 from nag.witness.slices import padded, rows_through, unit_complex
@@ -166,7 +166,7 @@ def _join_by_cut(sets: Sequence[Sequence[Fibre]]) -> list[tuple[Fibre, np.ndarra
 
 
 def _among_ends(
-    point: np.ndarray, accuracy: float, ends: PathEnds, own: np.ndarray, bounded: bool
+    point: np.ndarray, accuracy: float, ends: SliceEnds, own: np.ndarray, bounded: bool
 ) -> Membership | None:
     """Whether a point is one of a set's ``own`` ends, on a slice through it.
 
@@ -188,7 +188,7 @@ def _among_ends(
     return None if None in answers else Membership.FOREIGN
 
 
-def _distances(point: np.ndarray, ends: PathEnds, sizes: np.ndarray) -> np.ndarray:
+def _distances(point: np.ndarray, ends: SliceEnds, sizes: np.ndarray) -> np.ndarray:
     """Of the ends from a point, relative to its size; infinite for those that are none.
 
     Paths are tracked, and slices rounded, where the coordinates are divided by their ``sizes``.
@@ -199,7 +199,7 @@ def _distances(point: np.ndarray, ends: PathEnds, sizes: np.ndarray) -> np.ndarr
     return distances
 
 
-def _near_ones_rated(point: np.ndarray, accuracy: float, ends: PathEnds) -> PathEnds:
+def _near_ones_rated(point: np.ndarray, accuracy: float, ends: SliceEnds) -> SliceEnds:
     """The ends with Newton's constant of those that are near to a point, and not at it."""
     same, doubtful = classify_arrivals(_distances(point, ends, ends.cut.sizes[1:]), accuracy)
     # Where sizes are unequal, what is little beside the largest may be much for the point.
@@ -216,7 +216,7 @@ def _near_ones_rated(point: np.ndarray, accuracy: float, ends: PathEnds) -> Path
 def _at_end(
     point: np.ndarray,
     error: float,
-    ends: PathEnds,
+    ends: SliceEnds,
     own: np.ndarray,
     i: int,
     bounded: bool,

@@ -35,7 +35,7 @@ MOST_POINTS = 40
 
 
 @dataclass(frozen=True)
-class Kind:
+class ComponentKind:
     """Components that are alike in what can be known of them beforehand."""
 
     dimension: int
@@ -57,9 +57,9 @@ def flat(multidegree: object) -> tuple[int, ...] | None:
     return None if multidegree is None else tuple(np.ravel(np.array(multidegree)).tolist())
 
 
-def kind(component: WitnessSet) -> Kind:
+def kind(component: WitnessSet) -> ComponentKind:
     """What can be compared of ``component``."""
-    return Kind(
+    return ComponentKind(
         component.dimension,
         component.degree,
         component.multiplicity,
@@ -67,19 +67,19 @@ def kind(component: WitnessSet) -> Kind:
     )
 
 
-def kinds(components: Iterable[WitnessSet]) -> Counter[Kind]:
+def kinds(components: Iterable[WitnessSet]) -> Counter[ComponentKind]:
     """How many components there are of each kind; each stands for its whole orbit."""
-    counts: Counter[Kind] = Counter()
+    counts: Counter[ComponentKind] = Counter()
     for component in components:
         counts[kind(component)] += component.orbit
     return counts
 
 
-def kinds_text(counts: Counter[Kind]) -> str:
+def kinds_text(counts: Counter[ComponentKind]) -> str:
     """Counts in words, multidegrees left out, by falling dimension."""
-    plain: Counter[Kind] = Counter()
+    plain: Counter[ComponentKind] = Counter()
     for each, count in counts.items():
-        plain[Kind(each.dimension, each.degree, each.multiplicity)] += count
+        plain[ComponentKind(each.dimension, each.degree, each.multiplicity)] += count
     order = sorted(plain, key=lambda k: (-k.dimension, k.degree, k.multiplicity))
     return "; ".join(each.text(plain[each]) for each in order) or "no component"
 

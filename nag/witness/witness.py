@@ -403,7 +403,7 @@ class Decomposition:
             where branches of the system were decomposed apart.
         complete: whether every component is confirmed and no path was left undecided.
         notes: what a reader must know of an incomplete answer.
-        method: the name of the one of `nag.decomposition.components.METHODS` that answered; empty
+        method: the name of the one of `nag.decomposition.decompose.METHODS` that answered; empty
             where another operation gave the components, or it is not known.
         algebraic: whether exact algebra gave the components, and no paths were needed.
     """

@@ -7,10 +7,10 @@ from collections import Counter
 import numpy as np
 
 from nag.bench.atlas.nine_points import CARRIED
-from nag.bench.atlas.points import Problem
+from nag.bench.atlas.points import KnownProblem
 from nag.bench.reference import Reference, ReferenceError
 from nag.bench.verdicts import Answer, Components, answered
-from nag.decomposition.components import decompose
+from nag.decomposition.decompose import decompose
 from nag.decomposition.singular_points import SingularSet, singular_locus
 from nag.solving.parameter import solve_family, solve_generic
 from nag.witness.moving import SliceError, witness_at
@@ -23,7 +23,7 @@ ELSEWHERE = "point on the slice, not where its radii say"
 NOT_SIMPLE = "slice that is refused"
 
 
-def asked(method: str, problem: Problem, seed: int, settings: str) -> Answer:
+def asked(method: str, problem: KnownProblem, seed: int, settings: str) -> Answer:
     """The answer of ``"solve"``, ``"decompose"``, ``"singular"``, ``"slice"`` or ``"family"``."""
     if method == "family":
         return _of_family(problem, seed, settings)
@@ -41,7 +41,7 @@ def _components(whole: Decomposition) -> Components:
     return found
 
 
-def _singular(problem: Problem, whole: Decomposition, seed: int, settings: str) -> Answer:
+def _singular(problem: KnownProblem, whole: Decomposition, seed: int, settings: str) -> Answer:
     """The components, and their singular points."""
     locus = singular_locus(whole, seed=seed, settings=settings)
     facts: Counter[str] = Counter()
@@ -60,7 +60,7 @@ def _singular_text(one: SingularSet) -> str:
     return text
 
 
-def _on_slice(problem: Problem, whole: Decomposition, seed: int, settings: str) -> Answer:
+def _on_slice(problem: KnownProblem, whole: Decomposition, seed: int, settings: str) -> Answer:
     """The components, and where that of the largest degree meets the slice of the problem.
 
     Each point is compared with the zero that is proved next to it; a slice that is refused leaves
@@ -86,7 +86,7 @@ def _on_slice(problem: Problem, whole: Decomposition, seed: int, settings: str) 
     return Answer("slice", _components(whole), complete, notes, facts)
 
 
-def _of_family(problem: Problem, seed: int, settings: str) -> Answer:
+def _of_family(problem: KnownProblem, seed: int, settings: str) -> Answer:
     """The zeros for moved points, and how many of the case's they are carried to.
 
     The family is solved once for random parameters, and from there for both.

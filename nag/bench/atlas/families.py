@@ -20,9 +20,9 @@ from nag.bench.atlas.moved import (
     moved_case,
     nine_points_moved,
 )
-from nag.bench.atlas.points import Problem
+from nag.bench.atlas.points import KnownProblem
 
-Make = Callable[[Any, np.random.Generator], Problem]
+Make = Callable[[Any, np.random.Generator], KnownProblem]
 
 # Families of systems that take some ten seconds, or half a minute, and seeds of the latter.
 PATIENCE = {"solved-hard": 4, "sparse-large": 12, "solved-large": 12, "nine-point": 6}
@@ -39,7 +39,7 @@ FAR_COORDINATES = {
 
 
 @dataclass(frozen=True)
-class Family:
+class KnobFamily:
     """Systems with a knob.
 
     Attributes:
@@ -67,157 +67,157 @@ def _two(make: Make, *first: Any) -> Make:
     return lambda value, rng: make((*first, value), rng)
 
 
-def _sized(k: int, rng: np.random.Generator) -> Problem:
+def _sized(k: int, rng: np.random.Generator) -> KnownProblem:
     """Three values of each of two variables, of sizes 10^-k and 10^k."""
     return points.grid((-k, k), rng)
 
 
-def _plain_polynomial(k: int, rng: np.random.Generator) -> Problem:
+def _plain_polynomial(k: int, rng: np.random.Generator) -> KnownProblem:
     """A polynomial with random integer coefficients, and its value at each zero."""
     x, y = Polynomial.variables(2)
     terms = {(j, 0): int(rng.integers(1, 10)) * (-1) ** int(rng.integers(2)) for j in range(k + 1)}
-    return Problem(points.plain(Polynomial(2, terms), y - x**2 - 1), points.points((1, k)))
+    return KnownProblem(points.plain(Polynomial(2, terms), y - x**2 - 1), points.points((1, k)))
 
 
 def _cases(
     groups: Mapping[str, tuple[str, ...]], how: str, make: Make, method: str
-) -> Iterator[Family]:
+) -> Iterator[KnobFamily]:
     """Families of cases that ship."""
     for name, cases in groups.items():
         _, dash, kind = name.partition("-")
         text = f"cases {how}" + (f": {kind}" if dash else "")
         patience, seeds = PATIENCE.get(name, 1), SEEDS.get(name)
-        yield Family(name, text, "case", make, cases, method, patience, seeds)
+        yield KnobFamily(name, text, "case", make, cases, method, patience, seeds)
 
 
-FAMILIES: tuple[Family, ...] = (
-    Family(
+FAMILIES: tuple[KnobFamily, ...] = (
+    KnobFamily(
         "cluster-2", "pairs of zeros close together, two unknowns", "digits of the distance",
         _two(points.cluster, 2, 2), DIGITS,
     ),
-    Family(
+    KnobFamily(
         "cluster-3", "pairs of zeros close together, three unknowns", "digits of the distance",
         _two(points.cluster, 3, 2), DIGITS,
     ),
-    Family(
+    KnobFamily(
         "triple", "triples of zeros close together, three unknowns", "digits of the distance",
         _two(points.cluster, 3, 3), DIGITS,
     ),
-    Family(
+    KnobFamily(
         "multiplicity", "the power of a line meets a circle", "multiplicity",
         points.power_on_circle, (2, 3, 4, 6, 8, 12, 16),
     ),
-    Family(
+    KnobFamily(
         "osculating", "curves that touch, in other coordinates", "order of contact",
         points.osculating, (2, 3, 4, 6, 8, 10, 12),
     ),
-    Family(
+    KnobFamily(
         "wilkinson", "(x - 1) ... (x - k)", "degree", points.factors, (5, 10, 15, 20, 25, 30),
     ),
-    Family("unity", "x^k = 1", "degree", points.unity, (2, 10, 20, 30, 40, 60)),
-    Family(
+    KnobFamily("unity", "x^k = 1", "degree", points.unity, (2, 10, 20, 30, 40, 60)),
+    KnobFamily(
         "polynomial", "a random polynomial in one unknown", "degree",
         _plain_polynomial, (2, 10, 20, 30, 40, 60),
     ),
-    Family(
+    KnobFamily(
         "infinity", "curves that touch at infinity", "degree", points.to_infinity,
         (2, 3, 4, 5, 6, 8),
     ),
-    Family(
+    KnobFamily(
         "far", "10^-k x^4 + x - 1, two coupled unknowns", "k", _two(points.far, 2),
         (2, 4, 8, 12, 16, 20, 30),
     ),
-    Family(
+    KnobFamily(
         "far-beside", "zeros of size one, others far out", "k", points.far_beside,
         (2, 4, 8, 12, 16, 20, 30),
     ),
-    Family(
+    KnobFamily(
         "far-cluster", "pairs of zeros close together at 10^9", "digits of the distance",
         _two(points.far_cluster, 2, 9), DIGITS,
     ),
-    Family(
+    KnobFamily(
         "rounded", "coefficients rounded, so that double zeros split", "digits kept",
         points.rounded, (4, 8, 14, 20, 30, 40),
     ),
-    Family(
+    KnobFamily(
         "tangent", "a line that nearly touches a circle", "digits of the distance",
         points.nearly_tangent, DIGITS,
     ),
-    Family(
+    KnobFamily(
         "tangent-slice", "a curve, and a plane that nearly touches it", "digits; 0 it does",
         curves.tangent_slice, (0, *DIGITS), "slice",
     ),
-    Family(
+    KnobFamily(
         "dependent", "conics with the same directions to k digits", "digits",
         _two(points.nearly_dependent, 1), DIGITS,
     ),
-    Family(
+    KnobFamily(
         "sizes", "unknowns of the sizes 10^-k and 10^k", "k", _sized, (0, 2, 4, 6, 8, 10, 12),
     ),
-    Family(
+    KnobFamily(
         "hyperbola", "a hyperbola near two lines", "digits of the distance",
         curves.hyperbola, DIGITS, "decompose",
     ),
-    Family(
+    KnobFamily(
         "cubic", "a cubic near a circle and a line", "digits of the distance",
         curves.nearly_circle_and_line, DIGITS, "decompose",
     ),
-    Family(
+    KnobFamily(
         "skew", "skew lines close together", "digits of the distance",
         curves.close_skew_lines, DIGITS, "decompose",
     ),
-    Family(
+    KnobFamily(
         "circles", "concentric circles close together", "digits of the distance",
         curves.close_circles, DIGITS, "decompose",
     ),
-    Family(
+    KnobFamily(
         "touching", "circles that nearly touch", "digits of the distance",
         curves.touching_circles, (1, 2, 4, 6, 8, 12, 20), "decompose",
     ),
-    Family(
+    KnobFamily(
         "in-space", "a hyperbola near two lines, and a line", "digits of the distance",
         curves.nearly_lines_in_space, DIGITS, "decompose",
     ),
-    Family(
+    KnobFamily(
         "bennett", "Bennett's condition violated: mobility 1, then 0", "digits; 0 as it should be",
         linkages.bennett_violated, (0, 2, 6, 10, 15, 20, 30), "decompose",
     ),
-    Family(
+    KnobFamily(
         "bricard", "Bricard's cube violated: mobility 1, then 0", "digits; 0 as it should be",
         linkages.bricard_violated, (0, 2, 4, 6, 8, 12, 20, 30), "decompose",
     ),
-    Family(
+    KnobFamily(
         "kite", "a kite near a rhombus", "digits of the difference; 0 the rhombus",
         linkages.kite, (0, 2, 4, 8, 12, 20, 30), "decompose",
     ),
-    Family(
+    KnobFamily(
         "slider-crank", "slider cranks near singular ones: two nodes, then none",
         "digits; 0 as it should be",
         linkages.slider_crank, (0, 2, 4, 8, 12, 20, 30), "singular",
     ),
-    Family(
+    KnobFamily(
         "size", "Bennett's mechanism 10^k times as large", "k",
         linkages.bennett_scaled, (-8, -4, 0, 4, 8), "decompose",
     ),
-    Family(
+    KnobFamily(
         "lengths", "a parallelogram's lengths at 10^k", "k",
         linkages.parallelogram, (1, 2, 4, 6, 8, -2, -4, -8), "decompose",
     ),
     *(
-        Family(
+        KnobFamily(
             f"far-{kind}", text, "decades", _two(case_in_far_coordinates, kind),
             tuple(range(0, 7)), "decompose", 2,
         )
         for kind, text in FAR_COORDINATES.items()
     ),
-    Family(
+    KnobFamily(
         "sheets-apart", "two surfaces far apart cut by one", "decades of the distance",
         curves.sheets_apart, tuple(range(0, 7)), "decompose",
     ),
     *_cases(DENSE, "in other coordinates", moved_case, "decompose"),
     *_cases(SPARSE, "changed, still sparse", changed_case, "decompose"),
     *_cases(SOLVED, "changed, solved", changed_case, "solve"),
-    Family(
+    KnobFamily(
         "nine-point", "four-bars through nine points, the points and the family changed", "case",
         nine_points_moved, BY_FAMILY["nine-point"], "family", PATIENCE["nine-point"],
         SEEDS["nine-point"],

@@ -11,7 +11,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.asked import SINGULAR
-from nag.bench.atlas.points import Problem
+from nag.bench.atlas.points import KnownProblem
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.model import model
 
@@ -60,7 +60,7 @@ def _cross(a: Sequence[Fraction], b: Sequence[Fraction]) -> list[Fraction]:
     return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
 
 
-def bennett_violated(k: int, rng: np.random.Generator) -> Problem:
+def bennett_violated(k: int, rng: np.random.Generator) -> KnownProblem:
     """Bennett's mechanism with one joint moved by 10^-k, so that it is rigid; 0: not moved.
 
     Its closure equations are bilinear in two half-angles. Where they have rank 1 they are one
@@ -70,10 +70,10 @@ def bennett_violated(k: int, rng: np.random.Generator) -> Problem:
     if k:
         points[2] = [p + s * Fraction(1, 10**k) for p, s in zip(points[2], (1, -1, 2), strict=True)]
     found = model(_loop(points, axes), "H").system
-    return Problem(found, Counter({(0, 1, 1): 1} if k else {(1, 2, 1): 1}), ONLY)
+    return KnownProblem(found, Counter({(0, 1, 1): 1} if k else {(1, 2, 1): 1}), ONLY)
 
 
-def bricard_violated(k: int, rng: np.random.Generator) -> Problem:
+def bricard_violated(k: int, rng: np.random.Generator) -> KnownProblem:
     """Bricard's cube with one joint moved by 10^-k, so that it is rigid; 0: not moved.
 
     In six configurations: for k = 2, 4 and 6 Krawczyk's test proves 16 simple zeros, of 24 at
@@ -85,14 +85,14 @@ def bricard_violated(k: int, rng: np.random.Generator) -> Problem:
     if k:
         points[3] = [1 + Fraction(1, 10**k), 1 - Fraction(2, 10**k), 0]
     found = model(_loop(points, axes), "H").system
-    return Problem(found, Counter({(0, 1, 1): 6} if k else {(1, 8, 1): 1}), ONLY)
+    return KnownProblem(found, Counter({(0, 1, 1): 6} if k else {(1, 8, 1): 1}), ONLY)
 
 
-def bennett_scaled(k: int, rng: np.random.Generator) -> Problem:
+def bennett_scaled(k: int, rng: np.random.Generator) -> KnownProblem:
     """Bennett's mechanism, 10^k times as large."""
     points, axes = _bennett()
     points = [[p * Fraction(10) ** k for p in point] for point in points]
-    return Problem(model(_loop(points, axes), "H").system, Counter({(1, 2, 1): 1}), ONLY)
+    return KnownProblem(model(_loop(points, axes), "H").system, Counter({(1, 2, 1): 1}), ONLY)
 
 
 def _four_bar(a: Fraction, b: Fraction, c: Fraction, d: Fraction) -> PolynomialSystem:
@@ -104,21 +104,21 @@ def _four_bar(a: Fraction, b: Fraction, c: Fraction, d: Fraction) -> PolynomialS
     return PolynomialSystem(names, rows)
 
 
-def parallelogram(k: int, rng: np.random.Generator) -> Problem:
+def parallelogram(k: int, rng: np.random.Generator) -> KnownProblem:
     """A parallelogram, two bars of which are 10^k times as long as the others."""
     a, b = Fraction(10) ** k, Fraction(1)
     truth = Counter({(1, 2, 1): 1, (1, 4, 1): 1})
-    return Problem(_four_bar(a, b, a, b), truth, ONLY)
+    return KnownProblem(_four_bar(a, b, a, b), truth, ONLY)
 
 
-def kite(k: int, rng: np.random.Generator) -> Problem:
+def kite(k: int, rng: np.random.Generator) -> KnownProblem:
     """A kite at 10^-k from a rhombus: two bars fold onto each other, or none do; 0: a rhombus."""
     one, other = Fraction(1), 1 + (Fraction(1, 10**k) if k else 0)
     truth = Counter({(1, 2, 1): 1, (1, 4, 1): 1} if k else {(1, 2, 1): 3})
-    return Problem(_four_bar(other, one, one, other), truth, ONLY)
+    return KnownProblem(_four_bar(other, one, one, other), truth, ONLY)
 
 
-def slider_crank(k: int, rng: np.random.Generator) -> Problem:
+def slider_crank(k: int, rng: np.random.Generator) -> KnownProblem:
     """Slider cranks of lengths b + c + 10^-k, b and c; 0: of lengths b + c, b and c.
 
     A point is singular where all three bars stand upright; these lengths then close exactly if
@@ -131,4 +131,4 @@ def slider_crank(k: int, rng: np.random.Generator) -> Problem:
     rows += [v[i] ** 2 + v[i + 1] ** 2 - 1 for i in (0, 2, 4)]
     system = PolynomialSystem(("c1", "s1", "c2", "s2", "c3", "s3"), rows)
     facts = Counter({} if k else {SINGULAR.format(2, 3, 2): 2})
-    return Problem(system, Counter({(2, 8, 1): 1}), ("singular",), facts=facts)
+    return KnownProblem(system, Counter({(2, 8, 1): 1}), ("singular",), facts=facts)

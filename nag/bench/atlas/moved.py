@@ -15,7 +15,7 @@ from nag.bench.atlas.changes import (
     sparsely_changed,
 )
 from nag.bench.atlas.nine_points import CARRIED, NinePoints
-from nag.bench.atlas.points import Problem, points
+from nag.bench.atlas.points import KnownProblem, points
 from nag.bench.verdicts import Components
 from nag.files.cases import read_case
 from nag.mechanism.model import model
@@ -134,7 +134,7 @@ BY_FAMILY: dict[str, tuple[str, ...]] = {"nine-point": ("benchmarks/nine-point",
 GROUPS = DENSE | SPARSE | SOLVED | BY_FAMILY
 
 
-def moved_case(name: str, rng: np.random.Generator) -> Problem:
+def moved_case(name: str, rng: np.random.Generator) -> KnownProblem:
     """The system of one of `CASES` in other coordinates, its equations mixed."""
     system, truth = case_system(name)
     coordinates = Coordinates.random(system.n, rng)
@@ -142,13 +142,13 @@ def moved_case(name: str, rng: np.random.Generator) -> Problem:
     # With more equations than unknowns, mixing would make all of them long.
     equations = mixed(moved, rng) if len(moved) <= system.n else tuple(moved)
     nonzero = tuple(coordinates.of(g) for g in system.nonzero)
-    return Problem(PolynomialSystem(system.variables, equations, nonzero), truth)
+    return KnownProblem(PolynomialSystem(system.variables, equations, nonzero), truth)
 
 
-def changed_case(name: str, rng: np.random.Generator) -> Problem:
+def changed_case(name: str, rng: np.random.Generator) -> KnownProblem:
     """The system of one of `CASES`, changed in one of the ways that keep it sparse."""
     system, truth = case_system(name)
-    return Problem(sparsely_changed(system, rng), truth)
+    return KnownProblem(sparsely_changed(system, rng), truth)
 
 
 # Of each folder those cases that are decomposed in half a second or less, in any coordinates.
@@ -159,16 +159,16 @@ ANYWHERE = tuple(
 MOST_DENSE = 6
 
 
-def case_in_far_coordinates(knobs: tuple[str, int], rng: np.random.Generator) -> Problem:
+def case_in_far_coordinates(knobs: tuple[str, int], rng: np.random.Generator) -> KnownProblem:
     """One of the cases, at random, in coordinates of a kind that lie far from its own ones."""
     kind, decades = knobs
     while True:
         system, truth = case_system(ANYWHERE[rng.integers(len(ANYWHERE))])
         if kind != "dense" or system.n <= MOST_DENSE:
-            return Problem(in_far_coordinates(system, kind, decades, rng), truth)
+            return KnownProblem(in_far_coordinates(system, kind, decades, rng), truth)
 
 
-def nine_points_moved(name: str, rng: np.random.Generator) -> Problem:
+def nine_points_moved(name: str, rng: np.random.Generator) -> KnownProblem:
     """The nine points of a case in other places, and its family in other unknowns."""
     case = read_case(CASES / f"{name}.toml")
     assert case.family is not None
@@ -176,7 +176,7 @@ def nine_points_moved(name: str, rng: np.random.Generator) -> Problem:
     system = made.family.original.at(made.targets[0])
     truth = case_system(name)[1]
     facts = Counter({CARRIED: truth[0, 1, 1]})
-    return Problem(system, truth, ("family",), facts=facts, family=made)
+    return KnownProblem(system, truth, ("family",), facts=facts, family=made)
 
 
 def case_system(name: str) -> tuple[PolynomialSystem, Components]:

@@ -22,7 +22,7 @@ from nag.witness.witness import Slice
 
 
 @dataclass(frozen=True)
-class Problem:
+class KnownProblem:
     """A system and all components of its zero set.
 
     Attributes:
@@ -58,34 +58,34 @@ def _tenth(k: int) -> Fraction:
     return Fraction(1, 10**k)
 
 
-def power(k: int, rng: np.random.Generator) -> Problem:
+def power(k: int, rng: np.random.Generator) -> KnownProblem:
     """x^k."""
     (x,) = Polynomial.variables(1)
-    return Problem(plain(x**k), points((k, 1)))
+    return KnownProblem(plain(x**k), points((k, 1)))
 
 
-def power_beside(k: int, rng: np.random.Generator) -> Problem:
+def power_beside(k: int, rng: np.random.Generator) -> KnownProblem:
     """(x - 1)^k (x + 1)."""
     (x,) = Polynomial.variables(1)
-    return Problem(plain((x - 1) ** k * (x + 1)), points((k, 1), (1, 1)))
+    return KnownProblem(plain((x - 1) ** k * (x + 1)), points((k, 1), (1, 1)))
 
 
-def power_on_circle(k: int, rng: np.random.Generator) -> Problem:
+def power_on_circle(k: int, rng: np.random.Generator) -> KnownProblem:
     """The k-th power of a line meets a circle in two points."""
     x, y = Polynomial.variables(2)
-    return Problem(plain((x - y) ** k, x**2 + y**2 - 2), points((k, 2)))
+    return KnownProblem(plain((x - y) ** k, x**2 + y**2 - 2), points((k, 2)))
 
 
-def factors(k: int, rng: np.random.Generator) -> Problem:
+def factors(k: int, rng: np.random.Generator) -> KnownProblem:
     """(x - 1) ... (x - k)."""
     (x,) = Polynomial.variables(1)
-    return Problem(plain(reduce(mul, (x - j for j in range(1, k + 1)))), points((1, k)))
+    return KnownProblem(plain(reduce(mul, (x - j for j in range(1, k + 1)))), points((1, k)))
 
 
-def unity(k: int, rng: np.random.Generator) -> Problem:
+def unity(k: int, rng: np.random.Generator) -> KnownProblem:
     """x^k - 1."""
     (x,) = Polynomial.variables(1)
-    return Problem(plain(x**k - 1), points((1, k)))
+    return KnownProblem(plain(x**k - 1), points((1, k)))
 
 
 def _over(first: Polynomial, n: int) -> list[Polynomial]:
@@ -97,86 +97,86 @@ def _over(first: Polynomial, n: int) -> list[Polynomial]:
     return [first.compose([u[0]]), *(u[j] ** 2 - u[0] - 2 - j for j in range(1, n))]
 
 
-def cluster(value: tuple[int, int, int], rng: np.random.Generator) -> Problem:
+def cluster(value: tuple[int, int, int], rng: np.random.Generator) -> KnownProblem:
     """In n variables, m zeros at distances of 10^-k, twice for each variable after the first."""
     n, m, k = value
     (t,) = Polynomial.variables(1)
     first = t**m * (t**2 + t + 5) - 2 * _tenth(k * m)
-    return Problem(hidden(_over(first, n), rng), points((1, (m + 2) * 2 ** (n - 1))))
+    return KnownProblem(hidden(_over(first, n), rng), points((1, (m + 2) * 2 ** (n - 1))))
 
 
-def multiple(value: tuple[int, int], rng: np.random.Generator) -> Problem:
+def multiple(value: tuple[int, int], rng: np.random.Generator) -> KnownProblem:
     """What clusters of m become when they have come together."""
     n, m = value
     (t,) = Polynomial.variables(1)
     first, count = t**m * (t**2 + t + 5), 2 ** (n - 1)
-    return Problem(hidden(_over(first, n), rng), points((m, count), (1, 2 * count)))
+    return KnownProblem(hidden(_over(first, n), rng), points((m, count), (1, 2 * count)))
 
 
-def far(value: tuple[int, int], rng: np.random.Generator) -> Problem:
+def far(value: tuple[int, int], rng: np.random.Generator) -> KnownProblem:
     """10^-k u^4 + u - 1 in n coupled variables: one zero of size 1, the others far out."""
     n, k = value
     u = Polynomial.variables(n)
     chain = [_tenth(k) * u[j] ** 4 + u[j] - 1 + (u[j - 1] if j else 0) for j in range(n)]
-    return Problem(hidden(chain, rng), points((1, 4**n)))
+    return KnownProblem(hidden(chain, rng), points((1, 4**n)))
 
 
-def far_beside(k: int, rng: np.random.Generator) -> Problem:
+def far_beside(k: int, rng: np.random.Generator) -> KnownProblem:
     """Two zeros of size 1, ten of size 10^(k/2) or so, of 12 by Bezout's number."""
     x, y = Polynomial.variables(2)
     small = _tenth(k)
     f, g = x * y - 1 + small * (x**3 + y**3), x**2 * y - 2 * x + 3 * y + small * x**4
-    return Problem(plain(f, g), points((1, 12)))
+    return KnownProblem(plain(f, g), points((1, 12)))
 
 
-def far_cluster(value: tuple[int, int, int], rng: np.random.Generator) -> Problem:
+def far_cluster(value: tuple[int, int, int], rng: np.random.Generator) -> KnownProblem:
     """Around 10^k, in n variables, two zeros at a relative distance of 10^-j, and two others."""
     n, k, j = value
     (x,) = Polynomial.variables(1)
     t = _tenth(k) * x - 1
     first = t**2 * (t**2 + t + 5) - 2 * _tenth(2 * j)
-    return Problem(hidden(_over(first, n), rng), points((1, 4 * 2 ** (n - 1))))
+    return KnownProblem(hidden(_over(first, n), rng), points((1, 4 * 2 ** (n - 1))))
 
 
-def nearly_dependent(value: tuple[int, int], rng: np.random.Generator) -> Problem:
+def nearly_dependent(value: tuple[int, int], rng: np.random.Generator) -> KnownProblem:
     """Two conics, the leading forms of which agree to 10^-k: distinct (1) or a square (2)."""
     kind, k = value
     x, y = Polynomial.variables(2)
     top = (x - y) * (x + 2 * y) if kind == 1 else (x - y) ** 2
     f = top + 2 * x + 3 * y - 1
     g = top + _tenth(k) * (x**2 - 3 * x * y + 5 * y**2) - x + 2 * y + 4
-    return Problem(hidden([f, g], rng), points((1, 4)))
+    return KnownProblem(hidden([f, g], rng), points((1, 4)))
 
 
-def rounded(k: int, rng: np.random.Generator) -> Problem:
+def rounded(k: int, rng: np.random.Generator) -> KnownProblem:
     """A line that would touch a circle, were the square root of 2 not cut off after k digits.
 
     Two pairs of zeros at distances of 10^(-k/2).
     """
     x, y, z = Polynomial.variables(3)
     root = Fraction(isqrt(2 * 10 ** (2 * k)), 10**k)
-    return Problem(hidden([x**2 + y**2 - 1, x + y - root, z**2 - x - 3], rng), points((1, 4)))
+    return KnownProblem(hidden([x**2 + y**2 - 1, x + y - root, z**2 - x - 3], rng), points((1, 4)))
 
 
-def to_infinity(k: int, rng: np.random.Generator) -> Problem:
+def to_infinity(k: int, rng: np.random.Generator) -> KnownProblem:
     """Two curves of degree k that touch at infinity to order k^2 - 1, and meet in one point.
 
     Over it a third variable has two values; all other paths run to infinity.
     """
     x, y, z = Polynomial.variables(3)
-    return Problem(
+    return KnownProblem(
         hidden([y - x**k - x, y - x**k - 2, z**2 - x - y - 3], rng), points((1, 2)), ("solve",)
     )
 
 
-def nearly_tangent(k: int, rng: np.random.Generator) -> Problem:
+def nearly_tangent(k: int, rng: np.random.Generator) -> KnownProblem:
     """A line cuts a circle in points at a distance of 10^(-k/2) or so; two for each in space."""
     x, y, z = Polynomial.variables(3)
     cut = y - 1 + _tenth(k)
-    return Problem(hidden([x**2 + y**2 - 1, cut, z**2 - x - 3], rng), points((1, 4)))
+    return KnownProblem(hidden([x**2 + y**2 - 1, cut, z**2 - x - 3], rng), points((1, 4)))
 
 
-def osculating(k: int, rng: np.random.Generator) -> Problem:
+def osculating(k: int, rng: np.random.Generator) -> KnownProblem:
     """A circle and a curve touch to order k at one point, and cut at another if k is odd.
 
     The curve is f q + y^a x^b; on the circle x and y have orders 1 and 2 at the origin.
@@ -187,34 +187,34 @@ def osculating(k: int, rng: np.random.Generator) -> Problem:
     weights = [int(w) for w in rng.integers(1, 6, 2)]
     factor = weights[0] * x - weights[1] * y + 3 if a + b > 2 else circle * 0 + 3
     curve = circle * factor + y**a * x**b
-    return Problem(hidden([circle, curve], rng), points((k, 1), (b, b)))
+    return KnownProblem(hidden([circle, curve], rng), points((k, 1), (b, b)))
 
 
-def grid(value: tuple[int, ...], rng: np.random.Generator) -> Problem:
+def grid(value: tuple[int, ...], rng: np.random.Generator) -> KnownProblem:
     """Three values of each variable, of sizes 10 to these powers."""
     x = Polynomial.variables(len(value))
     sized = [v * Fraction(10) ** -e for v, e in zip(x, value, strict=True)]
     equations = [(v - 1) * (v - 2) * (v + 3) for v in sized]
-    return Problem(plain(*mixed(equations, rng)), points((1, 3 ** len(value))))
+    return KnownProblem(plain(*mixed(equations, rng)), points((1, 3 ** len(value))))
 
 
-def given(k: int, rng: np.random.Generator) -> Problem:
+def given(k: int, rng: np.random.Generator) -> KnownProblem:
     """Systems met before, each for one way of going wrong."""
     x, y = Polynomial.variables(2)
     swap = SignedPermutation((1, 0), (1, 1))
     return (
-        Problem(
+        KnownProblem(
             plain(
                 -2 * x * y**3 - 2 * x**2 + 3 * y - Fraction(1, 500),
                 -2 * y - Fraction(3, 10**5) * y**4,
             ),
             points((1, 8)),
         ),
-        Problem(plain(x * y + x**3 + y**3, x**2 + y**3 * _tenth(6)), points((5, 1), (1, 4))),
-        Problem(
+        KnownProblem(plain(x * y + x**3 + y**3, x**2 + y**3 * _tenth(6)), points((5, 1), (1, 4))),
+        KnownProblem(
             plain(x**2 + y**2 - 10**12, x - y), points((1, 2)), ("decompose",), symmetries=(swap,)
         ),
-        Problem(plain((x - 1) * (x - 1 - _tenth(6)), y - x), points((1, 2))),
+        KnownProblem(plain((x - 1) * (x - 1 - _tenth(6)), y - x), points((1, 2))),
     )[k]
 
 

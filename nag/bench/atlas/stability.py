@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from nag.bench.atlas.asked import asked
-from nag.bench.atlas.families import FAMILIES, Family
+from nag.bench.atlas.families import FAMILIES, KnobFamily
 from nag.bench.timed_runs import timed_runs
 from nag.bench.verdicts import Answer, described, verdict
 from nag.errors import NagError
@@ -34,7 +34,7 @@ COUNTS = ("right", "undecided", "slow", "wrong")
 
 
 @dataclass(frozen=True)
-class Task:
+class AnswerTask:
     """One answer: of a family's system for a value of its knob, and a seed."""
 
     family: str
@@ -69,7 +69,7 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Row:
+class FamilyRow:
     """The answers of one family."""
 
     name: str
@@ -86,7 +86,7 @@ class Atlas:
     settings: str
     seeds: int
     limit: float
-    rows: tuple[Row, ...]
+    rows: tuple[FamilyRow, ...]
 
     @property
     def wrong(self) -> int:
@@ -101,12 +101,12 @@ class Atlas:
         return None
 
 
-def family_named(name: str) -> Family:
+def family_named(name: str) -> KnobFamily:
     """The family of that name."""
     return next(f for f in FAMILIES if f.name == name)
 
 
-def answer(task: Task) -> Answer:
+def answer(task: AnswerTask) -> Answer:
     """The answer to one task."""
     family = family_named(task.family)
     problem = family.make(task.value, np.random.default_rng([task.seed, 20]))
@@ -114,12 +114,12 @@ def answer(task: Task) -> Answer:
 
 
 def run_atlas(
-    families: Sequence[Family],
+    families: Sequence[KnobFamily],
     seeds: int = SEEDS,
     limit: float = LIMIT,
     jobs: int = 1,
     settings: str = "default",
-    progress: Callable[[Row], None] | None = None,
+    progress: Callable[[FamilyRow], None] | None = None,
 ) -> Atlas:
     """Answers for all values of families, each family's when it is done.
 
@@ -131,7 +131,7 @@ def run_atlas(
     """
     most = {f.name: seeds if f.seeds is None else min(seeds, f.seeds) for f in families}
     tasks = [
-        Task(f.name, v, s, settings)
+        AnswerTask(f.name, v, s, settings)
         for f in families
         for v in f.values
         for s in range(most[f.name])
@@ -139,10 +139,10 @@ def run_atlas(
     left = {f.name: len(f.values) * most[f.name] for f in families}
     found: dict[str, list[Any]] = {f.name: [] for f in families}
     named = {f.name: f for f in families}
-    rows: dict[str, Row] = {}
-    warm = Task("unity", 2, 0)
+    rows: dict[str, FamilyRow] = {}
+    warm = AnswerTask("unity", 2, 0)
 
-    def limit_of(task: Task) -> float:
+    def limit_of(task: AnswerTask) -> float:
         return limit * named[task.family].patience
 
     for run in timed_runs(answer, tasks, limit=limit_of, jobs=jobs, first=warm):
@@ -170,14 +170,14 @@ def completed(atlas: Atlas, rest: Atlas) -> Atlas:
     return replace(atlas, rows=tuple(rows[f.name] for f in FAMILIES if f.name in rows))
 
 
-def _row(family: Family, runs: Sequence[Any]) -> Row:
+def _row(family: KnobFamily, runs: Sequence[Any]) -> FamilyRow:
     cells = [
         _cell(family, value, [r for r in runs if r.task.value == value]) for value in family.values
     ]
-    return Row(family.name, family.text, family.knob, family.method, tuple(cells))
+    return FamilyRow(family.name, family.text, family.knob, family.method, tuple(cells))
 
 
-def _cell(family: Family, value: Any, runs: Sequence[Any]) -> Cell:
+def _cell(family: KnobFamily, value: Any, runs: Sequence[Any]) -> Cell:
     counts = dict.fromkeys(COUNTS, 0)
     remarks: dict[str, str] = {}
     for run in sorted(runs, key=lambda r: r.task.seed):
@@ -215,7 +215,7 @@ def read_atlas(value: Any) -> Atlas:
     )
 
 
-def _read_row(value: Any, place: str) -> Row:
+def _read_row(value: Any, place: str) -> FamilyRow:
     table = as_table(value, place)
     texts = [as_text(entry(table, k, place), f"{place}.{k}") for k in ("name", "text", "knob")]
     method = as_text(entry(table, "method", place), f"{place}.method")
@@ -223,7 +223,7 @@ def _read_row(value: Any, place: str) -> Row:
     if not cells:
         raise wrong(f"{place}.cells", "a list that is not empty")
     read = (_read_cell(c, f"{place}.cells[{i}]") for i, c in enumerate(cells))
-    return Row(*texts, method, tuple(read))
+    return FamilyRow(*texts, method, tuple(read))
 
 
 def _read_cell(value: Any, place: str) -> Cell:

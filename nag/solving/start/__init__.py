@@ -2,17 +2,17 @@
 
 Read in this order, bottom-up: `target` (a system made ready, and what a start system is); the kinds
 `total_degree` on `interchange` (one path for all that are its images), `multihomogeneous`,
-`polyhedral` on `mixed_cells`, and `monodromy`, both on `fibre_monodromy`; `choice` (the kind that
-is asked for, or has the least work). Two begin elsewhere, and are no kinds: `isotropic`, which
+`polyhedral` on `mixed_cells`, and `monodromy`, both on `coefficient_monodromy`; `choice` (the kind
+that is asked for, or has the least work). Two begin elsewhere, and are no kinds: `isotropic`, which
 takes systems to turns in loops (`nag.solving.solve.by_turns`), and `family_monodromy` on
 `scalings`, for members of families (`nag.solving.parameter`, `--start parameter`).
 
-To add a start system, write a file whose function makes a `target.Start` of a `target.Target`; name
-the kind in `KINDS`, in the enum ``start`` of `nag/files/schema/nag-solutions-1.json` (a test holds
-the two together) and in the README's table of ``--start``; make it in `choice._make_start`, where
-it is asked for, and say in `choice._least_work` when it is taken unasked.
-`nag.solving.certified_paths` proves paths from every kind but monodromy, in whose place it takes
-the one with the least work.
+To add a start system, write a file whose function makes a `target.StartSystem` of a
+`target.Target`; name the kind in `KINDS`, in the enum ``start`` of
+`nag/files/schema/nag-solutions-1.json` (a test holds the two together) and in the README's table of
+``--start``; make it in `choice._make_start`, where it is asked for, and say in `choice._least_work`
+when it is taken unasked. `nag.solving.certified_paths` proves paths from every kind but monodromy,
+in whose place it takes the one with the least work.
 """
 
 KINDS = ("total", "multihomogeneous", "polyhedral", "monodromy")

@@ -15,9 +15,9 @@ from nag.solving.start.multihomogeneous import (
     multihomogeneous,
     terms_of_start,
 )
-from nag.solving.start.target import Start, Target, group_degrees
+from nag.solving.start.target import StartSystem, Target, group_degrees
 from nag.solving.start.total_degree import Shape, bezout, total_degree
-from nag.tracking.known import Known
+from nag.tracking.known import KnownOfPaths
 
 # So few paths are tracked in less time than another start system takes to be found.
 FEW = 64
@@ -43,7 +43,7 @@ def choose(
     rng: np.random.Generator,
     threads: int,
     generic: bool = False,
-) -> tuple[Start, str]:
+) -> tuple[StartSystem, str]:
     """A start system of the ``kind`` asked for, and why that one, in one sentence.
 
     With ``generic`` a total degree start has powers of generic linear forms.
@@ -59,7 +59,7 @@ def choose(
 
 def _make_start(
     target: Target, kind: str, given: Groups, rng: np.random.Generator, threads: int, generic: bool
-) -> tuple[Start, str]:
+) -> tuple[StartSystem, str]:
     total = bezout(target)
     if kind == "total":
         return total_degree(target, rng, generic), f"total degree, as asked: {_paths(total)}"
@@ -88,7 +88,7 @@ def _least_work(
     rng: np.random.Generator,
     threads: int,
     generic: bool,
-) -> tuple[Start, str]:
+) -> tuple[StartSystem, str]:
     """The start system of least work; ``given`` groups are tried."""
     total, shape = bezout(target), Shape.of(target)
     tracked = total if generic else shape.interchange.paths(target.degrees)
@@ -125,7 +125,9 @@ def _least_work(
     elif least > 1:
         counts.append("so few that the mixed volume was not computed")
     if number < tracked:
-        start = replace(multihomogeneous(target, groups, rng), known=Known(most, bound=bound))
+        start = replace(
+            multihomogeneous(target, groups, rng), known=KnownOfPaths(most, bound=bound)
+        )
         return start, f"multihomogeneous, the least work: {', '.join(counts)}"
     start = total_degree(target, rng, generic, shape)
     start = replace(start, known=replace(start.known, most=most, bound=bound))
@@ -149,7 +151,7 @@ def _groups(groups: Groups) -> str:
     return "groups of " + ", ".join(str(len(g)) for g in groups)
 
 
-def mixed_volume(target: Target, start: Start, squared: bool) -> int | None:
+def mixed_volume(target: Target, start: StartSystem, squared: bool) -> int | None:
     """The mixed volume of the equations' polytopes, each with the origin, if it is known or small.
 
     No system of these supports has more isolated zeros, by multiplicity, also where coordinates

@@ -25,9 +25,9 @@ from nag.algebra.turns import Turns, looped_turns
 from nag.errors import StartError
 from nag.solving.start.mixed_cells import MixedCells, mixed_cells
 from nag.solving.start.polyhedral import polyhedral
-from nag.solving.start.target import Start, Target, Terms, homogenize_rows
+from nag.solving.start.target import StartSystem, Target, Terms, homogenize_rows
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.known import Known
+from nag.tracking.known import KnownOfPaths
 from nag.tracking.paths import PathStatus
 from nag.tracking.settings import Settings, find_settings
 from nag.tracking.track import track
@@ -134,7 +134,7 @@ def isotropic(
     settings: Settings | str,
     rng: np.random.Generator,
     threads: int,
-) -> tuple[Start, str] | None:
+) -> tuple[StartSystem, str] | None:
     """The target at rest, at all its zeros, and why that; None if these are not found.
 
     Args:
@@ -151,12 +151,12 @@ def isotropic(
     degrees = np.array(target.degrees)[:, None]
     rows = homogenize_rows(target.rows, target.n, groups, degrees)
     points = np.hstack([np.ones((len(x), 1)), x * np.exp2(-np.array(target.scales, dtype=float))])
-    start = Start(
+    start = StartSystem(
         "polyhedral",
         Homotopy(rows, digits=target.digits),
         points,
         groups,
         detail="in isotropic coordinates",
-        known=Known(bound=len(x)),
+        known=KnownOfPaths(bound=len(x)),
     )
     return start, f"polyhedral, in isotropic coordinates: mixed volume {len(x)}, and as many zeros"

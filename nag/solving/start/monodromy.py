@@ -22,9 +22,14 @@ import numpy as np
 
 from nag.errors import StartError
 from nag.numerics.digits import bits_of, in_bits
-from nag.solving.start.fibre_monodromy import GenericSystem, find_by_loops, seed_system, start_at
+from nag.solving.start.coefficient_monodromy import (
+    GenericSystem,
+    find_by_loops,
+    seed_system,
+    start_at,
+)
 from nag.solving.start.mixed_cells import mixed_cells
-from nag.solving.start.target import Start, Target, group_degrees, homogenize_rows, unit
+from nag.solving.start.target import StartSystem, Target, group_degrees, homogenize_rows, unit
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy, straight_line
@@ -195,7 +200,7 @@ def _second_differences(
     return doubles, np.array([complex(c.mid()) for c in total])
 
 
-def monodromy(target: Target, rng: np.random.Generator, threads: int) -> Start:
+def monodromy(target: Target, rng: np.random.Generator, threads: int) -> StartSystem:
     """The homotopy from random coefficients, whose solutions come from one of them by loops.
 
     The search ends when the trace test proves that there are no more; if no equation's pencil
@@ -222,7 +227,7 @@ def monodromy(target: Target, rng: np.random.Generator, threads: int) -> Start:
 
 def _up_to_the_mixed_volume(
     target: Target, gamma: complex, rng: np.random.Generator, threads: int
-) -> Start:
+) -> StartSystem:
     volume = mixed_cells(target.supports, rng).mixed_volume
     if volume > MOST_PATHS:
         raise StartError(f"monodromy: {volume} paths; at most {MOST_PATHS} are tracked")

@@ -15,7 +15,7 @@ from math import comb, factorial, prod
 import numpy as np
 
 from nag.errors import StartError
-from nag.solving.start.target import Start, Target, group_degrees, homogenize_rows, unit
+from nag.solving.start.target import StartSystem, Target, group_degrees, homogenize_rows, unit
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.homotopy import straight_line
 
@@ -211,7 +211,7 @@ def _choices(degrees: np.ndarray, sizes: Sequence[int]) -> np.ndarray:
     return np.array(found, dtype=np.int64).reshape(len(found), len(table), 2)
 
 
-def multihomogeneous(target: Target, groups: Groups, rng: np.random.Generator) -> Start:
+def multihomogeneous(target: Target, groups: Groups, rng: np.random.Generator) -> StartSystem:
     """The straight-line homotopy from products of random linear forms in the groups.
 
     Raises:
@@ -249,4 +249,4 @@ def multihomogeneous(target: Target, groups: Groups, rng: np.random.Generator) -
         points[:, [shift + i for i in groups[g]]] = solution
     begin = homogenize_rows(start_rows, n, groups, degrees)
     goal = homogenize_rows(target.rows, n, groups, degrees)
-    return Start("multihomogeneous", straight_line(begin, goal, gamma), points, groups)
+    return StartSystem("multihomogeneous", straight_line(begin, goal, gamma), points, groups)

@@ -22,9 +22,14 @@ from itertools import count
 import numpy as np
 
 from nag.errors import StartError
-from nag.solving.start.fibre_monodromy import DistinctPoints, GenericSystem, find_by_loops, start_at
+from nag.solving.start.coefficient_monodromy import (
+    DistinctPoints,
+    GenericSystem,
+    find_by_loops,
+    start_at,
+)
 from nag.solving.start.mixed_cells import MixedCells
-from nag.solving.start.target import Start, Target, group_degrees, homogenize_rows
+from nag.solving.start.target import StartSystem, Target, group_degrees, homogenize_rows
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
@@ -40,7 +45,9 @@ LARGEST = 1 << 40
 WIDTH = 1 / 3
 
 
-def polyhedral(target: Target, cells: MixedCells, rng: np.random.Generator, threads: int) -> Start:
+def polyhedral(
+    target: Target, cells: MixedCells, rng: np.random.Generator, threads: int
+) -> StartSystem:
     """The homotopy from random coefficients, whose solutions come from the mixed cells.
 
     What toric paths do not reach is looked for by monodromy.

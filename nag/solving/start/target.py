@@ -17,7 +17,7 @@ from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordin
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.known import NOTHING, Known
+from nag.tracking.known import NOTHING, KnownOfPaths
 
 # Largest relative error of a number that is rounded to a double.
 HALF_UNIT = 2.0**-53
@@ -179,7 +179,7 @@ class StackedExponents(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Start:
+class StartSystem:
     """A homotopy from a solved system to the target, and the solutions at t = 1.
 
     Attributes:
@@ -199,7 +199,7 @@ class Start:
     groups: tuple[tuple[int, ...], ...]
     complete: bool = True
     detail: str = ""
-    known: Known = NOTHING
+    known: KnownOfPaths = NOTHING
 
     def affine(self, points: np.ndarray) -> np.ndarray:
         """Values of the variables at projective points, shape ``(P, n)``."""

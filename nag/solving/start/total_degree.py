@@ -20,9 +20,16 @@ import numpy as np
 from nag.algebra.polynomial import Exponents
 from nag.errors import StartError
 from nag.solving.start.interchange import Interchange, interchange
-from nag.solving.start.target import Start, Target, Terms, group_degrees, homogenize_rows, unit
+from nag.solving.start.target import (
+    StartSystem,
+    Target,
+    Terms,
+    group_degrees,
+    homogenize_rows,
+    unit,
+)
 from nag.tracking.homotopy import straight_line
-from nag.tracking.known import Known
+from nag.tracking.known import KnownOfPaths
 
 # Longest generic start systems.
 MOST_TERMS = 10_000
@@ -201,7 +208,7 @@ def total_degree(
     rng: np.random.Generator,
     generic: bool = False,
     shape: Shape | None = None,
-) -> Start:
+) -> StartSystem:
     """The straight-line homotopy from ``x_i^d_i = c_i`` with random ``|c_i| = 1``.
 
     The constants of variables that may be interchanged are the same.
@@ -249,4 +256,4 @@ def total_degree(
     symmetric = bool(shape.interchange.blocks) and not generic
     orbits = shape.interchange.orbits(roots, 1) if symmetric else None
     homotopy = straight_line(begin, goal, gamma, matrix)
-    return Start("total", homotopy, points, groups, known=Known(orbits=orbits))
+    return StartSystem("total", homotopy, points, groups, known=KnownOfPaths(orbits=orbits))

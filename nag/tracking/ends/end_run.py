@@ -60,7 +60,7 @@ from nag.tracking.ends.lane_scalars import (
 from nag.tracking.ends.linear_algebra import (
     substitute,
 )
-from nag.tracking.ends.records import Equations, Room
+from nag.tracking.ends.records import KernelEquations, Room
 from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
 from nag.tracking.predictor import OVERLONG
 
@@ -76,10 +76,10 @@ TRIAL, SMALLER = 1e-2, 0.1
 SHORTEST, MOST_REJECTED, LAST_T = 1e-7, 25.0, 1e-280
 
 
-class Batch(NamedTuple):
+class EndBatch(NamedTuple):
     """Paths to be followed, and where their results go.
 
-    ``starts``: points of the paths, numbers as in `Equations`, shape (count, N, 2, words), at
+    ``starts``: points of the paths, numbers as in `KernelEquations`, shape (count, N, 2, words), at
     ``t``, shape (count, words). ``ends``: points at which to try Newton's method at t = 0 first,
     like ``starts``, if ``tried`` is 0; ``straight``: 0 where not to try it later. ``rough,
     rough_ends``: 1 where starts, or ends, are known to the digits of doubles only; ``rough`` is set
@@ -331,7 +331,7 @@ def _best_winding(s, r, b):
     store(r.measures, 1, chosen)
 
 
-def follow_batch(z: ComplexNumbers, s: Equations, r: Room, b: Batch) -> None:
+def follow_batch(z: ComplexNumbers, s: KernelEquations, r: Room, b: EndBatch) -> None:
     """Follow all paths of a batch."""
     f = r.scalars
     following = 0

@@ -14,7 +14,7 @@ from nag.tracking.ends.runs import CLOSE_ORDER, LAST_STEPS, MAX_STEPS, MOST_STEP
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
-from nag.tracking.paths import Ball, Branch, Paths, PathStatus, Reason
+from nag.tracking.paths import Ball, PathBranch, Paths, PathStatus, Reason
 from nag.tracking.projective import ROUNDING
 from nag.tracking.settings import Settings
 
@@ -362,7 +362,7 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
     status = np.full(P, PathStatus.FAILED, dtype=np.int8)
     accuracy = np.full(P, np.inf)
     balls: dict[int, Ball] = {}
-    branches: dict[int, Branch] = {}
+    branches: dict[int, PathBranch] = {}
     infinite = list(homotopy.infinity)
     for path in range(P):
         points[path] = states.point(path)
@@ -375,7 +375,7 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
         elif states.outcome[path] == end_run.LIMIT:
             limit = states.limits[path]
             points[path], states.winding[path] = limit.point, limit.winding
-            branches[path] = Branch(limit.winding, limit.orders, limit.branch, limit.bends)
+            branches[path] = PathBranch(limit.winding, limit.orders, limit.branch, limit.bends)
             finite = bool((limit.point[infinite] != 0).all())
             status[path] = PathStatus.SINGULAR if finite else PathStatus.AT_INFINITY
             accuracy[path] = max(ROUNDING, BEYOND * limit.tail)

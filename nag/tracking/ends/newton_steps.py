@@ -14,7 +14,7 @@ from nag.numerics.digits import bits_of, in_bits, number_of_words
 from nag.tracking.ends import records
 from nag.tracking.ends.corrector import linearize, weigh
 from nag.tracking.ends.evaluation import factors_at, lay_patches
-from nag.tracking.ends.records import Equations, Room
+from nag.tracking.ends.records import KernelEquations, Room
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
 
@@ -30,7 +30,7 @@ class Steps(NamedTuple):
     points: Reals
 
 
-def newton_batch(z: ComplexNumbers, s: Equations, r: Room, b: Steps) -> None:
+def newton_batch(z: ComplexNumbers, s: KernelEquations, r: Room, b: Steps) -> None:
     """Newton's method at t = 0, eight points at a time."""
     size = 2 * z.number.words * s.N
     for j in range(s.N):

@@ -16,7 +16,7 @@ from nag.tracking.ends.lane_scalars import SCALARS
 from nag.tracking.homotopy import Homotopy
 
 
-class Equations(NamedTuple):
+class KernelEquations(NamedTuple):
     """A homotopy; numbers have as many words as the arithmetic (see `nag.tracking.compiled.Tape`).
 
     ``value, jacobian``: coefficients, real and imaginary part in turn. ``factors``: of part ``p``
@@ -64,7 +64,7 @@ class Equations(NamedTuple):
 
 
 class Room(NamedTuple):
-    """Scratch for eight paths, vectors of lanes; numbers are laid out as in `Equations`.
+    """Scratch for eight paths, vectors of lanes; numbers are laid out as in `KernelEquations`.
 
     Each field says how many vectors it has, see `nag.machine_code.lanes.scratch`: a real number has
     ``words`` of them, a complex one twice as many; ``orders`` are those of Taylor coefficients, and
@@ -230,13 +230,13 @@ def _constants(order: int, count: int) -> tuple[np.ndarray, ...]:
     return (composition(order).ravel(), *exact, np.array(inverses))
 
 
-def equations(homotopy: Homotopy, count: int, order: int) -> Equations:
+def equations(homotopy: Homotopy, count: int, order: int) -> KernelEquations:
     """The arrays of ``homotopy`` for numbers of ``count`` words."""
     tape = homotopy.rows.tape
     value, jacobian = coefficients(homotopy, count)
     factors = np.array(homotopy.factors, dtype=np.complex128).reshape(-1, 2)
     moving = (factors[:, 1] != 0) | (factors[:, 0] != 1)
-    return Equations(
+    return KernelEquations(
         homotopy.N,
         len(homotopy.rows),
         len(homotopy.A0),

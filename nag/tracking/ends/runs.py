@@ -16,12 +16,12 @@ import numpy as np
 
 from nag.tracking import evaluations
 from nag.tracking.ends import records
-from nag.tracking.ends.records import Equations
+from nag.tracking.ends.records import KernelEquations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.settings import Settings
 
 if TYPE_CHECKING:
-    from nag.tracking.ends.end_run import Batch
+    from nag.tracking.ends.end_run import EndBatch
     from nag.tracking.ends.follow import States
 
 # Binary exponents of doubles, and bits of a word.
@@ -63,7 +63,9 @@ def run(
     limits = np.zeros((len(chosen), homotopy.N, 4, 2, words))
     powers = powers_of_two(homotopy, states.where[chosen], states.met[chosen] > 0)
 
-    def part(places: np.ndarray, own: Equations = system, shift: np.ndarray | None = None) -> int:
+    def part(
+        places: np.ndarray, own: KernelEquations = system, shift: np.ndarray | None = None
+    ) -> int:
         batch = _batch(homotopy, states, chosen[places], words, settings, shift)
         compiled(own, records.room(homotopy, words, order), batch)
         _keep(states, chosen[places], batch, shift)
@@ -92,13 +94,13 @@ def _batch(
     words: int,
     settings: Settings,
     shift: np.ndarray | None,
-) -> Batch:
+) -> EndBatch:
     """Some paths from where they are, and room for where they get to.
 
     Args:
         shift: binary logarithms over which coordinates are, shape ``(N,)``.
     """
-    from nag.tracking.ends.end_run import Batch
+    from nag.tracking.ends.end_run import EndBatch
 
     count, N = len(own), homotopy.N
     most = states.most[own]
@@ -106,7 +108,7 @@ def _batch(
         most = np.maximum(1, most - states.steps[own])
     ends, where, safe = (_over(x[own], shift) for x in (states.ends, states.where, states.safe))
     outcome, winding, steps, spent = (np.zeros(count, dtype=np.int64) for _ in range(4))
-    return Batch(
+    return EndBatch(
         count,
         states.orders[words],
         ends.ravel(),
@@ -149,7 +151,7 @@ def _over(points: np.ndarray, shift: np.ndarray | None) -> np.ndarray:
         return np.ldexp(points, -shift[:, None, None])
 
 
-def _keep(states: States, own: np.ndarray, batch: Batch, shift: np.ndarray | None) -> None:
+def _keep(states: States, own: np.ndarray, batch: EndBatch, shift: np.ndarray | None) -> None:
     """What a run says of its paths."""
     from nag.tracking.ends import end_run
 
@@ -203,7 +205,7 @@ def _exponents(homotopy: Homotopy) -> tuple[np.ndarray, np.ndarray]:
     return np.array([e for row in rows for e in row], dtype=np.float64), np.cumsum([0, *sizes[:-1]])
 
 
-def scaled(equations: Equations, homotopy: Homotopy, powers: np.ndarray) -> Equations:
+def scaled(equations: KernelEquations, homotopy: Homotopy, powers: np.ndarray) -> KernelEquations:
     """The equations in coordinates over powers of two, each row over the power of its largest term.
 
     Args:

@@ -14,7 +14,14 @@ from functools import cached_property
 
 import numpy as np
 
-from nag.solving.start.target import Start, Target, Terms, group_degrees, homogenize_rows, unit
+from nag.solving.start.target import (
+    StartSystem,
+    Target,
+    Terms,
+    group_degrees,
+    homogenize_rows,
+    unit,
+)
 from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.projective import coinciding_pairs
 from nag.tracking.settings import find_settings
@@ -159,10 +166,12 @@ def _move_points(
 
 def start_at(
     name: str, target: Target, system: GenericSystem, detail: str, gamma: complex
-) -> Start:
+) -> StartSystem:
     """The homotopy from ``system``, all of whose solutions are known, to ``target``."""
     groups = (tuple(range(target.n)),)
     degrees = group_degrees(system.rows, groups)
     begin = homogenize_rows(system.rows, target.n, groups, degrees)
     goal = homogenize_rows(target.rows, target.n, groups, degrees)
-    return Start(name, straight_line(begin, goal, gamma), system.points, groups, detail=detail)
+    return StartSystem(
+        name, straight_line(begin, goal, gamma), system.points, groups, detail=detail
+    )

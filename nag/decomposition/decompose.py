@@ -58,7 +58,7 @@ def decompose(
         ValueError: if another argument makes no sense; the message says which, and what would.
 
     >>> import nag
-    >>> from nag.decomposition.components import decompose
+    >>> from nag.decomposition.decompose import decompose
     >>> [(c.dimension, c.degree) for c in decompose(nag.system("x*(y - 1)")).components]
     [(1, 1), (1, 1)]
     """
