@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm
-from typing import Any, Literal
+from typing import Any
 
 from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.number import Number
@@ -26,9 +26,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly_modes import mode_rotation
 from nag.mechanism.axes import across, direction, dot
 from nag.mechanism.graph import Joint
+from nag.mechanism.joint_types import FACTOR_KINDS, FREE_KIND, FactorKind
 from nag.mechanism.quaternion import DualQuaternion, Quaternion, dual_conjugate, line
-
-FactorKind = Literal["turn", "slide", "ball", "plane", "free"]
 
 ZERO, ONE = Fraction(0), Fraction(1)
 NOTHING: Quaternion = (ZERO, ZERO, ZERO, ZERO)
@@ -40,16 +39,6 @@ _CHARTS = tuple(
     Fraction(a, b)
     for a, b in ((3, 7), (-5, 9), (7, 11), (-4, 13), (8, 17), (-9, 19), (6, 23), (-11, 29))
 )
-# Letters of the variables of a joint, in the order of its factors.
-_LETTERS = {
-    "turn": ("x", "y"),
-    "slide": ("d",),
-    "ball": ("a", "b", "c"),
-    "plane": ("x", "d", "e"),
-    "free": ("e1", "e2", "e3", "g0", "g1", "g2", "g3"),
-}
-# Number of coordinates that turn, each with a chart constant of its own.
-_TURNING = {"turn": 1, "slide": 0, "ball": 3, "plane": 1, "free": 3}
 
 
 @dataclass(frozen=True)
@@ -58,17 +47,22 @@ class Factor:
 
     Attributes:
         joint: name of the joint; of a body in the air, its own name.
-        kind: what it does.
+        kind: what it does, a key of `nag.mechanism.joint_types.FACTOR_KINDS`, or ``"free"``.
         generators: the first is the unit.
         number: which factor of that kind it is in its joint, from 0.
         charts: constants of its chart, as many as it has turning coordinates.
     """
 
     joint: str
-    kind: FactorKind
+    kind: str
     generators: tuple[DualQuaternion, ...]
     number: int = 0
     charts: tuple[Fraction, ...] = ()
+
+    @property
+    def of_kind(self) -> FactorKind:
+        """What its kind has."""
+        return FREE_KIND if self.kind == "free" else FACTOR_KINDS[self.kind]
 
     @property
     def dimension(self) -> int:
@@ -78,12 +72,12 @@ class Factor:
     @property
     def letters(self) -> tuple[str, ...]:
         """First letters of its variables' names."""
-        letters = _LETTERS[self.kind]
+        letters = self.of_kind.letters
         return (letters[self.number],) if self.dimension == 1 else tuple(letters)
 
     def with_chart(self, first: int) -> Factor:
         """The same with chart constants, those of a model being numbered from ``first``."""
-        count = _TURNING[self.kind]
+        count = self.of_kind.turning
         return replace(self, charts=tuple(_chart(first + i) for i in range(count)))
 
     def homogeneous(self, x: Sequence[Any], convert: Any = lambda c: c) -> tuple[Any, ...]:
@@ -105,7 +99,7 @@ class Factor:
 
         Where it vanishes the factor is no displacement.
         """
-        if self.kind == "slide":
+        if not self.of_kind.turning:
             return None
         values = self.homogeneous(x)[: 1 + len(self.charts)]
         total = values[0] * values[0]
@@ -131,7 +125,7 @@ def factors_of_joint(joint: Joint) -> tuple[Factor, ...]:
     )
 
 
-def _generators(joint: Joint, kind: FactorKind, number: int) -> tuple[DualQuaternion, ...]:
+def _generators(joint: Joint, kind: str, number: int) -> tuple[DualQuaternion, ...]:
     """What a factor is combined of besides the unit, ``number`` the same ones before it."""
     if kind == "ball":
         axes = [tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3)]

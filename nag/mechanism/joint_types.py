@@ -13,9 +13,9 @@ first factor, are those of ``axis`` in the first body; planar mechanisms have on
 one turn or one slide; formulation H eliminates from each loop one factor of three freedoms, or two
 neighbouring ones of one each.
 
-A factor of a kind that is not there yet asks for its freedoms here, and in `joint_factors` for
-`FactorKind`, generators, letters, the number of coordinates that turn, and `Factor.norm`. A vector
-that no type has had is a field of `nag.mechanism.graph.Joint` and one of `VECTORS`.
+A factor of a kind that is not there yet is a new entry of `FACTOR_KINDS`, and has its generators in
+`joint_factors`. A vector that no type has had is a field of `nag.mechanism.graph.Joint` and one of
+`VECTORS`.
 """
 
 from __future__ import annotations
@@ -27,8 +27,35 @@ from nag.errors import NagError
 
 # What may be given of a joint.
 VECTORS = ("point", "axis", "second_axis")
-# Freedoms of each kind of factor of a joint's displacement (`nag.mechanism.joint_factors`).
-FACTOR_FREEDOMS = MappingProxyType({"turn": 1, "slide": 1, "ball": 3, "plane": 3})
+
+
+@dataclass(frozen=True)
+class FactorKind:
+    """A kind of factor of a displacement (`nag.mechanism.joint_factors`).
+
+    Attributes:
+        freedoms: of the displacement.
+        turning: number of coordinates that turn, the first ones, each with a chart constant of its
+            own; without any the factor has norm 1.
+        letters: first letters of its variables' names, in their order; of a kind with one variable,
+            those of the first factor of the kind in a joint, of the second one, ...
+    """
+
+    freedoms: int
+    turning: int
+    letters: tuple[str, ...]
+
+
+FACTOR_KINDS = MappingProxyType(
+    {
+        "turn": FactorKind(1, 1, ("x", "y")),
+        "slide": FactorKind(1, 0, ("d", "e")),
+        "ball": FactorKind(3, 3, ("a", "b", "c")),
+        "plane": FactorKind(3, 1, ("x", "d", "e")),
+    }
+)
+# Study coordinates of a body in the air, seven on a quadric.
+FREE_KIND = FactorKind(6, 3, ("e1", "e2", "e3", "g0", "g1", "g2", "g3"))
 
 
 @dataclass(frozen=True)
@@ -71,7 +98,7 @@ class JointType:
             three that keep all directions.
         gaps: number of O constraints: one along its axis, or two across it.
         factors: kinds of the factors whose product is its displacement, in order: keys of
-            `FACTOR_FREEDOMS`. The first of a kind is about or along ``axis``, a second one about or
+            `FACTOR_KINDS`. The first of a kind is about or along ``axis``, a second one about or
             along ``second_axis``.
 
     Raises:
@@ -94,7 +121,7 @@ class JointType:
         """What of it does not fit the rest."""
         for words, known in (
             ((*self.fields, *self.optional), VECTORS),
-            (self.factors, tuple(FACTOR_FREEDOMS)),
+            (self.factors, tuple(FACTOR_KINDS)),
         ):
             for word in words:
                 if word not in known:
@@ -117,7 +144,7 @@ class JointType:
     @property
     def freedoms(self) -> int:
         """Freedoms of one body against the other, in space."""
-        return sum(FACTOR_FREEDOMS[kind] for kind in self.factors)
+        return sum(FACTOR_KINDS[kind].freedoms for kind in self.factors)
 
     @property
     def components(self) -> PrimeComponents:
