@@ -29,7 +29,7 @@ from singular_counts import Singular, SingularError
 
 import nag
 from nag.algebra.expression import parse_polynomial
-from nag.algebra.factoring import factored
+from nag.algebra.factoring import factor_into_irreducibles
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.smoothness import determinant
 from nag.decomposition import singular_parameters
@@ -229,7 +229,7 @@ def disagreement_with_discriminant(of: Family, found: SingularParameters) -> str
     if not sympy.Poly(f, x).LC().is_number:
         return None
     text = str(sympy.expand(sympy.discriminant(f, x))).replace("**", "^")
-    known = {_monic(p) for p, _ in factored(parse_polynomial(text, of.parameters))}
+    known = {_monic(p) for p, _ in factor_into_irreducibles(parse_polynomial(text, of.parameters))}
     own = {_monic(f) for equations in found.conditions for f in equations}
     doubts = [f"no component: {f.text(of.parameters)}" for f in own - known]
     if found.complete:

@@ -25,7 +25,15 @@ from exact_counts import zero_set
 from nag.bench.atlas import curves, points
 from nag.bench.atlas.points import KnownProblem
 from nag.bench.timed_runs import TimedRun, timed_runs
-from nag.bench.verdicts import METHODS, Answer, ZeroSet, answered, described, summary, verdict
+from nag.bench.verdicts import (
+    METHODS,
+    Answer,
+    ZeroSet,
+    compute_answer,
+    describe_run,
+    summary,
+    verdict,
+)
 
 FAMILIES = points.FAMILIES | curves.FAMILIES
 
@@ -52,7 +60,7 @@ class Task:
 def answer(task: Task) -> Answer:
     """Solve or decompose one."""
     problem = task.problem
-    return answered(task.method, problem.system, task.seed, task.settings, problem.symmetries)
+    return compute_answer(task.method, problem.system, task.seed, task.settings, problem.symmetries)
 
 
 def tasks(options: argparse.Namespace) -> Iterator[Task]:
@@ -121,7 +129,7 @@ def record(
     task, truth = run.task, ZeroSet.of(run.task.problem.truth)
     found = verdict(run, truth)
     if found != "right":
-        print(f"  {task.name}: {found}: {described(run, truth)}", flush=True)
+        print(f"  {task.name}: {found}: {describe_run(run, truth)}", flush=True)
     key = (task.family, task.method)
     results.setdefault(key, []).append((found, run.seconds))
     if len(results[key]) == groups[key]:

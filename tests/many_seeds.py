@@ -26,7 +26,7 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.changes import FAR_COORDINATES, changed, in_far_coordinates
+from nag.bench.atlas.changes import FAR_COORDINATES, change_system, in_far_coordinates
 from nag.decomposition.decompose import decompose
 from nag.files.cases import Truth, read_case
 from nag.mechanism.assembly import AssemblyModel
@@ -97,7 +97,7 @@ def moved(of: Subject, seed: int, far: str | None) -> Subject:
     """
     rng = np.random.default_rng(seed)
     if far is None:
-        system = changed(of.system, rng)
+        system = change_system(of.system, rng)
     else:
         kind, decades = far.split(":")
         system = replace(in_far_coordinates(of.system, kind, int(decades), rng), groups=())

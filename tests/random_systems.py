@@ -33,9 +33,9 @@ from nag.bench.verdicts import (
     METHODS,
     Answer,
     ZeroSet,
-    answered,
-    described,
-    known,
+    compute_answer,
+    describe_run,
+    known_text,
     summary,
     verdict,
 )
@@ -94,7 +94,7 @@ def work(task: Task) -> Answer | ZeroSet | None:
     if task.method == "count":
         return zero_set(small_system(task.seed, task.number).system)
     draw = far_system if task.far else small_system
-    return answered(task.method, draw(task.seed, task.number).system, settings=task.settings)
+    return compute_answer(task.method, draw(task.seed, task.number).system, settings=task.settings)
 
 
 def judged(runs: Mapping[str, TimedRun]) -> dict[str, tuple[str, float]]:
@@ -120,10 +120,10 @@ def report(
     name = " ".join((small.kind, task.coordinates)).strip()
     for method, (kind, seconds) in found.items():
         if kind not in ("right", "agree"):
-            text = described(runs[method], truth)
+            text = describe_run(runs[method], truth)
             print(f"  {task.number} ({name}) {method}: {kind} ({seconds:.1f} s): {text}")
     if bad:
-        print(f"    {', '.join(small.system.variables)}; known: {known(truth, 'decompose')}")
+        print(f"    {', '.join(small.system.variables)}; known: {known_text(truth, 'decompose')}")
         print("".join(f'    "{text}",\n' for text in small.system.text()), end="", flush=True)
 
 

@@ -297,12 +297,12 @@ def of_component(
 def vanishing_on(document: Document, component: Document) -> str:
     """A factor of an equation that vanishes on a component."""
     from nag.algebra.expression import parse_polynomial
-    from nag.algebra.factoring import factored
+    from nag.algebra.factoring import factor_into_irreducibles
 
     names = document["system"]["variables"]
     point = np.array(component["points"][0], dtype=float) @ [1, 1j]
     for text in document["system"]["polynomials"]:
-        for f, _ in factored(parse_polynomial(text, names)):
+        for f, _ in factor_into_irreducibles(parse_polynomial(text, names)):
             value = sum(
                 complex(float(c)) * np.prod(point ** np.array(e)) for e, c in f.terms.items()
             )

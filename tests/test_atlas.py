@@ -16,7 +16,7 @@ from exact_counts import zero_set
 import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.family import Family as PolynomialFamily
-from nag.bench.atlas.asked import SINGULAR, asked
+from nag.bench.atlas.asked import SINGULAR, ask_method
 from nag.bench.atlas.changes import KINDS, sparsely_changed
 from nag.bench.atlas.curves import tangent_slice
 from nag.bench.atlas.families import FAMILIES, KnobFamily
@@ -110,7 +110,7 @@ def test_sparse_changes_keep_the_zero_set(kind: str) -> None:
 
 def test_points_that_are_elsewhere_than_they_say_are_no_right_answer(monkeypatch) -> None:
     problem = tangent_slice(8, np.random.default_rng(0))
-    right = asked("slice", problem, 0, "default")
+    right = ask_method("slice", problem, 0, "default")
     assert right.complete and agrees(right, problem.zero_set)
 
     def off(*arguments: Any, **options: Any) -> WitnessSet:
@@ -118,7 +118,7 @@ def test_points_that_are_elsewhere_than_they_say_are_no_right_answer(monkeypatch
         return replace(found, points=found.points + 1e-12)
 
     monkeypatch.setattr("nag.bench.atlas.asked.witness_at", off)
-    assert not agrees(asked("slice", problem, 0, "default"), problem.zero_set)
+    assert not agrees(ask_method("slice", problem, 0, "default"), problem.zero_set)
 
 
 def test_the_violated_cube_has_six_proved_configurations() -> None:

@@ -16,7 +16,7 @@ import pytest
 import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.changes import NAMES, Coordinates, mixed
+from nag.bench.atlas.changes import NAMES, Coordinates, combine_equations
 from nag.bench.reference import Reference
 from nag.cli import main
 from nag.decomposition import project
@@ -87,7 +87,9 @@ def _moved(
     """The equations in random exact coordinates, mixed, and a point of them in these."""
     n = equations[0].n
     coordinates = Coordinates.random(n, rng)
-    system = PolynomialSystem(NAMES[:n], mixed([coordinates.of(f) for f in equations], rng))
+    system = PolynomialSystem(
+        NAMES[:n], combine_equations([coordinates.of(f) for f in equations], rng)
+    )
     constant = (0,) * n
     unit = [tuple(int(i == j) for i in range(n)) for j in range(n)]
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nag
-from nag.witness.frame import expanded
+from nag.witness.frame import expand_orbits
 from nag.witness.witness import WitnessSet
 
 
@@ -23,7 +23,7 @@ def test_components_know_the_system_that_they_are_of(tmp_path: Any) -> None:
     nag.write_decomposition(answer, tmp_path / "answer.json")
     again = nag.read_decomposition(tmp_path / "answer.json")
     assert again == answer
-    for known in (answer, again, expanded(answer), replace(answer, notes=("one",))):
+    for known in (answer, again, expand_orbits(answer), replace(answer, notes=("one",))):
         assert all(c.system is known.system for c in known.components)
 
 

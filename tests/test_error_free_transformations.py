@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from nag.algebra.number import square_root
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import aligned, load, store
+from nag.machine_code.lanes import aligned_zeros, load, store
 from nag.machine_code.records import Reals
 from nag.tracking.ends.records import words
 from nag.tracking.numbers.complex_numbers import ARITHMETICS
@@ -51,7 +51,7 @@ tail = st.floats(min_value=-0.5, max_value=0.5)
 
 @given(st.lists(st.tuples(moderate, moderate), min_size=8, max_size=8))
 def test_transformations_lose_nothing(pairs: list[tuple[float, float]]) -> None:
-    a, b, result = aligned(1), aligned(1), aligned(4)
+    a, b, result = aligned_zeros(1), aligned_zeros(1), aligned_zeros(4)
     a[:], b[:] = zip(*pairs, strict=True)
     TRANSFORMATIONS(Pairs(a, b, result))
     exact = [Fraction(v) for v in result]
@@ -76,7 +76,7 @@ numbers = st.tuples(moderate, st.lists(tail, min_size=7, max_size=7))
 @pytest.mark.parametrize(("count", "bits"), [(2, 99), (4, 203), (8, 411)])
 @given(pairs=st.lists(st.tuples(numbers, numbers), min_size=8, max_size=8))
 def test_sums_and_products_keep_their_digits(count: int, bits: int, pairs) -> None:
-    a, b, result = aligned(count), aligned(count), aligned(2 * count)
+    a, b, result = aligned_zeros(count), aligned_zeros(count), aligned_zeros(2 * count)
     for lane, pair in enumerate(pairs):
         for data, (leading, tails) in zip((a, b), pair, strict=True):
             data[lane::8] = expansion(leading, tails, count)

@@ -18,7 +18,7 @@ from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.witness.exact_points import sharpen_fibre
 from nag.witness.fibres import Fibre
-from nag.witness.frame import expanded
+from nag.witness.frame import expand_orbits
 from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import WitnessSet
 
@@ -57,7 +57,7 @@ REGULAR = [
 @pytest.mark.parametrize(("name", "value"), REGULAR, ids=str)
 def test_points_of_a_decomposition_lie_within_their_radii(name: str, value: object) -> None:
     system = known_system(name, value)
-    answer = expanded(decompose(system))
+    answer = expand_orbits(decompose(system))
     assert answer.components
     for component in answer.components:
         assert_within_radii(system, component)
@@ -70,7 +70,7 @@ def test_images_under_symmetries_have_the_radii_of_their_coordinates() -> None:
     system = nag.system("(x^2 - 2*y - z)*(y^2 - 2*x - z)*(x*y - 1)", "x y z")
     answer = decompose(system, symmetries=[SignedPermutation((1, 0, 2), (1, 1, 1))])
     assert any(component.images for component in answer.components)
-    for component in expanded(answer).components:
+    for component in expand_orbits(answer).components:
         assert_within_radii(system, component)
 
 

@@ -18,7 +18,7 @@ from nag.files.export import read_decomposition, write_decomposition
 from nag.files.solutions_export import read_solutions, write_solutions
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
-from nag.witness.frame import expanded
+from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition, Status
 
 
@@ -209,7 +209,7 @@ def test_orbits_join_over_branches() -> None:
     assert kinds(answer) == {(2, 2, 1): 1, (1, 2, 2): 1, (1, 2, 1): 1}
     assert [c.orbit for c in answer.components] == [1, 2, 2]
     plain = kinds(decompose(of))
-    assert kinds(expanded(answer)) == plain == {(2, 2, 1): 1, (1, 2, 2): 2, (1, 2, 1): 2}
+    assert kinds(expand_orbits(answer)) == plain == {(2, 2, 1): 1, (1, 2, 2): 2, (1, 2, 1): 2}
 
 
 def test_points_that_a_symmetry_exchanges_are_one_orbit() -> None:

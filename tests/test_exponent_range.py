@@ -12,7 +12,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.ends import end_run, records, runs
 from nag.tracking.ends.follow import States
-from nag.tracking.ends.runs import powers_of_two, scaled
+from nag.tracking.ends.runs import powers_of_two, scale_equations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.settings import Settings
 
@@ -59,7 +59,7 @@ def test_each_row_is_over_the_power_of_its_largest_term(powers: list[int]) -> No
         compile_rows([X**3 - 5 * Y * Z, 7 * X * Y * Z - 2, Y**2 + 3 * X]), None, None
     )
     plain = records.equations(homotopy, 2, 3)
-    found = scaled(plain, homotopy, np.array(powers))
+    found = scale_equations(plain, homotopy, np.array(powers))
     place = 0
     for row in homotopy.rows.parts:
         shifts = [int(np.dot(e, powers)) for _, terms in row for e in sorted(terms, reverse=True)]

@@ -13,7 +13,7 @@ from nag.algebra import branch_equations
 from nag.algebra.branch_equations import BranchEquations, BranchKind
 from nag.algebra.branches import branches
 from nag.algebra.expression import parse_polynomial
-from nag.algebra.factoring import factored, product
+from nag.algebra.factoring import factor_into_irreducibles, product
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.solving.solve import solve
@@ -39,23 +39,25 @@ def test_the_factors_multiply_to_the_polynomial_up_to_a_constant(parts) -> None:
     f = product([p**k for p, k in parts], 2)
     if not f:
         return
-    found = factored(f)
+    found = factor_into_irreducibles(f)
     again = product([p**k for p, k in found], 2)
     (lead,) = {Fraction(f.terms[e]) / again.terms[e] for e in f.terms}
     assert again * lead == f
     assert len({p for p, _ in found}) == len(found)
-    assert all(factored(p) == ((p, 1),) for p, _ in found)
+    assert all(factor_into_irreducibles(p) == ((p, 1),) for p, _ in found)
 
 
 def test_irrational_coefficients_are_left_as_they_are() -> None:
     f = parse_polynomial("sqrt(2)*x^2*y", ("x", "y"))
-    assert factored(f) == ((f, 1),)
+    assert factor_into_irreducibles(f) == ((f, 1),)
 
 
 def test_huge_coefficients_still_fit_into_doubles() -> None:
     x, y = Polynomial.variables(2)
     f = (x * 10**400 + y) * (y - 1)
-    assert all(float(max(map(abs, p.terms.values()))) < 1e300 for p, _ in factored(f))
+    assert all(
+        float(max(map(abs, p.terms.values()))) < 1e300 for p, _ in factor_into_irreducibles(f)
+    )
 
 
 @pytest.mark.parametrize(
@@ -84,7 +86,7 @@ def test_branches_are_those_that_are_known(of, expected) -> None:
     variables = of.variables
 
     def spaces(b: frozenset[str]) -> frozenset:
-        return frozenset(factored(parse_polynomial(t, variables)) for t in b)
+        return frozenset(factor_into_irreducibles(parse_polynomial(t, variables)) for t in b)
 
     assert {spaces(b) for b in found} == {spaces(frozenset(b)) for b in expected}
 

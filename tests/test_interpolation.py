@@ -33,7 +33,7 @@ from nag.interpolation.vanishing import (
     primitive,
     start,
 )
-from nag.numerics.rational_relations import Echelon, TooFewDigitsError, recognised
+from nag.numerics.rational_relations import Echelon, TooFewDigitsError, recognise_rational
 from nag.tracking.run import Run
 
 laws = settings(max_examples=25)
@@ -83,7 +83,7 @@ def test_a_combination_of_independent_columns_is_found_exactly(seed, coefficient
 @given(rationals)
 def test_rational_numbers_are_recognised(x) -> None:
     with flint.ctx.workdps(DIGITS + 20):
-        assert recognised(ball(x), DIGITS) == x
+        assert recognise_rational(ball(x), DIGITS) == x
 
 
 @pytest.mark.parametrize("value", [2, 3, 5])
@@ -92,7 +92,7 @@ def test_irrational_numbers_are_not(value) -> None:
         with flint.ctx.workdps(digits + 20):
             root = flint.arb(value).sqrt() + flint.arb(0, f"1e-{digits}")
             with pytest.raises(TooFewDigitsError):
-                recognised(root, digits)
+                recognise_rational(root, digits)
 
 
 def test_wide_balls_do_not_decide() -> None:

@@ -15,7 +15,7 @@ from nag.mechanism.framework import Framework, placed_framework
 from nag.mechanism.framework_model import framework_model
 from nag.mechanism.isotropic import isotropic_system
 from nag.mechanism.problem import problem_of
-from nag.witness.frame import expanded
+from nag.witness.frame import expand_orbits
 
 
 def placed_in_plane(places, bars):
@@ -72,7 +72,7 @@ def test_components_carried_over_to_the_plane_are_those_found_there(name, seed):
     assert all(a.system == made.system for a in answers)
     at = [("placement", made.reference)]
     through = [through_points(a, at)[0] for a in answers]
-    everything = [expanded(a).components for a in answers]
+    everything = [expand_orbits(a).components for a in answers]
     degrees = [
         sorted(components[i].degree for i in t.components)
         for components, t in zip(everything, through, strict=True)

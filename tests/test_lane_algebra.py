@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import aligned
+from nag.machine_code.lanes import aligned_zeros
 from nag.machine_code.records import Reals
 from nag.tracking.linear_algebra import factorize, substitute, substitute_adjoint
 
@@ -33,7 +33,7 @@ _solve = Kernel(solve, keep=False)
 
 def _in_lanes(array):
     """Real and imaginary parts of eight arrays, the lane last."""
-    re, im = aligned(array[0].size), aligned(array[0].size)
+    re, im = aligned_zeros(array[0].size), aligned_zeros(array[0].size)
     flat = array.reshape(8, -1).T
     re[:], im[:] = flat.real.ravel(), flat.imag.ravel()
     return re, im
@@ -43,7 +43,7 @@ def _solutions(matrices, right, adjoint):
     n = right.shape[1]
     ar, ai = _in_lanes(matrices)
     br, bi = _in_lanes(right)
-    _solve(Equations(n, ar, ai, aligned(n), br, bi, adjoint))
+    _solve(Equations(n, ar, ai, aligned_zeros(n), br, bi, adjoint))
     return (br + 1j * bi).reshape(n, 8).T
 
 

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from systems import system
 
-from nag.algebra.factoring import factored
+from nag.algebra.factoring import factor_into_irreducibles
 from nag.algebra.generic_multiplicity import (
     generic_multiplicity,
     local_ideal,
@@ -64,7 +64,7 @@ def test_multiplicities_are_those_of_the_monomial_ideal(of, point, codimension, 
     def independent(polynomials) -> bool:
         return independent_gradients(polynomials, x, 0.0)
 
-    equations = [factored(f) for f in of.polynomials]
+    equations = [factor_into_irreducibles(f) for f in of.polynomials]
     found = generic_multiplicity(equations, codimension, vanishes, independent, by_local_ring)
     assert found == expected
 
@@ -72,7 +72,9 @@ def test_multiplicities_are_those_of_the_monomial_ideal(of, point, codimension, 
 def test_gradients_that_depend_on_each_other_show_no_multiplicity() -> None:
     of = system("x y", "x^2 - y^3", "y^2 - x^3")
     origin = np.zeros(2, dtype=complex)
-    ideal = local_ideal([factored(f) for f in of.polynomials], lambda f: f((0, 0)) == 0)
+    ideal = local_ideal(
+        [factor_into_irreducibles(f) for f in of.polynomials], lambda f: f((0, 0)) == 0
+    )
 
     def independent(polynomials) -> bool:
         return independent_gradients(polynomials, origin, 1e-12)

@@ -11,7 +11,7 @@ import pytest
 
 from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.expression import parse_polynomial
-from nag.algebra.factoring import factored
+from nag.algebra.factoring import factor_into_irreducibles
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.decompose import decompose
@@ -51,7 +51,7 @@ def test_a_branch_by_a_linear_factor_has_the_local_ring_of_all_equations() -> No
     circle, line, other = x * x + y * y - 6, x - y, x + 5
 
     def own(first: Polynomial, branch: tuple[Polynomial, ...]) -> bool:
-        equations = [factored(first), factored(circle)]
+        equations = [factor_into_irreducibles(first), factor_into_irreducibles(circle)]
         system = PolynomialSystem(("x", "y"), branch)
         return BranchEquations(system, True).is_own_ring(equations, lambda p: p != other)
 

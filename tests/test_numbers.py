@@ -11,7 +11,7 @@ import pytest
 
 from nag.machine_code import plain
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import aligned, store
+from nag.machine_code.lanes import aligned_zeros, store
 from nag.machine_code.processor import processor
 from nag.machine_code.records import Reals
 from nag.tracking.ends.records import _constants, words
@@ -54,10 +54,10 @@ def ball(parts: np.ndarray) -> flint.acb:
 
 def computed(count: int, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Results of the operations, shape ``(5, 2 words, 8)``."""
-    memory = [aligned(2 * count) for _ in range(2)]
+    memory = [aligned_zeros(2 * count) for _ in range(2)]
     for place, values in zip(memory, (a, b), strict=True):
         place[:] = values.ravel()
-    results = aligned(10 * count)
+    results = aligned_zeros(10 * count)
     KERNELS[count](Operands(*memory, _constants(14, count)[-1], results))
     return results.reshape(5, 2 * count, 8)
 
@@ -94,7 +94,7 @@ def test_operations_are_exact_to_rounding(count: int, size: float) -> None:
 @pytest.mark.parametrize("count", ARITHMETICS)
 @pytest.mark.parametrize("size", [1e-140, 1e-160, 1e-180])
 def test_numbers_whose_squares_leave_the_range_have_sizes_and_inverses(count: int, size) -> None:
-    memory, results = aligned(2 * count), aligned(2 * count + 1)
+    memory, results = aligned_zeros(2 * count), aligned_zeros(2 * count + 1)
     memory[:8], memory[8 * count : 8 * count + 8] = 3 * size, -4 * size
     SMALL[count](Operands(memory, memory, memory, results))
     values = results.reshape(2 * count + 1, 8)
@@ -112,10 +112,10 @@ def test_numbers_whose_squares_leave_the_range_have_sizes_and_inverses(count: in
 def test_plain_python_makes_the_same_words(count: int) -> None:
     rng = np.random.default_rng(7)
     a, b = random_numbers(count, rng, 1.0), random_numbers(count, rng, 1.0)
-    memory = [aligned(2 * count) for _ in range(2)]
+    memory = [aligned_zeros(2 * count) for _ in range(2)]
     for place, values in zip(memory, (a, b), strict=True):
         place[:] = values.ravel()
-    results = aligned(10 * count)
+    results = aligned_zeros(10 * count)
     operands = Operands(*memory, _constants(14, count)[-1], results)
     plain.run(operations, operands, constants=(ARITHMETICS[count],))
     if "fma" in processor()[2] or processor()[0].startswith(("aarch64", "arm64")):

@@ -19,7 +19,7 @@ from nag.files.cases import read_case
 from nag.files.export import read_decomposition, write_decomposition
 from nag.report.agreement import AgreementKind, compare
 from nag.tracking.run import Run
-from nag.witness.frame import Frame, expanded
+from nag.witness.frame import Frame, expand_orbits
 from nag.witness.points import Points
 from nag.witness.shown import kinds
 from nag.witness.slices import random_rows
@@ -50,7 +50,7 @@ def test_cases_with_symmetries_agree_with_what_is_known(seed: int, name: str) ->
     answer = components_of(case.system, tuple(case.symmetries), seed=seed)
     assert answer.complete
     assert len(answer.components) < sum(c.orbit for c in answer.components)
-    for each in (answer, expanded(answer)):
+    for each in (answer, expand_orbits(answer)):
         agreement = compare(each, case.truth)
         assert agreement is not None and agreement.verdict is AgreementKind.AGREES
         assert not agreement.unlisted
@@ -71,7 +71,7 @@ def test_orbits_are_those_of_the_group() -> None:
 def test_expanded_components_are_different_components_of_the_system() -> None:
     case = read_case(CASES / "rhombus-chain-2.toml")
     answer = decompose(case.system, seed=2, symmetries=case.symmetries)
-    everything = expanded(answer).components
+    everything = expand_orbits(answer).components
     assert [c.orbit for c in everything] == [1] * 9
     # The components are the zero sets of different pairs of linear forms: c_i = +-c_j.
     forms = set()
@@ -111,7 +111,7 @@ def test_multiplicities_hold_for_the_whole_orbit() -> None:
     swap = symmetry("x y z", x="y", y="x")
     answer = decompose(system("x y z", "x^2*y^2*z"), seed=1, symmetries=[swap])
     assert sorted((c.multiplicity, c.orbit) for c in answer.components) == [(1, 1), (2, 2)]
-    assert kinds(expanded(answer).components) == kinds(answer.components)
+    assert kinds(expand_orbits(answer).components) == kinds(answer.components)
 
 
 def test_a_symmetry_of_a_single_component_is_no_orbit() -> None:
@@ -141,7 +141,7 @@ def test_exports_hold_the_orbits_and_read_back(tmp_path) -> None:
     write_decomposition(answer, tmp_path / "export.json")
     again = read_decomposition(tmp_path / "export.json")
     assert again == answer
-    assert expanded(again) == expanded(answer)
+    assert expand_orbits(again) == expand_orbits(answer)
 
 
 def test_orbits_are_the_same_for_any_number_of_threads() -> None:

@@ -11,7 +11,7 @@ from systems import system
 
 from nag.machine_code import plain
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import LANES, aligned, load, scratch, store
+from nag.machine_code.lanes import LANES, aligned_zeros, load, scratch, store
 from nag.machine_code.processor import processor
 from nag.machine_code.records import Reals, Table, Wholes
 from nag.solving.solve import solve
@@ -26,7 +26,7 @@ def copy(record: Any) -> Any:
         if isinstance(value, np.ndarray):
             fields[name] = value.copy()
             if value.dtype == np.float64:
-                fields[name] = aligned(-(-value.size // LANES))[: value.size]
+                fields[name] = aligned_zeros(-(-value.size // LANES))[: value.size]
                 fields[name][:] = value.reshape(-1)
     return record._replace(**fields)
 
@@ -130,12 +130,12 @@ def next_number(v: Vectors) -> None:
 )
 def test_places_outside_an_array_are_found(function, n: int, place: str) -> None:
     with pytest.raises(IndexError, match=place):
-        plain.run(function, vectors(aligned(1), n))
+        plain.run(function, vectors(aligned_zeros(1), n))
 
 
 def test_vectors_that_are_not_aligned_are_found() -> None:
     with pytest.raises(IndexError, match="aligned to 64 bytes"):
-        plain.run(doubles, vectors(aligned(2)[1:9]))
+        plain.run(doubles, vectors(aligned_zeros(2)[1:9]))
 
 
 def stores_a_fraction(v: Vectors) -> None:
@@ -144,7 +144,7 @@ def stores_a_fraction(v: Vectors) -> None:
 
 def test_numbers_of_another_type_are_not_stored() -> None:
     with pytest.raises(TypeError, match=r"Vectors\.wholes: .* is no int64"):
-        plain.run(stores_a_fraction, vectors(aligned(1)))
+        plain.run(stores_a_fraction, vectors(aligned_zeros(1)))
 
 
 def test_mixed_cells_are_the_same(compared: Counter[str]) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from nag.machine_code import plain
-from nag.machine_code.lanes import LANES, aligned
+from nag.machine_code.lanes import LANES, aligned_zeros
 from nag.machine_code.records import Reals
 from nag.tracking.kernel_arrays import SCALARS
 from nag.tracking.predictor import (
@@ -44,12 +44,12 @@ class Point(NamedTuple):
 
 def series(radius: complex) -> Point:
     """The path ``1 / (1 - h / radius)``, which Pade's approximant is exact for."""
-    base = aligned(2 * (ORDER + 1))
+    base = aligned_zeros(2 * (ORDER + 1))
     for k in range(ORDER + 1):
         coefficient = radius ** -float(k)
         base[LANES * 2 * k : LANES * (2 * k + 1)] = coefficient.real
         base[LANES * (2 * k + 1) : LANES * (2 * k + 2)] = coefficient.imag
-    return Point(1, base, aligned(1), aligned(1), aligned(1), aligned(1))
+    return Point(1, base, aligned_zeros(1), aligned_zeros(1), aligned_zeros(1), aligned_zeros(1))
 
 
 def predicts(p: Point) -> None:
@@ -82,7 +82,7 @@ def test_lanes_that_do_not_predict_stay_where_they_are() -> None:
 
 def norms(radius: float, order: int) -> np.ndarray:
     """Squared norms of the corrections, which do not matter, and of a series' coefficients."""
-    values = aligned(order + 2)
+    values = aligned_zeros(order + 2)
     for k in range(1, order + 1):
         values[LANES * (k + 1) : LANES * (k + 2)] = radius ** (-2.0 * k)
     return values
@@ -101,7 +101,13 @@ class Steps(NamedTuple):
 def steps(radius: float = 1.0, **scalars: float) -> Steps:
     rows = {"t": T, "goal": GOAL, "h": H, "used": H_USED, "growth": GROWTH}
     rows |= {"seen_t": SEEN_T, "seen_radius": SEEN_RADIUS}
-    made = Steps(aligned(SCALARS), norms(radius, ORDER), aligned(1), aligned(1), aligned(1))
+    made = Steps(
+        aligned_zeros(SCALARS),
+        norms(radius, ORDER),
+        aligned_zeros(1),
+        aligned_zeros(1),
+        aligned_zeros(1),
+    )
     made.radius[:] = radius
     for name, value in scalars.items():
         made.scalars[LANES * rows[name] + LANE] = value

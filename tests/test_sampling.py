@@ -17,7 +17,7 @@ from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.witness import moving
-from nag.witness.frame import expanded
+from nag.witness.frame import expand_orbits
 from nag.witness.membership import Membership, memberships
 from nag.witness.sampling import SamplingError
 from nag.witness.witness import Decomposition, Status
@@ -196,7 +196,7 @@ def test_the_cube_in_euler_parameters_is_one_orbit_of_sixteen_curves() -> None:
     answer = discover(cube.system, starts=6, symmetries=signs)
     assert kinds(answer) == {(1, 8, 1): 1}
     assert answer.components[0].orbit == 16
-    curves = expanded(answer)
+    curves = expand_orbits(answer)
     assert kinds(curves) == {(1, 8, 1): 16}
     reference = np.array([float(x) for x in cube.reference])
     assert memberships(curves, reference).count(Membership.MEMBER) == 1
@@ -208,9 +208,9 @@ def test_symmetries_add_what_was_not_met_and_join_what_was() -> None:
     for starts in (3, 60):
         answer = discover(of, starts=starts, symmetries=[flip])
         assert all(c.orbit == 2 for c in answer.components)
-        met = set(kinds(expanded(answer)))
+        met = set(kinds(expand_orbits(answer)))
         assert met <= {(1, 1, 1), (1, 2, 1)}
-    assert kinds(expanded(answer)) == {(1, 1, 1): 2, (1, 2, 1): 2}
+    assert kinds(expand_orbits(answer)) == {(1, 1, 1): 2, (1, 2, 1): 2}
 
 
 def test_points_that_doubles_do_not_see_as_regular_are_drawn_all_the_same() -> None:

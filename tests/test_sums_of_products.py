@@ -11,7 +11,7 @@ import pytest
 from test_numbers import ball, random_numbers
 
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import aligned
+from nag.machine_code.lanes import aligned_zeros
 from nag.machine_code.records import Reals
 from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
 
@@ -42,7 +42,7 @@ KERNELS = {k: Kernel(sums, z, keep=False) for k, z in ARITHMETICS.items()}
 @pytest.mark.parametrize("cancels", [False, True])
 def test_sums_are_exact_to_rounding_and_words_do_not_overlap(count: int, cancels: bool) -> None:
     rng = np.random.default_rng(3)
-    memory = [aligned(2 * count * COUNT) for _ in range(2)]
+    memory = [aligned_zeros(2 * count * COUNT) for _ in range(2)]
     a, b = (
         np.array([random_numbers(count, rng, 10.0 ** rng.integers(-3, 1)) for _ in range(COUNT)])
         for _ in range(2)
@@ -51,7 +51,7 @@ def test_sums_are_exact_to_rounding_and_words_do_not_overlap(count: int, cancels
         a[1::2], b[1::2] = a[::2], -b[::2]
     for place, values in zip(memory, (a, b), strict=True):
         place[:] = values.ravel()
-    results = aligned(4 * count)
+    results = aligned_zeros(4 * count)
     KERNELS[count](Factors(*memory, results))
     results = results.reshape(2, 2 * count, 8)
     with flint.ctx.workprec(900):

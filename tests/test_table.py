@@ -15,7 +15,7 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem, system_line
 from nag.cli.running import INTERVAL, progress_line
 from nag.report.agreement import AgreementKind, agreement_text, compare
-from nag.text.table import align, labelled, magnitude, printable
+from nag.text.table import align, label_lines, magnitude, printable
 from nag.witness.shown import component_table, multidegree_text, remarks, title_line
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
@@ -146,9 +146,9 @@ def test_columns_are_aligned(rows: list[list[str]]) -> None:
 
 
 def test_labels_share_a_column() -> None:
-    assert labelled([("a", "x"), ("long", "y")], 6) == ["a       x", "long    y"]
+    assert label_lines([("a", "x"), ("long", "y")], 6) == ["a       x", "long    y"]
     words = ["word"] * 40
-    lines = labelled([("a", " ".join(words))])
+    lines = label_lines([("a", " ".join(words))])
     assert lines[0].startswith("a  word") and lines[1].startswith("   word")
     assert max(map(len, lines)) <= 100
     assert " ".join(lines).split() == ["a", *words]

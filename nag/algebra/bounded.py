@@ -65,19 +65,19 @@ class BoundedArithmetic:
         for sign, value in parts:
             if not isinstance(value, Polynomial):
                 self.budget.spend(1 + 20 * (_operations(constant) + _operations(value)))
-                constant = checked(constant + value if sign > 0 else constant - value)
+                constant = check_size(constant + value if sign > 0 else constant - value)
                 continue
             polynomial = True
             self.budget.spend(len(value.terms) * (1 + self.n // 50 + 20 * _operations(value)))
             for e, c in value.terms.items():
                 c = c if sign > 0 else -c
-                terms[e] = checked(terms[e] + c) if e in terms else c
+                terms[e] = check_size(terms[e] + c) if e in terms else c
             if len(terms) > MAX_TERMS:
                 _too_many_terms()
         if not polynomial:
             return constant
         zero = (0,) * self.n
-        terms[zero] = checked(terms[zero] + constant) if zero in terms else constant
+        terms[zero] = check_size(terms[zero] + constant) if zero in terms else constant
         return Polynomial(self.n, terms)
 
     def multiply(self, left: Value, right: Value) -> Value:
@@ -90,7 +90,7 @@ class BoundedArithmetic:
             _too_long(bits)
         if not (isinstance(left, Polynomial) and isinstance(right, Polynomial)):
             product = left * right
-            return product if isinstance(product, Polynomial) else checked(product)
+            return product if isinstance(product, Polynomial) else check_size(product)
         degree = left.degree + right.degree
         if degree > MAX_DEGREE:
             raise ExpressionError(f"degree {degree} is too high; at most {MAX_DEGREE} is read")
@@ -151,7 +151,7 @@ class BoundedArithmetic:
         return power
 
 
-def checked(value: Number) -> Number:
+def check_size(value: Number) -> Number:
     """``value``, if it is small enough to go on with."""
     if _bits(value) > MAX_BITS:
         _too_long(_bits(value))

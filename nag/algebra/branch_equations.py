@@ -18,7 +18,7 @@ from nag.algebra.elimination import (
     solve_for,
     substitute,
 )
-from nag.algebra.factoring import Factors, factored
+from nag.algebra.factoring import Factors, factor_into_irreducibles
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 
@@ -49,7 +49,9 @@ def follows(image: Polynomial, elimination: Elimination) -> bool:
 
     That is seen where it is zero, or has a factor that is one of the irreducible equations.
     """
-    return not image or any(p in elimination.irreducible for p, _ in factored(image))
+    return not image or any(
+        p in elimination.irreducible for p, _ in factor_into_irreducibles(image)
+    )
 
 
 class BranchKind(Enum):

@@ -9,8 +9,8 @@ from functools import cached_property
 from operator import itemgetter
 from typing import Any
 
-from nag.algebra.factoring import factored
-from nag.algebra.polynomial import Exponents, Polynomial, multiply_terms, occurring
+from nag.algebra.factoring import factor_into_irreducibles
+from nag.algebra.polynomial import Exponents, Polynomial, multiply_terms, occurring_variables
 from nag.algebra.system import PolynomialSystem
 
 
@@ -37,7 +37,7 @@ class Elimination:
     @cached_property
     def irreducible(self) -> frozenset[Polynomial]:
         """Irreducible polynomials that are zero exactly where an equation of the system is."""
-        known = [factored(f) for f in self.system.polynomials]
+        known = [factor_into_irreducibles(f) for f in self.system.polynomials]
         return frozenset(factors[0][0] for factors in known if len(factors) == 1)
 
     def lift(self, point: Sequence[Any]) -> Any:
@@ -164,7 +164,7 @@ def _choose_pivot(
 def linear_variables(f: Polynomial) -> set[int]:
     """Variables that occur in ``f`` in one term only, linearly and alone."""
     alone = {e.index(1) for e in f.terms if sum(e) == 1}
-    return alone - occurring(e for e in f.terms if sum(e) > 1) if alone else alone
+    return alone - occurring_variables(e for e in f.terms if sum(e) > 1) if alone else alone
 
 
 def solve_for(f: Polynomial, index: int) -> Polynomial:

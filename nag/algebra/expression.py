@@ -25,7 +25,7 @@ from nag.algebra.bounded import (
     BoundedArithmetic,
     Budget,
     Value,
-    checked,
+    check_size,
     representable,
 )
 from nag.algebra.number import PI, Irrational, Number, cosine, sine, square_root
@@ -74,7 +74,7 @@ def parse_number(
         raise ExpressionError(f"{_kind(value)} is no number; write a number or an expression")
     if isinstance(value, float | Decimal):
         value = _decimal(Decimal(repr(float(value))) if isinstance(value, float) else value)
-    return representable(checked(Fraction(value)))
+    return representable(check_size(Fraction(value)))
 
 
 def parse_polynomial(
@@ -262,7 +262,7 @@ class _Parser:
         if isinstance(value, Polynomial):
             self._fail(name, f"{name.text} of a variable is no polynomial; write a constant in it")
         try:
-            return checked(_FUNCTIONS[name.text](value))
+            return check_size(_FUNCTIONS[name.text](value))
         except ExpressionError as error:
             self._fail(name, str(error))
         except ValueError as error:

@@ -132,7 +132,7 @@ def _primitive(f: Any) -> Any:
 Factors = tuple[tuple[Polynomial, int], ...]
 
 
-def factored(f: Polynomial) -> Factors:
+def factor_into_irreducibles(f: Polynomial) -> Factors:
     """The distinct irreducible factors of ``f`` over the rationals, with their exponents.
 
     None of a constant. Factors that are equal up to a constant are equal. A polynomial with

@@ -17,7 +17,7 @@ from typing import Any
 from nag.algebra.bounded import Budget, Value, representable
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.from_sympy import is_sympy, symbol_names, sympy_value
-from nag.algebra.given import check_listed, check_type, shown
+from nag.algebra.given import check_listed, check_type, value_text
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -252,7 +252,7 @@ def variable_indices(
         chosen = [chosen]
     if not isinstance(chosen, Iterable):
         raise ExpressionError(
-            f"{place}: {shown(chosen)} is given; give a list of variables, by name or index"
+            f"{place}: {value_text(chosen)} is given; give a list of variables, by name or index"
         )
     indices = []
     for item in chosen:

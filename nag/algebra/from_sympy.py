@@ -13,7 +13,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
-from nag.algebra.bounded import BoundedArithmetic, Budget, Value, checked
+from nag.algebra.bounded import BoundedArithmetic, Budget, Value, check_size
 from nag.algebra.expression import parse_number
 from nag.algebra.number import PI, cosine, sine, square_root
 from nag.algebra.polynomial import Polynomial
@@ -87,7 +87,7 @@ class _Walk:
         if isinstance(e, sympy.Symbol):
             return self._named(str(e))
         if isinstance(e, sympy.Rational):
-            return checked(Fraction(int(e.p), int(e.q)))
+            return check_size(Fraction(int(e.p), int(e.q)))
         if isinstance(e, sympy.Float):
             return parse_number(float(e) if e._prec <= DOUBLE_BITS else Decimal(str(e)))
         if e == sympy.pi:
@@ -108,7 +108,7 @@ class _Walk:
                     f"{quote(str(e))} is no polynomial; make the sine and the cosine variables "
                     "c and s with c^2 + s^2 = 1"
                 )
-            return checked(sine(angle) if isinstance(e, sympy.sin) else cosine(angle))
+            return check_size(sine(angle) if isinstance(e, sympy.sin) else cosine(angle))
         if e == sympy.I:
             raise ExpressionError(f"it holds sympy's I; {ONLY_REAL}")
         if e == sympy.nan or e.is_infinite:
@@ -124,7 +124,7 @@ class _Walk:
         base, exponent = (self.value(a, depth + 1) for a in e.args)
         half = isinstance(exponent, Fraction) and exponent.denominator == 2
         if half and not isinstance(base, Polynomial):
-            base, exponent = checked(square_root(base)), 2 * exponent
+            base, exponent = check_size(square_root(base)), 2 * exponent
         return self.arithmetic.power(base, exponent)
 
     def _named(self, name: str) -> Value:

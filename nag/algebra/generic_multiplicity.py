@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from nag.algebra.elimination import linear_variables, solve_for, substitute
-from nag.algebra.factoring import Factors, factored, product
+from nag.algebra.factoring import Factors, factor_into_irreducibles, product
 from nag.algebra.polynomial import Polynomial
 
 # Powers of polynomials with more terms are not substituted.
@@ -114,7 +114,9 @@ def local_ideal(equations: Sequence[Factors], vanishes: Callable[[Polynomial], b
                 if not value:
                     after = None
                     break
-                for r, j in there(factored(value)).items() if value is not q else ((q, 1),):
+                for r, j in (
+                    there(factor_into_irreducibles(value)).items() if value is not q else ((q, 1),)
+                ):
                     after[r] = after.get(r, 0) + j * k
             if after is not None:
                 reduced.append(after)

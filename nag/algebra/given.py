@@ -20,7 +20,7 @@ def is_a(value: object, module: str, name: str) -> bool:
     return loaded is not None and isinstance(value, getattr(loaded, name))
 
 
-def shown(value: Any) -> str:
+def value_text(value: Any) -> str:
     """A value in an error message: itself, if that is short."""
     if value is None or isinstance(value, str | int | float):
         text = repr(value)
@@ -35,7 +35,7 @@ def check_type(value: Any, kind: type, place: str, advice: str) -> None:
         ValueError: if it is not; ``advice`` says what to give.
     """
     if not isinstance(value, kind):
-        raise NagError(f"{place}: {shown(value)} is given; give {advice}")
+        raise NagError(f"{place}: {value_text(value)} is given; give {advice}")
 
 
 def check_listed(values: Any, place: str, advice: str) -> None:
@@ -45,7 +45,7 @@ def check_listed(values: Any, place: str, advice: str) -> None:
         ValueError: if it is not.
     """
     if isinstance(values, str | bytes | Mapping) or not isinstance(values, Iterable):
-        raise NagError(f"{place}: {shown(values)} is given; give {advice}")
+        raise NagError(f"{place}: {value_text(values)} is given; give {advice}")
 
 
 def check_whole(value: Any, place: str, least: int = 0) -> None:
@@ -55,7 +55,9 @@ def check_whole(value: Any, place: str, least: int = 0) -> None:
         ValueError: if it is not.
     """
     if isinstance(value, bool) or not isinstance(value, Integral) or value < least:
-        raise NagError(f"{place}: {shown(value)} is given; give a whole number from {least} up")
+        raise NagError(
+            f"{place}: {value_text(value)} is given; give a whole number from {least} up"
+        )
 
 
 def check_error(value: Any, place: str) -> None:
@@ -66,7 +68,7 @@ def check_error(value: Any, place: str) -> None:
     """
     number = isinstance(value, Real) and not isinstance(value, bool)
     if value is not None and not (number and isfinite(value) and value >= 0):
-        raise NagError(f"{place}: {shown(value)} is given; give a number from 0 up")
+        raise NagError(f"{place}: {value_text(value)} is given; give a number from 0 up")
 
 
 def check_choice(value: Any, place: str, known: Sequence[str]) -> None:
@@ -76,7 +78,7 @@ def check_choice(value: Any, place: str, known: Sequence[str]) -> None:
         ValueError: if it is not.
     """
     if value not in known:
-        raise NagError(f"{place}: {shown(value)} is unknown; use {', '.join(known)}")
+        raise NagError(f"{place}: {value_text(value)} is unknown; use {', '.join(known)}")
 
 
 def check_path(value: Any, place: str = "path") -> None:
@@ -86,7 +88,7 @@ def check_path(value: Any, place: str = "path") -> None:
         ValueError: if it cannot.
     """
     if not isinstance(value, str | PathLike):
-        raise NagError(f"{place}: {shown(value)} is given; give the name of a file")
+        raise NagError(f"{place}: {value_text(value)} is given; give the name of a file")
 
 
 def check_running(seed: Any, threads: Any, settings: Any, progress: Any = None) -> None:
@@ -101,6 +103,6 @@ def check_running(seed: Any, threads: Any, settings: Any, progress: Any = None) 
         check_choice(settings, "settings", SETTINGS)
     if progress is not None and not callable(progress):
         raise NagError(
-            f"progress: {shown(progress)} is given; give a function of a stage's name, the step "
-            "reached and the number of steps"
+            f"progress: {value_text(progress)} is given; give a function of a stage's name, the "
+            "step reached and the number of steps"
         )

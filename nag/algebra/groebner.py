@@ -282,7 +282,7 @@ def _raised(f: Any, ring: Any) -> Any:
     return ring.from_dict({(0, *map(int, e)): c for e, c in f.to_dict().items()})
 
 
-def cleared(f: Polynomial, field: FunctionField) -> Any:
+def clear_denominators(f: Polynomial, field: FunctionField) -> Any:
     """A polynomial with rational coefficients in the field's variables, times a whole number."""
     factor = lcm(*(c.denominator for c in f.terms.values()))
     return field.context.from_dict({e: int(c * factor) for e, c in f.terms.items()})
@@ -300,4 +300,4 @@ def ideal_of(
         UnfinishedBasis: beyond the bounds.
     """
     field = FunctionField(names, order)
-    return ideal(field, [cleared(f, field) for f in polynomials], bounds)
+    return ideal(field, [clear_denominators(f, field) for f in polynomials], bounds)

@@ -22,7 +22,7 @@ def divides(e: Exponents, f: Exponents) -> bool:
     return all(map(le, e, f))
 
 
-def occurring(monomials: Iterable[Exponents]) -> set[int]:
+def occurring_variables(monomials: Iterable[Exponents]) -> set[int]:
     """Indices of the variables that occur in monomials."""
     return {i for i, powers in enumerate(zip(*monomials, strict=True)) if any(powers)}
 
@@ -206,7 +206,7 @@ class Polynomial:
     @cached_property
     def support(self) -> frozenset[int]:
         """Indices of the variables that occur."""
-        return frozenset(occurring(self.terms))
+        return frozenset(occurring_variables(self.terms))
 
     @cached_property
     def exact(self) -> bool:

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from nag.algebra.given import check_listed, check_type, shown
+from nag.algebra.given import check_listed, check_type, value_text
 from nag.algebra.number import Number, number_text
 from nag.algebra.polynomial import Polynomial
 from nag.errors import NagError
-from nag.text.table import LINE, count_text, html_table, one_line, printable, shortened
+from nag.text.table import LINE, count_text, html_table, one_line, printable, shorten_text
 
 # Of longer systems the first equations are shown.
 MOST_LINES, MOST_ROWS = 4, 40
@@ -93,7 +93,7 @@ class PolynomialSystem:
     def __call__(self, point: Sequence[Any]) -> list[Any]:
         """Values of all polynomials at ``point``, exact if its entries are."""
         if not hasattr(point, "__len__") or len(point) != self.n:
-            raise NagError(f"point: {shown(point)} is given; give {self.n} numbers")
+            raise NagError(f"point: {value_text(point)} is given; give {self.n} numbers")
         return [f(point) for f in self.polynomials]
 
     def text(self) -> list[str]:
@@ -109,13 +109,13 @@ class PolynomialSystem:
         lines += [f"  {f.text(self.variables)} = 0" for f in self.polynomials[:shown]]
         if shown < len(self.polynomials):
             lines.append(f"  and {count_text(len(self.polynomials) - shown, 'more equation')}")
-        return "\n".join(shortened(printable(line)) for line in lines)
+        return "\n".join(shorten_text(printable(line)) for line in lines)
 
     def _repr_html_(self) -> str:
         """A table, one row an equation."""
         rows = [["equation", "degree", "is zero"]]
         for i, f in enumerate(self.polynomials[:MOST_ROWS]):
-            rows.append([str(i), str(f.degree), shortened(f.text(self.variables), 2 * LINE)])
+            rows.append([str(i), str(f.degree), shorten_text(f.text(self.variables), 2 * LINE)])
         hidden = len(self.polynomials) - MOST_ROWS
         note = f"and {count_text(hidden, 'more equation')}" if hidden > 0 else ""
         return html_table(f"PolynomialSystem of {system_line(self)}", rows, note)

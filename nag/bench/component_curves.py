@@ -15,7 +15,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.peer_components import decomposing_programs, peer_components
 from nag.bench.peer_points import forms
-from nag.bench.reference import Found, Reference, ReferenceError, joined
+from nag.bench.reference import Found, Reference, ReferenceError, join_found
 from nag.bench.sharpening import sharpening
 from nag.bench.work_precision import (
     PATIENCE,
@@ -27,7 +27,7 @@ from nag.bench.work_precision import (
     best_form,
     in_arithmetics,
     own_curves,
-    timed,
+    time_call,
 )
 from nag.decomposition.decompose import decompose
 from nag.numerics.certified_points import independent_equations
@@ -65,7 +65,7 @@ def components_chart(
 
     def measured(seed: int, settings: Settings | str) -> tuple[float, int, Found]:
         with count_evaluations() as spent:
-            seconds, found = timed(lambda: decompose(system, seed=seed, settings=settings))
+            seconds, found = time_call(lambda: decompose(system, seed=seed, settings=settings))
         listed = (Listed(c.points, c.slice.rows, c.orbit, bool(c.note)) for c in found.components)
         return seconds, spent.number, agreement(system, listed, wanted)
 
@@ -77,8 +77,8 @@ def components_chart(
             progress(program)
         curves.append(_peer(program, system, wanted, seeds))
     found = decompose(system)
-    seconds, certificate = timed(lambda: certify_decomposition(found))
-    path_proof, loops = timed(lambda: prove_all(found))
+    seconds, certificate = time_call(lambda: certify_decomposition(found))
+    path_proof, loops = time_call(lambda: prove_all(found))
     return Chart(
         subject.name,
         "components",
@@ -174,5 +174,5 @@ def _in_form(
         listed = [Listed(c.points, c.rows) for c in answer.components or ()]
         seconds.append(answer.seconds)
         found.append(agreement(system, listed, wanted))
-    point = Point(program, float(np.median(seconds)), 0, **asdict(joined(found)))
+    point = Point(program, float(np.median(seconds)), 0, **asdict(join_found(found)))
     return Curve("peer", program, (point,), remark)

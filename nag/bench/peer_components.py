@@ -23,7 +23,7 @@ from nag.bench.peer_points import (
     solutions,
     told_by_macaulay2,
 )
-from nag.bench.peers import in_bertini, in_phcpack, installed, plain_texts
+from nag.bench.peers import in_bertini, in_phcpack, installed_programs, plain_texts
 from nag.bench.reference import NEAR
 
 
@@ -54,7 +54,7 @@ TimedComponents = tuple[float | None, list[PeerComponent]] | str
 
 def decomposing_programs() -> list[str]:
     """The programs that are there."""
-    return [*installed(), *(["bertini2"] if importlib.util.find_spec("bertini") else [])]
+    return [*installed_programs(), *(["bertini2"] if importlib.util.find_spec("bertini") else [])]
 
 
 def peer_components(

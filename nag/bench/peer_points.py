@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.bench.peers import in_bertini, in_macaulay2, in_phcpack, installed, plain_texts
+from nag.bench.peers import in_bertini, in_macaulay2, in_phcpack, installed_programs, plain_texts
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +49,7 @@ def forms(system: PolynomialSystem) -> dict[str, PolynomialSystem]:
 
 def programs() -> list[str]:
     """The programs that are there: M2, also refined, phc, and bertini2, a Python package."""
-    found = installed()
+    found = installed_programs()
     refined = [REFINED] if "M2" in found else []
     return [*found, *refined, *(["bertini2"] if importlib.util.find_spec("bertini") else [])]
 

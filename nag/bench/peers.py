@@ -41,7 +41,7 @@ class Peer:
         return asdict(self)
 
 
-def installed() -> list[str]:
+def installed_programs() -> list[str]:
     """The programs that are there."""
     return [name for name in PROGRAMS if shutil.which(name)]
 

@@ -140,7 +140,7 @@ def _compare(
     )
 
 
-def joined(found: Sequence[Found]) -> Found:
+def join_found(found: Sequence[Found]) -> Found:
     """Over seeds: mean share, points that are false in all, largest error, median of medians.
 
     Errors are those of the seeds for which there are any.

@@ -22,7 +22,7 @@ from nag.bench.work_precision import (
     best_form,
     in_arithmetics,
     own_curves,
-    timed,
+    time_call,
 )
 from nag.solving.solve import solve
 from nag.tracking.evaluations import count_evaluations
@@ -80,16 +80,16 @@ def _solutions(subject: MeasuredCase, seeds: int, progress: Progress | None) -> 
 
     def measured(seed: int, settings: Settings | str) -> tuple[float, int, Found]:
         with count_evaluations() as spent:
-            seconds, found = timed(lambda: solve(system, seed=seed, settings=settings))
+            seconds, found = time_call(lambda: solve(system, seed=seed, settings=settings))
         return seconds, spent.number, compare_points(reference, found.points)
 
     curves = own_curves(measured, seeds, progress)
     curves += in_arithmetics(system, reference, seeds, progress)
     found = solve(system)
     seconds, certificate = min(
-        (timed(lambda: certify_solutions(found)) for _ in range(3)), key=lambda pair: pair[0]
+        (time_call(lambda: certify_solutions(found)) for _ in range(3)), key=lambda pair: pair[0]
     )
-    path_proof, paths = timed(lambda: prove_paths(found))
+    path_proof, paths = time_call(lambda: prove_paths(found))
     sharpened = {k: tuple(v) for k, v in sharpening(system, reference).items()}
     return Chart(
         subject.name,

@@ -73,7 +73,7 @@ class Answer:
     facts: Counter[str] = field(default_factory=Counter)
 
 
-def answered(
+def compute_answer(
     method: str,
     system: PolynomialSystem,
     seed: int = 0,
@@ -124,7 +124,7 @@ def components_text(components: Components, facts: Counter[str] | None = None) -
     return ", ".join(parts) or "empty"
 
 
-def known(truth: ZeroSet | None, method: str) -> str:
+def known_text(truth: ZeroSet | None, method: str) -> str:
     """What should have been found, in words."""
     if truth is None:
         return "not known"
@@ -139,13 +139,13 @@ def known(truth: ZeroSet | None, method: str) -> str:
     return text
 
 
-def described(run: TimedRun, truth: ZeroSet | None) -> str:
+def describe_run(run: TimedRun, truth: ZeroSet | None) -> str:
     """What a run gave beside what is known, in one line."""
     if run.value is None:
         return run.error or f"ended after {run.seconds:g} s"
     notes = f" ({run.value.notes})" if not run.value.complete else ""
     found = components_text(run.value.components, run.value.facts)
-    return f"{found}; known: {known(truth, run.value.method)}{notes}"
+    return f"{found}; known: {known_text(truth, run.value.method)}{notes}"
 
 
 def summary(counts: Counter[str], seconds: Sequence[float]) -> str:

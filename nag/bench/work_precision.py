@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.bench.reference import Found, Reference, joined
+from nag.bench.reference import Found, Reference, join_found
 from nag.bench.sharpening import SharpeningCost
 from nag.bench.whole_paths import ARITHMETICS, WHOLE_TOLERANCES, WholePaths, tracked_in
 from nag.files.json_values import (
@@ -118,7 +118,7 @@ class Chart:
     sharpened: dict[str, tuple[SharpeningCost, ...]]
 
 
-def timed(work: Callable[[], Any]) -> tuple[float, Any]:
+def time_call(work: Callable[[], Any]) -> tuple[float, Any]:
     """Processor seconds of a call, and what it returns."""
     begin = time.process_time()
     result = work()
@@ -203,7 +203,7 @@ def over_seeds(name: str, measured: Callable[[int], tuple[float, int, Found]], s
     runs = [measured(seed) for seed in range(seeds)]
     seconds = float(np.median([r[0] for r in runs]))
     evaluations = int(np.median([r[1] for r in runs]))
-    return Point(name, seconds, evaluations, **asdict(joined([r[2] for r in runs])))
+    return Point(name, seconds, evaluations, **asdict(join_found([r[2] for r in runs])))
 
 
 FORMAT = "nag-speed-accuracy"

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.groebner import Ideal, cleared, ideal
+from nag.algebra.groebner import Ideal, clear_denominators, ideal
 from nag.algebra.number import square_root
 from nag.algebra.rational_function import FunctionField
 from nag.algebra.system import PolynomialSystem
@@ -222,7 +222,7 @@ def degree_in_half_angles(system: PolynomialSystem, seed: int = 1) -> int:
     base = FunctionField(system.variables, "degrevlex")
 
     def raised(f: Any) -> Any:
-        terms = cleared(f, base).to_dict().items()
+        terms = clear_denominators(f, base).to_dict().items()
         return field.context.from_dict({(*[0] * k, *map(int, e)): c for e, c in terms})
 
     inverses = field.context.gens()[:k]

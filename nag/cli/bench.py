@@ -99,7 +99,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         return bench_decompose.run(options)
 
     from nag.bench.measure import as_json, flop_rate, measure
-    from nag.bench.peers import installed, run_peer
+    from nag.bench.peers import installed_programs, run_peer
     from nag.bench.table import table
     from nag.errors import StartError
 
@@ -111,7 +111,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         expected = sum(t.count for t in known) if known else None
         cases.append((path, problem.system, expected, problem.family))
     rate = flop_rate()
-    programs = installed() if options.peers else []
+    programs = installed_programs() if options.peers else []
     rows, peers = [], {}
     for path, system, expected, family in cases:
         if not options.quiet:

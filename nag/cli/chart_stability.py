@@ -66,13 +66,13 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     atlas = _read(options.data) if options.data is not None else _run(options)
 
     from nag.bench.atlas.picture import draw
-    from nag.bench.atlas.stability import changes, completed, document, table
+    from nag.bench.atlas.stability import changes, complete_atlas, document, table
     from nag.text.json_text import lay_out
     from nag.text.table import align, printable
 
     if rest is not None:
         try:
-            atlas = completed(atlas, rest)
+            atlas = complete_atlas(atlas, rest)
         except ValueError as error:
             raise UsageError(f"--rest: {options.rest}: {error}") from None
     write_text(options.json, lay_out(document(atlas)) + "\n")

@@ -33,11 +33,11 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     decided = [(title, _decide(title, rows, options.progress)) for title, rows in sections]
 
     from nag.report.statements import is_as_expected, section, summary
-    from nag.text.table import labelled
+    from nag.text.table import label_lines
 
     lines = [line for title, pairs in decided for line in section(title, pairs)]
     pairs = [pair for _, rows in decided for pair in rows]
-    lines += labelled([("answer", summary(pairs)), run_row(options)])
+    lines += label_lines([("answer", summary(pairs)), run_row(options)])
     return CommandAnswer(lines, all(is_as_expected(*pair) for pair in pairs))
 
 

@@ -90,11 +90,11 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
     from nag.decomposition.through import note_doubts, through_points
     from nag.files.export import Origin, document
     from nag.report.answer import answer_lines
-    from nag.witness.frame import expanded
+    from nag.witness.frame import expand_orbits
 
     problem, decomposition = _decompose(arguments, problem)
     if arguments.expand:
-        decomposition = expanded(decomposition)
+        decomposition = expand_orbits(decomposition)
     points = through_points(decomposition, problem.named, arguments.threads)
     decomposition = note_doubts(decomposition, points)
     return CommandAnswer(

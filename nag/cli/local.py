@@ -109,10 +109,10 @@ def _through(
 ) -> dict[str, Any]:
     """For each point what the components through it say, beside a local dimension."""
     from nag.decomposition.through import through_points
-    from nag.witness.frame import expanded
+    from nag.witness.frame import expand_orbits
 
     decomposition = problem.decompose(run=chosen_run(options))
-    components = expanded(decomposition).components
+    components = expand_orbits(decomposition).components
     known = through_points(decomposition, list(chosen.items()), options.threads)
 
     def compare(name: str) -> Any:

@@ -108,10 +108,10 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
         write(answer.lines)
     if answer.proof is None:
         return answer.complete
-    from nag.text.table import labelled
+    from nag.text.table import label_lines
 
     rows, proved = answer.proof()
-    write(["", *labelled(rows)])
+    write(["", *label_lines(rows)])
     return answer.complete and proved
 
 

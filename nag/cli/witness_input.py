@@ -89,7 +89,7 @@ def read_components(options: argparse.Namespace, check: Check | None = None) -> 
     Raises:
         nag.errors.InputError: if the file cannot be read.
     """
-    from nag.witness.frame import expanded
+    from nag.witness.frame import expand_orbits
 
     if is_export(options.case):
         from nag.files.export import read_export
@@ -104,7 +104,7 @@ def read_components(options: argparse.Namespace, check: Check | None = None) -> 
         origin = export.origin
         title = origin.title if origin else "a system built in memory"
         file = origin.file if origin else Path(options.case).name
-        return ReadComponents(expanded(export.decomposition), title, file, {}, options.case)
+        return ReadComponents(expand_orbits(export.decomposition), title, file, {}, options.case)
 
     case, problem = read_problem(options)
     points = {point.name: point.at for point in problem.points}
@@ -113,7 +113,7 @@ def read_components(options: argparse.Namespace, check: Check | None = None) -> 
     decomposition = problem.decompose(run=chosen_run(options))
     if options.progress is not None:
         options.progress.erase()
-    return ReadComponents(expanded(decomposition), case.title, Path(case.path).name, points)
+    return ReadComponents(expand_orbits(decomposition), case.title, Path(case.path).name, points)
 
 
 def component_number(text: str) -> int:

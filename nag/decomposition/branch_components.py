@@ -44,7 +44,7 @@ from nag.witness.frame import Frame
 from nag.witness.membership import Membership, is_on_one_of
 from nag.witness.moving import witness_at
 from nag.witness.multiplicity import ACCURACY
-from nag.witness.slices import padded, random_rows, to_slice
+from nag.witness.slices import pad_rows, random_rows, to_slice
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 
@@ -66,7 +66,7 @@ class BranchComponent(GenericPoint):
 
     @property
     def rows(self) -> np.ndarray:  # type: ignore[override]
-        return padded(self.witness.slice.rows, 1 + self.witness.points.shape[1])
+        return pad_rows(self.witness.slice.rows, 1 + self.witness.points.shape[1])
 
     @property
     def points(self) -> np.ndarray:
@@ -140,7 +140,7 @@ class BranchComponent(GenericPoint):
 
 
 @dataclass(frozen=True, eq=False)
-class _Part:
+class _DecomposedBranch:
     """A branch and its components."""
 
     system: PolynomialSystem
@@ -232,21 +232,23 @@ def _keep(symmetries: Sequence[SignedPermutation], system: PolynomialSystem) -> 
     return True
 
 
-def _part(task: Task, others: Others, rng: np.random.Generator) -> _Part:
+def _part(task: Task, others: Others, rng: np.random.Generator) -> _DecomposedBranch:
     system = task.system
     zeros = None if task.symmetries else task.facts.exact_zeros
     if zeros is not None:
         return _algebraic(system, zeros)
     branch = BranchEquations(system, graphs=False)
     if branch.kind is BranchKind.EMPTY:
-        return _Part(system, (), None)
+        return _DecomposedBranch(system, (), None)
     if branch.kind is not BranchKind.SYSTEM and not system.groups:
-        return _Part(system, (_linear_space(branch, rng),), None)
+        return _DecomposedBranch(system, (_linear_space(branch, rng),), None)
     answer = others(task)
-    return _Part(system, tuple(BranchComponent(c, branch) for c in answer.components), answer)
+    return _DecomposedBranch(
+        system, tuple(BranchComponent(c, branch) for c in answer.components), answer
+    )
 
 
-def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Part:
+def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _DecomposedBranch:
     n = system.n
     evaluator, branch = Evaluator.of(system.polynomials, n), BranchEquations(system, graphs=False)
     found, square = [], len(system.polynomials) == n
@@ -269,7 +271,7 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Par
             fibre = Fibre(Cut(n, 0, system.polynomials), witness.slice.rows, x[None])
             witness = replace(witness, fibres=(fibre,))
         found.append(BranchComponent(witness, branch, zero))
-    return _Part(system, tuple(found), None)
+    return _DecomposedBranch(system, tuple(found), None)
 
 
 def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchComponent:
@@ -317,7 +319,7 @@ class _Coverage:
     run: Run
     counts: PathCounts = field(default=PathCounts())
 
-    def is_in_larger(self, part: _Part, component: BranchComponent) -> bool | None:
+    def is_in_larger(self, part: _DecomposedBranch, component: BranchComponent) -> bool | None:
         """Whether a component on which the equations of a part vanish is in a larger one of it."""
         witness = component.witness
         larger = [c for c in part.components if c.witness.dimension > witness.dimension]
@@ -341,7 +343,7 @@ class _Coverage:
 
 
 def _join(
-    parts: Sequence[_Part], rng: np.random.Generator, run: Run
+    parts: Sequence[_DecomposedBranch], rng: np.random.Generator, run: Run
 ) -> tuple[list[BranchComponent], list[str], PathCounts]:
     """The components of all branches that lie in no component of another branch."""
     coverage = _Coverage(rng, run)

@@ -25,7 +25,7 @@ from nag.numerics.digits import bits_of, doubles, in_bits, middle, to_ball
 from nag.numerics.newton import find_zero, inverse_of
 from nag.tracking.run import Run
 from nag.witness.fibres import Fibre, move
-from nag.witness.slices import padded, unit_complex
+from nag.witness.slices import pad_rows, unit_complex
 
 # Bits of values, 200 digits, and the digits that points are worked out to.
 BITS, ARRIVED = bits_of(200), 180
@@ -104,7 +104,7 @@ def _sum_of_squares(
         if not ends.regular.all():
             raise BranchPointError("paths to another slice failed")
         form = np.concatenate([weights, np.zeros(fibre.cut.aux)])
-        rows = padded(sheets.rows(t), 1 + len(form))
+        rows = pad_rows(sheets.rows(t), 1 + len(form))
         system = BallPolynomials.of(fibre.cut.polynomials, rows)
         squares += [_square(system, x, form) for x in ends.points]
     with in_bits(BITS):

@@ -51,7 +51,7 @@ def decompose(
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
         symmetries: signed permutations of the variables that keep the equations. Of the components
             that they carry into each other one is worked out and reported, with the size of its
-            orbit; `nag.witness.frame.expanded` lists the others.
+            orbit; `nag.witness.frame.expand_orbits` lists the others.
 
     Raises:
         nag.algebra.symmetry.SymmetryError: if one of ``symmetries`` does not keep the equations.

@@ -36,7 +36,7 @@ from nag.witness.fibres import STEEPER, Fibre, SliceEnds, admit_end
 from nag.witness.membership import Membership, is_on_larger_set
 from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.points import with_fine
-from nag.witness.slices import padded, random_rows, unit_complex
+from nag.witness.slices import pad_rows, random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
 
@@ -297,7 +297,7 @@ class _Diagonal:
             for i in np.flatnonzero(near & ~ends.regular):
                 rng, error = np.random.default_rng(0), max(float(ends.accuracy[i]), ROUNDED)
                 zeros = possible_zeros(
-                    cut.polynomials, ends.points[i], error, rng, padded(rows, 1 + cut.n + cut.aux)
+                    cut.polynomials, ends.points[i], error, rng, pad_rows(rows, 1 + cut.n + cut.aux)
                 )
                 answers[i] = vanishes_at_all(zeros, probe)
         for i, answer in answers.items():
@@ -324,7 +324,7 @@ class _Diagonal:
         reduced, unclear = self.common.reduced, 0
         result = ~seem_excluded(self.common.nonzero, x, accuracy)
         for i in np.flatnonzero(~result):
-            error, slices = max(float(accuracy[i]), ROUNDED), padded(rows, 1 + x.shape[1])
+            error, slices = max(float(accuracy[i]), ROUNDED), pad_rows(rows, 1 + x.shape[1])
             rng = np.random.default_rng(0)
             zeros = possible_zeros(reduced.polynomials, x[i], error, rng, slices)
             there = {any(vanishes_at(z, g) for g in reduced.nonzero) for z in zeros}

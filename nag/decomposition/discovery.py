@@ -85,7 +85,7 @@ def discover(
         check_symmetry(system, symmetry)
     rng = run.random(7)
     reduction = Reduction.of(system, scaled=True)
-    search = _Search(reduction, CommonSlices.random(reduction.equations, rng), rng, run)
+    search = _Discovery(reduction, CommonSlices.random(reduction.equations, rng), rng, run)
     search.from_random_points(starts)
     found = assemble_components(
         search.slices.points, reduction, rng, run, KnownOfSets(embedded=True)
@@ -100,7 +100,7 @@ def discover(
 
 
 @dataclass(eq=False)
-class _Search:
+class _Discovery:
     """Components that are looked for, and what was found so far.
 
     Attributes:

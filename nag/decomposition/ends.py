@@ -17,7 +17,7 @@ from nag.numerics.zero_values import ON, possible_zeros, vanishes_at
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, SliceEnds
-from nag.witness.slices import padded
+from nag.witness.slices import pad_rows
 
 # Failed paths that are known to lead next to a point are known to so much of it, no better: what
 # they were seen to go to is the limit of several branches that are one to the digits they had.
@@ -152,6 +152,6 @@ def _beside(
     Ill-conditioned zeros pass for singular ones, and may be so close to it that doubles can neither
     tell them from it nor hold a cut that makes them regular.
     """
-    slices, rng = padded(rows, 1 + len(z)), np.random.default_rng(0)
+    slices, rng = pad_rows(rows, 1 + len(z)), np.random.default_rng(0)
     zeros = possible_zeros(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices, True)
     return not all(any(vanishes_at(zero, g) for g in nonzero) for zero in zeros)

@@ -107,7 +107,7 @@ def _coranks(equations: Equations, fibre: Fibre, rng: np.random.Generator) -> li
 
 
 @dataclass(frozen=True, eq=False)
-class _Part:
+class _CheckedPoints:
     """Points with the same cut, to rounding, and what is checked of each.
 
     Attributes:
@@ -122,13 +122,13 @@ class _Part:
     coranks: np.ndarray
     residuals: np.ndarray
 
-    def only(self, indices: Sequence[int]) -> _Part:
+    def only(self, indices: Sequence[int]) -> _CheckedPoints:
         """Those that have one of these indices, in an order that does not depend on them."""
         asked = np.zeros(1 + max(self.own.max(initial=-1), max(indices, default=-1)), dtype=bool)
         asked[np.asarray(indices, dtype=int)] = True
         places = np.flatnonzero(asked[self.own])
         places = places[order_points(self.sharp.fibre.points[places])]
-        return _Part(
+        return _CheckedPoints(
             self.own[places],
             self.sharp.only(places),
             self.lifted.only(places),
@@ -148,7 +148,7 @@ class Examined:
     reduction: Reduction
     rows: np.ndarray
     cut: Slice
-    parts: tuple[_Part, ...]
+    parts: tuple[_CheckedPoints, ...]
 
     @classmethod
     def of(
@@ -187,7 +187,7 @@ class Examined:
                 )
             coranks = np.array(_coranks(reduction.equations, sharp.fibre, rng))
             residuals = reduction.original.residuals(there.fibre.x).max(axis=1, initial=0.0)
-            parts.append(_Part(own, sharp, there, coranks, residuals))
+            parts.append(_CheckedPoints(own, sharp, there, coranks, residuals))
         return cls(reduction, points.rows, cut, tuple(parts))
 
 

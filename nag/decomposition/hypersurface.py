@@ -30,7 +30,7 @@ from nag.witness.fibres import (
     track_close_points,
 )
 from nag.witness.points import with_fine
-from nag.witness.slices import padded, unit_complex
+from nag.witness.slices import pad_rows, unit_complex
 from nag.witness.witness import PathCounts
 
 # Slices to which points may have to be moved to get to another flag.
@@ -83,7 +83,7 @@ def intersect(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> SliceEnd
     f = f * (1 / leading_power(f))
     compiled = _with_power(cut, f)
     columns = total + 2
-    slices = padded(fibre.rows, columns)
+    slices = pad_rows(fibre.rows, columns)
     a0, a1 = slices.copy(), np.zeros_like(slices)
     a0[d - 1] = 0
     a0[d - 1, -1] = 1
@@ -135,7 +135,7 @@ def _intersect_close(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> S
     plain = np.setdiff1d(np.arange(len(fibre)), indices)
     rest = replace(fibre, points=fibre.points[plain], fine={})
     f = f * (1 / leading_power(f))
-    source = padded(fibre.rows, total + 2)
+    source = pad_rows(fibre.rows, total + 2)
     target = source.copy()
     target[d - 1] = 0
     target[d - 1, -1] = 1

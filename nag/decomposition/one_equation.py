@@ -21,7 +21,7 @@ import flint
 import numpy as np
 
 from nag.algebra.exact_ranks import null_space
-from nag.algebra.factoring import factored, most_absolute_factors
+from nag.algebra.factoring import factor_into_irreducibles, most_absolute_factors
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.final_checks import (
     MOST_MULTIDEGREES,
@@ -67,7 +67,7 @@ def decompose_one_equation(task: Task) -> Decomposition | None:
     if not is_one_equation(reduction) or not all(g.exact for g in reduced.nonzero):
         return None
     (f,) = reduced.polynomials
-    if [k for _, k in factored(f)] != [1]:
+    if [k for _, k in factor_into_irreducibles(f)] != [1]:
         return None
     count = most_absolute_factors(f, rng)
     if count is None:
@@ -103,8 +103,8 @@ def _components(
     scheme: bool,
 ) -> list[WitnessSet]:
     (f,) = reduction.reduced.polynomials
-    key = factored(f)[0][0]
-    if any(key == p for g in reduction.reduced.nonzero for p, _ in factored(g)):
+    key = factor_into_irreducibles(f)[0][0]
+    if any(key == p for g in reduction.reduced.nonzero for p, _ in factor_into_irreducibles(g)):
         return []
     multidegree = _multidegree(reduction, rng)
     points = points_in_balls(Cut(reduction.n, 0, (f,)), rows, cut_out.balls)

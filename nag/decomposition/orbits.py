@@ -119,7 +119,7 @@ def irreducible_orbits(
 
 
 @dataclass(frozen=True, eq=False)
-class _Images:
+class _PointImages:
     """Where a symmetry takes some points, by index."""
 
     symmetry: SignedPermutation
@@ -133,7 +133,7 @@ def _images_of(
     actions: Sequence[Action],
     rng: np.random.Generator,
     run: Run,
-) -> tuple[list[_Images], PathCounts, list[str]]:
+) -> tuple[list[_PointImages], PathCounts, list[str]]:
     """Where actions take some points, back on the slice, and what is wrong.
 
     Actions for which that does not become clear, or that move no point, are left out.
@@ -146,11 +146,11 @@ def _images_of(
             missing = int((places < 0).sum())
             notes.append(f"{missing} images of points under a symmetry are not among the points")
         elif places is not None and not np.array_equal(places, indices):
-            found.append(_Images(action.symmetry, np.array(indices), places))
+            found.append(_PointImages(action.symmetry, np.array(indices), places))
     return found, counts, notes
 
 
-def _carries_classes(labels: np.ndarray, images: _Images) -> bool:
+def _carries_classes(labels: np.ndarray, images: _PointImages) -> bool:
     """Whether a symmetry carries every class of points to one class, of as many points."""
     pairs = np.unique(np.stack([labels[images.indices], labels[images.places]]), axis=1)
     sizes = np.bincount(labels)
@@ -183,7 +183,7 @@ def _places(
 
 
 def _orbits_of_classes(
-    labels: np.ndarray, images: Sequence[_Images]
+    labels: np.ndarray, images: Sequence[_PointImages]
 ) -> list[tuple[int, tuple[SignedPermutation, ...]]]:
     """For each orbit of classes its first class, and what carries it into each of the others."""
     maps = [dict(zip(labels[g.indices], labels[g.places], strict=True)) for g in images]

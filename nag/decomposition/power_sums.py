@@ -19,7 +19,7 @@ import numpy as np
 from nag.algebra.evaluation import series_products
 from nag.witness.cutting import Cut
 from nag.witness.points import Points
-from nag.witness.slices import complex_normal, padded
+from nag.witness.slices import complex_normal, pad_rows
 
 # Powers of u, and of forms, up to which equations are taken; and equations for each unknown.
 FEWEST_POWERS, MOST_POWERS, MOST_DEGREE, EQUATIONS = 4, 12, 4, 1.5
@@ -191,7 +191,7 @@ def _series(
         Coefficients, shape ``(P, m, 1 + powers)``.
     """
     count, m = z.shape
-    slopes = padded(rows, 1 + m)[:, 1:]
+    slopes = pad_rows(rows, 1 + m)[:, 1:]
     evaluator, derivatives = cut.evaluator, cut.evaluator.placed_derivatives(m)
 
     def jacobians(z: np.ndarray) -> np.ndarray:

@@ -113,7 +113,7 @@ def rank_drop(
         return RankDrop((), PathCounts(), (), system.n)
     if is_regular_everywhere(own.polynomials, n - component.dimension):
         return RankDrop((), PathCounts(), (), system.n, proved=True)
-    search = _Search(own, _restricted(component, reduction), run)
+    search = _RankDrops(own, _restricted(component, reduction), run)
     rng = run.random()
     search.cut(_left_null_space(own, search.rank, rng), rng)
     if search.regular:
@@ -171,7 +171,7 @@ def _is_whole(found: SolveResult) -> bool:
 
 
 @dataclass(eq=False)
-class _Search:
+class _RankDrops:
     """What was found of the points where the rank of a component's equations is less than usual.
 
     Attributes:
@@ -231,9 +231,9 @@ class _Search:
             self.sets.append(SetOfPoints(0, len(kept), np.array(kept), error))
         return True
 
-    def joined(self, conditions: PolynomialSystem, rng: np.random.Generator) -> _Search:
+    def joined(self, conditions: PolynomialSystem, rng: np.random.Generator) -> _RankDrops:
         """A search by conditions that leave nothing out, beside what is known of larger sets."""
-        again = _Search(self.own, self.component, self.run)
+        again = _RankDrops(self.own, self.component, self.run)
         again.cut(conditions, rng)
         again.paths += self.paths
         if again.notes:

@@ -22,7 +22,7 @@ from typing import Literal
 
 import numpy as np
 
-from nag.algebra.factoring import factored
+from nag.algebra.factoring import factor_into_irreducibles
 from nag.algebra.given import check_whole
 from nag.algebra.groebner import Ideal, UnfinishedBasis, ideal_of
 from nag.algebra.polynomial import Polynomial
@@ -46,7 +46,7 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import bits_of
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
-from nag.witness.frame import expanded
+from nag.witness.frame import expand_orbits
 from nag.witness.given_component import check_system
 from nag.witness.projection import ProjectionError, project
 from nag.witness.witness import PathCounts, WitnessSet
@@ -152,7 +152,7 @@ def singular_parameters(
     natural = natural_coordinates(system.polynomials, system.n)
     whole = _null_space_system(natural.system(system), n, run.random(8))
     found = decompose(whole, run=run)
-    ideal, components = _ideal(whole), expanded(found).components
+    ideal, components = _ideal(whole), expand_orbits(found).components
     family = _Family(whole, ideal, tuple(range(n, n + count)), run)
     sets, open_notes = _parameter_sets(family, components)
     # The equations alone say nothing of what is excluded.
@@ -254,7 +254,7 @@ class _Family:
 
 
 @dataclass(frozen=True, eq=False)
-class _Image:
+class _ParameterImage:
     """The image of a component in the space of the parameters.
 
     Attributes:
@@ -288,7 +288,7 @@ def _parameter_sets(
     images, notes = _images(family, components)
     found: list[ParameterSet] = []
     for dimension, level in groupby(images, key=lambda image: image.dimension):
-        conjugate: list[_Image] = []
+        conjugate: list[_ParameterImage] = []
         for image in level:
             try:
                 if any(image.satisfies(each.equations, family.coordinates) for each in found):
@@ -312,19 +312,23 @@ def _left_open(dimension: int, reason: ValueError) -> str:
     return f"there are singular points for a set of parameters of dimension {dimension}: {reason}"
 
 
-def _images(family: _Family, components: Sequence[WitnessSet]) -> tuple[list[_Image], list[str]]:
+def _images(
+    family: _Family, components: Sequence[WitnessSet]
+) -> tuple[list[_ParameterImage], list[str]]:
     """The images of components, the largest first, and why some are missing."""
     found, notes = [], []
     for component in components:
         try:
             cloud = family.cloud([source_of_component(family.whole, component)])
-            found.append(_Image(component, cloud, cloud.image_dimension(family.coordinates)))
+            found.append(
+                _ParameterImage(component, cloud, cloud.image_dimension(family.coordinates))
+            )
         except SourceError as reason:
             notes.append(f"singular points of dimension {component.dimension}: {reason}")
     return sorted(found, key=lambda image: -image.dimension), notes
 
 
-def _set_alone(family: _Family, image: _Image) -> ParameterSet:
+def _set_alone(family: _Family, image: _ParameterImage) -> ParameterSet:
     """The set that an image is, if it is defined over the rational numbers.
 
     Raises:
@@ -348,13 +352,13 @@ def _hypersurface(family: _Family, cloud: Cloud, known: Interpolated) -> Paramet
         InterpolationError: if it is not irreducible, or does not hold elsewhere.
     """
     equation = _primitive(known.basis[0])
-    if [k for _, k in factored(equation)] != [1] or equation.degree != known.degree:
+    if [k for _, k in factor_into_irreducibles(equation)] != [1] or equation.degree != known.degree:
         raise InterpolationError("the set is not defined over the rational numbers")
     proof = _proof(family, cloud, equation, known.digits)
     return ParameterSet((equation,), len(family.coordinates) - 1, known.degree, proof)
 
 
-def _image_degree(family: _Family, image: _Image) -> int:
+def _image_degree(family: _Family, image: _ParameterImage) -> int:
     if image.dimension == 0:
         return 1
     found = project(
@@ -399,15 +403,15 @@ def _small_set(family: _Family, cloud: Cloud, dimension: int, degree: int) -> Pa
     )
 
 
-def _group_by_kind(images: Sequence[_Image]) -> list[list[_Image]]:
+def _group_by_kind(images: Sequence[_ParameterImage]) -> list[list[_ParameterImage]]:
     """Images that may be conjugate: of components of one dimension and degree."""
-    kinds: dict[tuple[int, int], list[_Image]] = {}
+    kinds: dict[tuple[int, int], list[_ParameterImage]] = {}
     for image in images:
         kinds.setdefault((image.component.dimension, image.component.degree), []).append(image)
     return list(kinds.values())
 
 
-def _sets_together(family: _Family, images: Sequence[_Image]) -> list[ParameterSet]:
+def _sets_together(family: _Family, images: Sequence[_ParameterImage]) -> list[ParameterSet]:
     """The sets that images, all of one dimension, are where conjugate ones are taken together.
 
     Raises:

@@ -39,7 +39,7 @@ from nag.witness.component_equations import (
     component_system,
     precise_point,
 )
-from nag.witness.frame import expanded
+from nag.witness.frame import expand_orbits
 from nag.witness.given_component import check_decomposition, check_index
 from nag.witness.multiplicity import multiplicity_at
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
@@ -162,7 +162,7 @@ class _Candidate:
 
 
 @dataclass(eq=False)
-class _Search:
+class _Candidates:
     """Candidates, and what was left open on the way to them.
 
     Attributes:
@@ -265,7 +265,7 @@ def singular_locus(
 
     Args:
         decomposition: as `nag.decompose` returns it.
-        only: indices of components of `nag.witness.frame.expanded`; singular points of these
+        only: indices of components of `nag.witness.frame.expand_orbits`; singular points of these
             and their intersections with all others are looked for. All of them by default.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
@@ -283,13 +283,13 @@ def singular_locus(
     (0, {0: 2}, True)
     """
     check_decomposition(decomposition)
-    given = expanded(decomposition)
+    given = expand_orbits(decomposition)
     check_indices(only, len(given.components))
     natural = coordinates_of(given.system)
     whole = carry_decomposition(given, natural)
     chosen = list(range(len(whole.components))) if only is None else sorted(set(only))
     own = _own_equations(whole, run.random(8), run)
-    search = _Search(whole, own, run)
+    search = _Candidates(whole, own, run)
     for i in chosen:
         search.on_component(i)
     search.of_pairs(chosen)
@@ -347,7 +347,7 @@ def _own_equations(
 
 
 def _judge_candidates(
-    search: _Search, rng: np.random.Generator, run: Run
+    search: _Candidates, rng: np.random.Generator, run: Run
 ) -> tuple[SingularSet, ...]:
     points: list[SingularSet] = []
     known, errors = np.zeros((0, search.whole.system.n), dtype=complex), np.zeros(0)
@@ -376,7 +376,7 @@ def _judge_candidates(
 
 
 def _judge_candidate(
-    search: _Search, candidate: _Candidate, rng: np.random.Generator, run: Run
+    search: _Candidates, candidate: _Candidate, rng: np.random.Generator, run: Run
 ) -> SingularSet | None:
     """What a candidate is; None if the components are smooth there and do not meet."""
     found = candidate.found

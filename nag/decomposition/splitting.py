@@ -68,7 +68,7 @@ class Split:
 
 
 @dataclass(eq=False)
-class _State:
+class _Splitting:
     """What is known while points are split.
 
     Attributes:
@@ -119,7 +119,7 @@ def split_points(points: Points, evidence: int, rng: np.random.Generator, run: R
     if points.dimension == 0:
         classes = tuple(Class(np.array([i])) for i in range(total))
         return Split(points, np.arange(total), classes, PathCounts())
-    state = _State(points, rng, Trace.of(points, evidence, rng))
+    state = _Splitting(points, rng, Trace.of(points, evidence, rng))
     idle = 0
     for _ in range(MOST_LOOPS):
         if not _find_components(state, run):
@@ -160,7 +160,7 @@ def _by_label(labels: np.ndarray, among: np.ndarray) -> list[np.ndarray]:
     return np.split(order, np.flatnonzero(np.diff(labels[order])) + 1) if len(order) else []
 
 
-def _find_components(state: _State, run: Run) -> bool:
+def _find_components(state: _Splitting, run: Run) -> bool:
     """Find components among open points, as far as traces and loops tell; False if a path fails."""
     while True:
         open_points = state.open_points()
@@ -180,7 +180,7 @@ def _find_components(state: _State, run: Run) -> bool:
     return True
 
 
-def _take_back_loops(state: _State, classes: Sequence[np.ndarray]) -> bool:
+def _take_back_loops(state: _Splitting, classes: Sequence[np.ndarray]) -> bool:
     """Confirm unions of classes of loops; whether loops turned out to be wrong, and are gone."""
     unions = None if state.growing else _smallest_unions(state, classes)
     if unions is None:
@@ -194,7 +194,7 @@ def _take_back_loops(state: _State, classes: Sequence[np.ndarray]) -> bool:
     return False
 
 
-def _parts(state: _State, points: np.ndarray) -> list[np.ndarray] | None:
+def _parts(state: _Splitting, points: np.ndarray) -> list[np.ndarray] | None:
     """The components that a set of points with a linear trace is made of.
 
     They are looked for among the points, if these are few, and else among the classes that each of
@@ -211,7 +211,7 @@ def _parts(state: _State, points: np.ndarray) -> list[np.ndarray] | None:
     return [points]
 
 
-def _smallest_unions(state: _State, units: Sequence[np.ndarray]) -> list[np.ndarray] | None:
+def _smallest_unions(state: _Splitting, units: Sequence[np.ndarray]) -> list[np.ndarray] | None:
     """Smallest unions of units with linear traces; None if these are too many, or not clear."""
     key = b"".join(own.tobytes() + b"|" for own in units)
     if not units or key in state.unclear:
@@ -229,7 +229,7 @@ def _smallest_unions(state: _State, units: Sequence[np.ndarray]) -> list[np.ndar
     return unions
 
 
-def _unions_by_sums(state: _State, units: Sequence[np.ndarray]) -> list[np.ndarray] | None:
+def _unions_by_sums(state: _Splitting, units: Sequence[np.ndarray]) -> list[np.ndarray] | None:
     """The same by power sums, where traces confirm them."""
     covered = np.sort(np.concatenate(units))
     key = covered.tobytes()
@@ -252,7 +252,7 @@ def _union_of_each(
     return [np.sort(np.concatenate([units[k] for k in own])) for own in places]
 
 
-def _is_linear(state: _State, indices: np.ndarray) -> bool | None:
+def _is_linear(state: _Splitting, indices: np.ndarray) -> bool | None:
     """Whether the trace of points is linear; each set is looked at once."""
     key = indices.tobytes()
     if key not in state.tested:
@@ -260,7 +260,7 @@ def _is_linear(state: _State, indices: np.ndarray) -> bool | None:
     return state.tested[key]
 
 
-def _discard_loops(state: _State, parts: Sequence[np.ndarray]) -> bool:
+def _discard_loops(state: _Splitting, parts: Sequence[np.ndarray]) -> bool:
     """Discard loops that join points of different sets; whether there were any."""
     part = np.full(len(state.points), -1)
     for k, own in enumerate(parts):
@@ -277,7 +277,7 @@ def _joins_parts(first: np.ndarray, second: np.ndarray) -> bool:
     return bool(((first != second) & (first >= 0) & (second >= 0)).any())
 
 
-def _doubt_components(state: _State) -> None:
+def _doubt_components(state: _Splitting) -> None:
     """Open components again that only seemed to be linear, where the other points are not together.
 
     All points of a set together have a linear trace; what others bend, these bend as well.
@@ -294,7 +294,7 @@ def _doubt_components(state: _State) -> None:
     state.whole = [own for own in state.whole if _is_linear(state, own)]
 
 
-def _run_loop(state: _State, open_points: np.ndarray, run: Run, scaled: bool) -> bool:
+def _run_loop(state: _Splitting, open_points: np.ndarray, run: Run, scaled: bool) -> bool:
     """Track a random loop from open points; whether it joined some or found any."""
     found, spent = run_loop(state.points, open_points, state.rng, run, scaled)
     state.counts += spent
@@ -313,7 +313,7 @@ def _run_loop(state: _State, open_points: np.ndarray, run: Run, scaled: bool) ->
     return not np.array_equal(before, state.labels())
 
 
-def _classes(state: _State, labels: np.ndarray) -> list[Class]:
+def _classes(state: _Splitting, labels: np.ndarray) -> list[Class]:
     whole = {int(own[0]) for own in state.whole}
     return [
         Class(own, "" if int(own[0]) in whole else _reason(state, own))
@@ -321,7 +321,7 @@ def _classes(state: _State, labels: np.ndarray) -> list[Class]:
     ]
 
 
-def _reason(state: _State, own: np.ndarray) -> str:
+def _reason(state: _Splitting, own: np.ndarray) -> str:
     """Why an open class is not a component."""
     if state.trace is None or not set(own.tolist()) <= set(state.trace.ends):
         return NO_TRACE

@@ -12,7 +12,7 @@ import numpy as np
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.local_dimension import LocalDimension, exact_numbers
-from nag.witness.frame import expanded
+from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition
 
 
@@ -39,7 +39,7 @@ def through_points(
     threads: int = 1,
 ) -> list[Through]:
     """Which components pass through named points of the system."""
-    found, everything = [], expanded(decomposition)
+    found, everything = [], expand_orbits(decomposition)
     for name, point in points:
         at = np.array([complex(float(x)) for x in point])
         known: dict[str, Any] = {"exact": point}

@@ -22,7 +22,7 @@ from nag.witness.component_equations import component_fibres
 from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, join_points
 from nag.witness.fibres import Fibre, join_fibres, move
 from nag.witness.points import Points
-from nag.witness.slices import padded, unit_complex
+from nag.witness.slices import pad_rows, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # Digits to which a trace must be linear, beside the points' motion: so many, and one more for each
@@ -109,7 +109,7 @@ class Trace:
             return self, counts
         for fibre, own in points.fibres(new):
             target = self._slices(fibre)
-            starts = _numbered(fibre, (1.0, -1.0), padded(points.rows, target.shape[1]))
+            starts = _numbered(fibre, (1.0, -1.0), pad_rows(points.rows, target.shape[1]))
             (there,) = move([starts], target, self.gamma, run, sizes=points.sizes)
             counts += there.counts.judged_elsewhere
             if not there.regular.all():
@@ -122,7 +122,7 @@ class Trace:
 
     def _slices(self, fibre: Fibre) -> np.ndarray:
         """The slices of a fibre as one, with the further unknown."""
-        target = padded(fibre.rows, 2 + fibre.cut.n + fibre.cut.aux)
+        target = pad_rows(fibre.rows, 2 + fibre.cut.n + fibre.cut.aux)
         target[-1, -1] = self.shift
         return target
 

@@ -19,7 +19,7 @@ from nag.algebra.flint_numbers import to_rational
 from nag.interpolation.precise_samples import Sample, Source, SourceError
 from nag.interpolation.vanishing import DIGITS, InterpolationError
 from nag.numerics.digits import bits_of, in_bits
-from nag.numerics.rational_relations import TooFewDigitsError, recognised
+from nag.numerics.rational_relations import TooFewDigitsError, recognise_rational
 from nag.tracking.run import Run
 from nag.witness.moving import move_and_sharpen
 from nag.witness.projection import SHARP
@@ -155,7 +155,7 @@ def _polynomial(zeros: Sequence[flint.acb], digits: int) -> flint.fmpq_poly:
     coefficients = list(product)
     if any(not c.imag.contains(0) for c in coefficients):
         raise TooFewDigitsError("coefficients are not real")
-    numbers = [recognised(c.real, digits) for c in coefficients]
+    numbers = [recognise_rational(c.real, digits) for c in coefficients]
     return flint.fmpq_poly(list(map(to_rational, numbers)))
 
 

@@ -16,7 +16,7 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import bits_of, in_bits
 from nag.numerics.double_ranks import matrix_corank
 from nag.tracking.run import Run
-from nag.witness.slices import padded
+from nag.witness.slices import pad_rows
 
 # Points beyond those that make the columns as long as they are many.
 MORE_POINTS = 6
@@ -173,7 +173,7 @@ def _with_rows_of_norm_one(matrix: np.ndarray) -> np.ndarray:
 def _tangent(sample: Sample) -> np.ndarray:
     """Orthonormal basis of the tangent space at a point, shape ``(n, d)``, in `_sizes`."""
     jacobian = sample.cut.evaluator.jacobian(sample.z)
-    rows = padded(sample.rows, 1 + len(sample.z))[:, 1:]
+    rows = pad_rows(sample.rows, 1 + len(sample.z))[:, 1:]
     matrix = _with_rows_of_norm_one(np.vstack([jacobian, rows]) * _sizes(sample))
     directions = np.linalg.inv(matrix)[: len(sample.x), len(jacobian) :]
     q, _ = np.linalg.qr(directions)

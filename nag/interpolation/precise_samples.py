@@ -29,9 +29,9 @@ from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut, Equations, find_cut
 from nag.witness.fibres import Fibre
-from nag.witness.given_component import rounded
+from nag.witness.given_component import round_point
 from nag.witness.sampling import move_to_random_slice
-from nag.witness.slices import padded, rows_through
+from nag.witness.slices import pad_rows, rows_through
 from nag.witness.witness import WitnessSet
 
 # Digits beyond those asked for in which Newton's method computes.
@@ -102,7 +102,7 @@ def source_at(
     if dimension == 0:
         raise SourceError("the point is isolated; there is nothing to eliminate from")
     natural = coordinates_of(system).without_scales
-    own, x = natural.system(system), rounded(natural.numbers(point))
+    own, x = natural.system(system), round_point(natural.numbers(point))
     sizes = scale_coordinates(own.polynomials, own.n).sizes
     rows = rows_through(rng, dimension, x, np.concatenate([[1.0], sizes]))
     found = find_cut(Equations(own.polynomials, own.n), rows, x, ROUNDED, rng, False)
@@ -145,7 +145,7 @@ class Sample:
         Raises:
             SourceError: if Newton's method does not converge.
         """
-        exact = BallPolynomials.of(self.cut.polynomials, padded(self.rows, 1 + len(self.z)))
+        exact = BallPolynomials.of(self.cut.polynomials, pad_rows(self.rows, 1 + len(self.z)))
         more = log10(1 + float(np.abs(self.z).max(initial=0.0)))
         zero = find_zero(exact, [flint.acb(complex(x)) for x in self.z], digits + more)
         if zero is None:

@@ -13,7 +13,7 @@ from nag.algebra.groebner import (
     Divisor,
     Ideal,
     UnfinishedBasis,
-    cleared,
+    clear_denominators,
     divisor,
     ideal_of,
     remainder,
@@ -87,7 +87,7 @@ def substitution(
         if below == 0 or m.numerator(base) != below * full[m.variable]:
             return None
     field = FunctionField([ambient.system.variables[i] for i in coordinates], "degrevlex")
-    divisors = tuple(divisor(cleared(f, field), k) for f in basis)
+    divisors = tuple(divisor(clear_denominators(f, field), k) for f in basis)
     values = dict(zip(coordinates, field.variables, strict=True))
     for m in maps:
         above, below = (f(field.variables, field) for f in (m.numerator, m.denominator))

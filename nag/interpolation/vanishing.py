@@ -32,7 +32,7 @@ from nag.numerics.rational_relations import (
     Echelon,
     TooFewDigitsError,
     clearly_independent,
-    recognised,
+    recognise_rational,
 )
 
 # Digits that are tried one after the other.
@@ -270,7 +270,7 @@ def hypersurface_equation(cloud: Cloud, coordinates: Sequence[int], degree: int)
             with in_bits(bits_of(digits + 20)):
                 right = flint.arb_mat(total, 1, [0] * (total - 1) + [1])
                 solution = flint.arb_mat(total, total, entries).solve(right).entries()
-            coefficients = [recognised(c, digits) for c in solution]
+            coefficients = [recognise_rational(c, digits) for c in solution]
         except (ZeroDivisionError, TooFewDigitsError):
             continue
         terms = {e: c for e, c in zip(monomials, coefficients, strict=True) if c}

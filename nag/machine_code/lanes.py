@@ -90,7 +90,7 @@ def square_root(a: Any) -> Any:
         return np.sqrt(a)
 
 
-def aligned(vectors: int) -> np.ndarray:
+def aligned_zeros(vectors: int) -> np.ndarray:
     """A flat array of zeros for ``vectors`` vectors, aligned to 64 bytes."""
     raw = np.zeros(vectors * LANES + ALIGNMENT // 8)
     offset = (-address(raw) % ALIGNMENT) // 8
@@ -98,7 +98,7 @@ def aligned(vectors: int) -> np.ndarray:
 
 
 def separate(vectors: np.ndarray, sizes: Sequence[int]) -> list[np.ndarray]:
-    """Parts of an `aligned` array with that many vectors each, one after the other."""
+    """Parts of an `aligned_zeros` array with that many vectors each, one after the other."""
     ends = [0, *accumulate(sizes)]
     return [vectors[LANES * a : LANES * b] for a, b in pairwise(ends)]
 
@@ -121,4 +121,4 @@ def scratch(record: Any, **dimensions: int) -> Any:
         prod(int(name) if name.isdigit() else dimensions[name] for name in shape)
         for shape in _shapes(record)
     ]
-    return record(*separate(aligned(sum(sizes)), sizes))
+    return record(*separate(aligned_zeros(sum(sizes)), sizes))

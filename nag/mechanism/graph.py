@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.from_python import exact_vector
-from nag.algebra.given import check_listed, check_type, is_a, shown
+from nag.algebra.given import check_listed, check_type, is_a, value_text
 from nag.algebra.number import Number, is_zero, number_text
 from nag.errors import MechanismError
 from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS, VECTORS, JointType
@@ -408,5 +408,5 @@ def check_mechanism(given: Any, others: str = "") -> None:
             f"a nag.Case is given; give its mechanism, case.mechanism{others and ', or '}{others}"
         )
     else:
-        what = f"{shown(given)} is given; give a nag.Mechanism{others and ', or '}{others}"
+        what = f"{value_text(given)} is given; give a nag.Mechanism{others and ', or '}{others}"
     raise MechanismError(f"mechanism: {what}")

@@ -24,7 +24,7 @@ from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.real_assemblies import real_doubt
 from nag.numerics.local_dimension import LocalDimension, local_dimension_near
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
-from nag.witness.frame import expanded
+from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition, WitnessSet
 
 
@@ -130,7 +130,7 @@ def _in_general(problem: Problem, detail: str, run: Run) -> MobilityReport:
     if detail == "local":
         raise NagError("the parts are not assembled; give a point, an assembly of them")
     found = problem.decompose(run=run)
-    components = expanded(found).components
+    components = expand_orbits(found).components
     if found.complete and not components:
         raise NoAssembly("its parts cannot be assembled, not even with complex coordinates")
     general = max(components, key=lambda c: (c.dimension, c.corank), default=None)
@@ -178,7 +178,7 @@ def _components(
     through = through_points(found, [("the configuration", tuple(at))], run.threads)[0]
     if not through.solution or through.doubt:
         return None, through.doubt or "the configuration is a rounded one"
-    everything = expanded(found).components
+    everything = expand_orbits(found).components
     return [everything[i] for i in through.components], ""
 
 

@@ -15,7 +15,7 @@ from typing import Any, Literal
 
 from nag.mechanism.bonds import Bonds
 from nag.numerics.local_dimension import LocalDimension
-from nag.text.table import LINE, count_text, html_table, shortened
+from nag.text.table import LINE, count_text, html_table, shorten_text
 from nag.witness.witness import WitnessSet
 
 # What must be the same of components in two formulations.
@@ -174,7 +174,7 @@ class MobilityReport:
         return _sentence(self)
 
     def __repr__(self) -> str:
-        return shortened(f"<MobilityReport: {self.sentence}", LINE - 1) + ">"
+        return shorten_text(f"<MobilityReport: {self.sentence}", LINE - 1) + ">"
 
     def _repr_html_(self) -> str:
         return html_table("MobilityReport", [["", ""], *map(list, self.rows())])

@@ -16,7 +16,7 @@ from nag.mechanism.mode_classes import ModeClass, mode_classes
 from nag.mechanism.model import Model, ModelError, model, with_loops
 from nag.mechanism.problem import problem_of
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
-from nag.witness.frame import expanded
+from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition
 
 Progress = Callable[[str, int, int], None]
@@ -123,7 +123,7 @@ def _meetings(answers: Sequence[ClassAnswer], run: Run) -> list[tuple[int, int, 
     found = set()
     for k, answer in enumerate(answers):
         system = answer.decomposition.system
-        everything = expanded(answer.decomposition).components
+        everything = expand_orbits(answer.decomposition).components
         for first in answer.decomposition.components:
             for second in everything:
                 pair = (k, first.dimension, second.dimension)

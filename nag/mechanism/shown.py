@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from nag.algebra.number import Irrational, Number, number_text
 from nag.algebra.system import system_line, values_text
 from nag.mechanism.graph import Joint
-from nag.text.table import align, count_text, html_table, lines_of, printable, shortened
+from nag.text.table import align, count_text, html_table, lines_of, printable, shorten_text
 from nag.text.table import number_text as rounded_text
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def mechanism_text(mechanism: Mechanism) -> str:
     lines = [_title(mechanism), *align(rows, (0, 1))]
     if shown < len(joints):
         lines.append(f"  and {count_text(len(joints) - shown, 'more joint')}")
-    return "\n".join(shortened(printable(line)) for line in lines)
+    return "\n".join(shorten_text(printable(line)) for line in lines)
 
 
 def mechanism_html(mechanism: Mechanism) -> str:
@@ -85,7 +85,7 @@ def configuration_text(found: Configuration) -> str:
     if shown < len(names):
         left = count_text(len(names) - shown, "more body", "more bodies")
         lines.append(f"  and {left}")
-    return "\n".join(shortened(printable(line)) for line in lines)
+    return "\n".join(shorten_text(printable(line)) for line in lines)
 
 
 def configuration_html(found: Configuration) -> str:

@@ -19,7 +19,7 @@ import numpy as np
 from nag.algebra.algebraic_zeros import BITS, AlgebraicZero
 from nag.algebra.branch_equations import BranchEquations, BranchKind, Vanishing
 from nag.algebra.evaluation import Evaluator, may_vanish
-from nag.algebra.factoring import Factors, factored
+from nag.algebra.factoring import Factors, factor_into_irreducibles
 from nag.algebra.generic_multiplicity import (
     generic_multiplicity,
 )
@@ -186,7 +186,7 @@ def multiplicities_in_scheme(
     Args:
         system: the equations, which need not be those of a branch.
     """
-    equations = [factored(f) for f in system.polynomials if f]
+    equations = [factor_into_irreducibles(f) for f in system.polynomials if f]
     factors = [*dict.fromkeys(p for each in equations for p, _ in each)]
     gradients = Gradients.of([f for f in system.polynomials if f], system.n)
     counts = [len(each.points) for each in found]

@@ -69,7 +69,7 @@ def classify_arrivals(
     return same, ~same & (distances < np.maximum(MISS, BEYOND * errors))
 
 
-def overlapping(points: np.ndarray, radii: np.ndarray) -> np.ndarray:
+def overlapping_pairs(points: np.ndarray, radii: np.ndarray) -> np.ndarray:
     """Pairs ``i < j`` of points one of which lies in the ball of the other, shape ``(pairs, 2)``.
 
     Args:
@@ -103,7 +103,7 @@ def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
             i = label[i]
         return i
 
-    for a, b in overlapping(points, radii_of_balls(points, accuracy)).tolist():
+    for a, b in overlapping_pairs(points, radii_of_balls(points, accuracy)).tolist():
         first, second = sorted((root(a), root(b)))
         label[second] = first
     if (label == np.arange(count)).all():

@@ -43,7 +43,7 @@ PASSING = 1200
 
 
 @dataclass(frozen=True, eq=False)
-class _Image:
+class _LocalEquations:
     """The equations about the zero in some arithmetic."""
 
     field: Field
@@ -51,7 +51,7 @@ class _Image:
     centre: Sequence[Any]
 
 
-class _TooLarge(Exception):
+class _SeriesTooLong(Exception):
     """Series would be too long."""
 
 
@@ -158,7 +158,7 @@ def _at_zero(zero: LocatedZero, hypersurface: bool, rng: np.random.Generator) ->
         search = CurveSearch(SEARCHES, partial(_sliced_curve, zero, lower, rng))
         try:
             space = _dual_space(zero, images, lower, search.succeeds, rng)
-        except (UnclearRank, _TooLarge) as reason:
+        except (UnclearRank, _SeriesTooLong) as reason:
             return _undecided(answer, zero, images, lower, rng, str(reason))
         coranks = tuple(accumulate(space.hilbert))
         answer = replace(answer, hyperplanes=lower, coranks=coranks, arithmetic=arithmetic)
@@ -187,7 +187,7 @@ def _on(k: int) -> str:
 def _undecided(
     answer: LocalDimension,
     zero: LocatedZero,
-    images: list[_Image],
+    images: list[_LocalEquations],
     lower: int,
     rng: np.random.Generator,
     reason: str,
@@ -199,21 +199,21 @@ def _undecided(
             if _dual_space(zero, images, k, lambda _: False, rng).finite:
                 upper = k
                 break
-        except (UnclearRank, _TooLarge):
+        except (UnclearRank, _SeriesTooLong):
             continue
     return replace(answer, lower=lower, upper=upper, reason=reason)
 
 
-def _images(zero: LocatedZero) -> list[_Image]:
+def _images(zero: LocatedZero) -> list[_LocalEquations]:
     """The equations modulo primes if the zero is algebraic, else in digits."""
     if zero.exact is not None:
         found = [
-            _Image(PrimeField(image.modulus), image.rows, image.centre)
+            _LocalEquations(PrimeField(image.modulus), image.rows, image.centre)
             for image in prime_images(zero.system, zero.exact, IMAGES)
         ]
         if found:
             return found
-    return [_Image(NUMBERS, zero.system.at(DIGITS), zero.found.point)]
+    return [_LocalEquations(NUMBERS, zero.system.at(DIGITS), zero.found.point)]
 
 
 def _hyperplanes(zero: LocatedZero, k: int, rng: np.random.Generator) -> np.ndarray:
@@ -221,7 +221,7 @@ def _hyperplanes(zero: LocatedZero, k: int, rng: np.random.Generator) -> np.ndar
     return rng.integers(1, 2**30, size=(k, zero.tangent)) * rng.choice((-1, 1), (k, zero.tangent))
 
 
-def _through(normals: np.ndarray, free: list[int], image: _Image, n: int) -> list[Terms]:
+def _through(normals: np.ndarray, free: list[int], image: _LocalEquations, n: int) -> list[Terms]:
     """Equations of the hyperplanes through the image of the point."""
     rows: list[Terms] = []
     p = image.field.modulus
@@ -239,7 +239,7 @@ def _through(normals: np.ndarray, free: list[int], image: _Image, n: int) -> lis
 
 def _dual_space(
     zero: LocatedZero,
-    images: list[_Image],
+    images: list[_LocalEquations],
     k: int,
     stop: Callable[[Sequence[int]], bool],
     rng: np.random.Generator,
@@ -255,7 +255,10 @@ def _dual_space(
 
 
 def _in_image(
-    zero: LocatedZero, image: _Image, normals: np.ndarray, stop: Callable[[Sequence[int]], bool]
+    zero: LocatedZero,
+    image: _LocalEquations,
+    normals: np.ndarray,
+    stop: Callable[[Sequence[int]], bool],
 ) -> DualSpace:
     """The dual space on hyperplanes in one arithmetic, where the regular part is solved first."""
     block, n, k, field = zero.block, zero.system.n, len(normals), image.field
@@ -267,10 +270,10 @@ def _in_image(
 
     def series(order: int) -> tuple[SeriesRing, list[Series]]:
         if series_cost(m, order, [Round(solved, columns)]) > most:
-            raise _TooLarge(f"its series in {m} variables are too long")
+            raise _SeriesTooLong(f"its series in {m} variables are too long")
         found = eliminate(rows, image.centre, solved, columns, order, field.modulus)
         if found is None:
-            raise _TooLarge("the regular part is singular in this arithmetic")
+            raise _SeriesTooLong("the regular part is singular in this arithmetic")
         rest = [{e: c for e, c in s.items() if not field.is_zero(c)} for s in found.rest]
         return found.ring, rest
 

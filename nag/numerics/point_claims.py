@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from nag.algebra.factoring import factored
+from nag.algebra.factoring import factor_into_irreducibles
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_boxes import BITS, FineBox, box_about, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
@@ -164,7 +164,7 @@ def corank_standings(
     return found
 
 
-def nonvanishing(
+def find_nonvanishing(
     polynomials: Sequence[Polynomial],
     equations: Sequence[Polynomial],
     slices: np.ndarray,
@@ -224,7 +224,7 @@ def nonzero_standings(
 
     One that has the only factor of an equation that can vanish there does so.
     """
-    away = nonvanishing(polynomials, equations, slices, points)
+    away = find_nonvanishing(polynomials, equations, slices, points)
     digits = np.zeros(len(away))
     if not away.all():
         digits = zero_digits(polynomials, equations, points, slices)
@@ -250,9 +250,9 @@ def _has_the_only_factor(
     """Whether a polynomial has the one factor of an equation that can vanish at a zero of all."""
     if points.proofs[i] is not Proof.SIMPLE:
         return False
-    ours = {p for g in polynomials for p, _ in factored(g)}
+    ours = {p for g in polynomials for p, _ in factor_into_irreducibles(g)}
     for f in equations:
-        factors = [p for p, _ in factored(f)]
+        factors = [p for p, _ in factor_into_irreducibles(f)]
         left = [p for p in factors if not is_away(p, points, np.array([i]))]
         if len(left) == 1 and left[0] in ours:
             return True

@@ -160,10 +160,10 @@ class Echelon:
             values[k] = values[k] / upper[k]
             for i in range(k):
                 values[i] = values[i] - upper[i] * values[k]
-        return [recognised(x, self.digits) for x in values]
+        return [recognise_rational(x, self.digits) for x in values]
 
 
-def recognised(x: flint.arb, digits: float) -> Fraction:
+def recognise_rational(x: flint.arb, digits: float) -> Fraction:
     """The rational number in a ball, if its size shows that it is there by no accident.
 
     A ball of radius ``r`` holds a fraction with denominator ``q`` by chance with probability of

@@ -14,7 +14,7 @@ from nag.report.agreement import agreement_text, compare
 from nag.report.assemblies import assembly_rows
 from nag.report.model import body_rows, eliminated_lines, formulation_lines, model_rows
 from nag.text.table import Row, printable, sheet
-from nag.witness.frame import expanded
+from nag.witness.frame import expand_orbits
 from nag.witness.shown import component_table, kinds, kinds_text, paths_text, remarks, title_line
 from nag.witness.witness import Decomposition, Status
 
@@ -41,7 +41,7 @@ def _mobility_rows(
     free = () if made is None else made.freedoms_left_out
     if made is not None:
         label, counted = "mobility", f" (Gruebler-Kutzbach counts {made.gruebler_kutzbach})"
-    everything = expanded(decomposition).components
+    everything = expand_orbits(decomposition).components
     for point in points:
         components = [everything[i] for i in point.components]
         if not point.solution:

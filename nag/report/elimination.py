@@ -9,7 +9,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.interpolation.essential import VariableMap
 from nag.interpolation.image_ideal import ImageIdeal
 from nag.interpolation.vanishing import primitive
-from nag.text.table import join_words, labelled
+from nag.text.table import join_words, label_lines
 
 PROOFS = {
     "substitution": (
@@ -59,7 +59,7 @@ def _with_proofs(texts: Sequence[str], proofs: Sequence[str]) -> list[str]:
     for kind, explanation in PROOFS.items():
         chosen = [text for text, proof in zip(texts, proofs, strict=True) if proof == kind]
         if chosen:
-            lines += [*(f"  {text}" for text in chosen), *labelled([("  ", explanation)])]
+            lines += [*(f"  {text}" for text in chosen), *label_lines([("  ", explanation)])]
     return lines
 
 

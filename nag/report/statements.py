@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from nag.check.statement import Statement, Verdict, VerdictKind
-from nag.text.table import labelled, printable
+from nag.text.table import label_lines, printable
 
 Decided = tuple[Statement, Verdict]
 ERRATA = "cases/ERRATA.md"
@@ -57,4 +57,9 @@ def summary(decided: Sequence[Decided]) -> str:
 
 def section(title: str, decided: Sequence[Decided]) -> list[str]:
     """A title and its statements."""
-    return [printable(title), "", *labelled(statement_rows(decided), len("holds numerically")), ""]
+    return [
+        printable(title),
+        "",
+        *label_lines(statement_rows(decided), len("holds numerically")),
+        "",
+    ]

@@ -155,7 +155,7 @@ def _known(solution: Solution) -> tuple[np.ndarray, float | np.ndarray]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Part:
+class _SolvedBranch:
     """A branch and what was found of it.
 
     Attributes:
@@ -226,7 +226,7 @@ def _solve_exact_branch(
     branch: BranchEquations,
     zeros: Sequence[AlgebraicZero] | None,
     nonzero: Sequence[Polynomial],
-) -> _Part | None:
+) -> _SolvedBranch | None:
     """A branch that exact algebra solves; None where paths must be tracked.
 
     Args:
@@ -240,17 +240,19 @@ def _solve_exact_branch(
     if zeros is not None:
         solutions = (_rounded_solution(evaluator, z.point, z.multiplicity, z.real) for z in zeros)
         known = tuple(_Found(s, branch, z) for s, z in zip(solutions, zeros, strict=True))
-        return _Part(system, known, None, nothing, none)
+        return _SolvedBranch(system, known, None, nothing, none)
     if branch.kind is BranchKind.EMPTY:
-        return _Part(system, (), None, nothing, none)
+        return _SolvedBranch(system, (), None, nothing, none)
     # Of a linear space, or a graph over one, every point will do.
     elimination = branch.elimination
     point = elimination.lift(np.ones((1, elimination.system.n), dtype=complex))
     if branch.kind is BranchKind.LINEAR_SPACE:
         excluded = any(branch.image(f)[1] for f in nonzero)
-        return _Part(system, (), None, LargerSets.of(system.n, [(point[0], excluded)]), none)
+        return _SolvedBranch(
+            system, (), None, LargerSets.of(system.n, [(point[0], excluded)]), none
+        )
     found = _Found(_rounded_solution(evaluator, point[0], 1, True), branch)
-    return _Part(system, (found,), None, nothing, none)
+    return _SolvedBranch(system, (found,), None, nothing, none)
 
 
 def _rounded_solution(
@@ -270,7 +272,7 @@ def _solve_part(
     nonzero: Sequence[Polynomial],
     task: SolveTask,
     others: Callable[[SolveTask], SolveResult],
-) -> _Part:
+) -> _SolvedBranch:
     """A branch by what solves the system that elimination leaves of it."""
     elimination = branch.elimination
     images = tuple(branch.image(f)[0] for f in nonzero)
@@ -279,7 +281,7 @@ def _solve_part(
     solutions = (*result.solutions, *result.excluded_solutions)
     found = tuple(_Found(_lift_solution(s, elimination), branch, None, s) for s in solutions)
     larger = result.larger.map_points(elimination.lift)
-    return _Part(branch.system, found, result, larger, elimination.lift(result.undecided))
+    return _SolvedBranch(branch.system, found, result, larger, elimination.lift(result.undecided))
 
 
 def _lift_solution(solution: Solution, elimination: Elimination) -> Solution:
@@ -320,7 +322,7 @@ def _lift_in_digits(
 
 
 def _join_parts(
-    task: SolveTask, natural: NaturalCoordinates, parts: Sequence[_Part], apart: bool
+    task: SolveTask, natural: NaturalCoordinates, parts: Sequence[_SolvedBranch], apart: bool
 ) -> SolveResult:
     """The solutions of all parts, which are in ``natural`` coordinates."""
     system = task.system
@@ -361,7 +363,7 @@ def _join_parts(
     )
 
 
-def _reason(parts: Sequence[_Part], results: Sequence[SolveResult], apart: bool) -> str:
+def _reason(parts: Sequence[_SolvedBranch], results: Sequence[SolveResult], apart: bool) -> str:
     if not parts:
         return "the equations contradict each other"
     texts = []

@@ -27,7 +27,7 @@ from nag.numerics.certified_points import (
 from nag.numerics.claims import Claim, nothing_against
 from nag.numerics.krawczyk import find_overlaps, tell_real_zeros
 from nag.numerics.point_claims import (
-    nonvanishing,
+    find_nonvanishing,
 )
 from nag.solving.solution_claims import claims_of_solutions
 from nag.solving.solutions import Solution, SolveResult
@@ -170,9 +170,9 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
         not_real=not_real,
         same=tuple(same),
         unknown=tuple(unknown),
-        nonzero=nonvanishing(system.nonzero, equations, none, points),
+        nonzero=find_nonvanishing(system.nonzero, equations, none, points),
         excluded=excluded,
-        solutions_left_out=nonvanishing(system.nonzero, equations, none, excluded),
+        solutions_left_out=find_nonvanishing(system.nonzero, equations, none, excluded),
         bound=bound,
         bound_name=name,
     )

@@ -26,8 +26,8 @@ from nag.numerics.claims import (
 from nag.numerics.krawczyk import find_overlaps, tell_real_zeros
 from nag.numerics.point_claims import (
     error_standings,
+    find_nonvanishing,
     multiplicity_standings,
-    nonvanishing,
     nonzero_standings,
     zero_standings,
 )
@@ -228,7 +228,7 @@ def claims_of_paths(certificate: SolutionsCertificate, others: np.ndarray) -> tu
     none = np.zeros((0, 1 + system.n), dtype=complex)
     found = certify_regular_points(system.polynomials, none, others, np.zeros(len(others)))
     equations = [f for f in system.polynomials if f]
-    away = nonvanishing(system.nonzero, equations, none, found)
+    away = find_nonvanishing(system.nonzero, equations, none, found)
     missing = {
         Standing.REFUTED: _distinct_from(certificate, found, away, Proof.SIMPLE),
         Standing.DOUBTED: _distinct_from(certificate, found, away, Proof.PART),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.symmetric_family import SymmetricFamily
-from nag.numerics.coincidence import SAFETY, overlapping
+from nag.numerics.coincidence import SAFETY, overlapping_pairs
 from nag.tracking.projective import ROUNDING
 
 INVARIANTS = 3
@@ -100,7 +100,7 @@ class SolutionClasses:
         points, found, radii = self._usable(points, errors)
         points = np.concatenate([self.points, points])
         found, radii = np.concatenate([self.known[0], found]), np.append(self.known[1], radii)
-        kept = np.setdiff1d(np.arange(len(points)), overlapping(found, radii)[:, 1])
+        kept = np.setdiff1d(np.arange(len(points)), overlapping_pairs(found, radii)[:, 1])
         self.points, self.known = points[kept], (found[kept], radii[kept])
         return len(kept) - old
 
@@ -108,5 +108,5 @@ class SolutionClasses:
         """Those solutions whose classes are not among those of ``points``."""
         points, found, radii = self._usable(points, errors)
         both = np.concatenate([found, self.known[0]]), np.append(radii, self.known[1])
-        repeated = overlapping(*both)[:, 1] - len(points)
+        repeated = overlapping_pairs(*both)[:, 1] - len(points)
         return self.points[np.setdiff1d(np.arange(len(self.points)), repeated)]

@@ -16,7 +16,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.rational_map import MapError
 from nag.algebra.symmetric_family import SymmetricFamily
-from nag.numerics.coincidence import overlapping
+from nag.numerics.coincidence import overlapping_pairs
 from nag.numerics.zero_values import NONZERO
 from nag.solving.kantorovich import Confirmation, Confirmed
 from nag.solving.parameter_line import ParameterLine, parameter_line
@@ -249,7 +249,7 @@ def _repeats(
     """
     places = np.flatnonzero(ends.regular)
     points, radii = ends.points[places] / scale, ends.radii[places] / np.abs(scale)
-    return places[overlapping(*invariants(symmetric, points, values, radii))]
+    return places[overlapping_pairs(*invariants(symmetric, points, values, radii))]
 
 
 def _list_members(

@@ -58,7 +58,7 @@ def align(rows: Sequence[Sequence[str]], left: Iterable[int] = ()) -> list[str]:
     ]
 
 
-def labelled(rows: Sequence[tuple[str, str]], width: int = 0) -> list[str]:
+def label_lines(rows: Sequence[tuple[str, str]], width: int = 0) -> list[str]:
     """Lines ``label  text`` with the texts in one column, the labels at least ``width`` wide.
 
     Long texts go on below their beginning.
@@ -93,7 +93,7 @@ def sheet(title: str, *blocks: Block, width: int = 0) -> list[str]:
         if isinstance(block[0], str):
             lines += block
         else:
-            lines += labelled([(label, printable(text)) for label, text in block], width)
+            lines += label_lines([(label, printable(text)) for label, text in block], width)
     return lines
 
 
@@ -101,7 +101,7 @@ def lines_of(title: str, rows: Sequence[tuple[str, str]]) -> str:
     """What an object shows at the prompt: a title, and one line for each of ``rows``."""
     width = max(len(label) for label, _ in rows)
     lines = [title, *(f"  {label.ljust(width)}  {text}" for label, text in rows)]
-    return "\n".join(shortened(printable(line)) for line in lines)
+    return "\n".join(shorten_text(printable(line)) for line in lines)
 
 
 def one_line(shown: object) -> str:
@@ -113,10 +113,10 @@ def one_line(shown: object) -> str:
         text = f"{name}: {answers[0]}"
     else:
         text = ": ".join([title if title.startswith(name) else f"{name} {title}", *rows[:1]])
-    return shortened(f"<{text}", LINE - 1) + ">"
+    return shorten_text(f"<{text}", LINE - 1) + ">"
 
 
-def shortened(text: str, width: int = LINE) -> str:
+def shorten_text(text: str, width: int = LINE) -> str:
     """``text`` cut to ``width`` characters, with dots where something is missing."""
     return text if len(text) <= width else text[: width - 3].rstrip() + "..."
 

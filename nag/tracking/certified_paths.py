@@ -82,7 +82,7 @@ class CertifiedPaths:
 
 
 @dataclass(eq=False)
-class _State:
+class _PathStates:
     """Where the paths are: arrays that are written to, one entry for each path."""
 
     x: np.ndarray
@@ -157,7 +157,7 @@ def certified_paths(
     x, rates = starts.centres.copy(), np.zeros_like(starts.centres)
     at = ProvedZeros(starts.centres.copy(), starts.inner.copy(), starts.outer.copy())
     sides = FIRST_SIDE * np.abs(x).max(axis=1, keepdims=True, initial=0.0) * np.ones(x.shape)
-    state = _State(x, rates, t, FIRST_STEP * t, sides, at)
+    state = _PathStates(x, rates, t, FIRST_STEP * t, sides, at)
     active, steps, trials = np.flatnonzero(starts.proved & (t > 0)), 0, 0
     with np.errstate(all="ignore"):
         state.x[active], state.rates[active] = _corrected(system, x[active], t[active])
@@ -181,7 +181,7 @@ def _corrected(system: MovingSystem, x: np.ndarray, t: np.ndarray) -> tuple[np.n
     return x, -(invert_matrices(slopes) @ rates[..., None])[..., 0]
 
 
-def _tried(system: MovingSystem, state: _State, active: np.ndarray) -> np.ndarray:
+def _tried(system: MovingSystem, state: _PathStates, active: np.ndarray) -> np.ndarray:
     """Try one step of the active paths; which of them were proved."""
     t, x, rates = state.t[active], state.x[active], state.rates[active]
     end = t - state.step[active]
@@ -201,7 +201,7 @@ def _tried(system: MovingSystem, state: _State, active: np.ndarray) -> np.ndarra
     return proved
 
 
-def _controlled(state: _State, active: np.ndarray, tube: _Tube, proved: np.ndarray) -> None:
+def _controlled(state: _PathStates, active: np.ndarray, tube: _Tube, proved: np.ndarray) -> None:
     """Sides and steps of the next trial."""
     side = np.clip(ACROSS / tube.across, LEAST_FACTOR, MOST_FACTOR)
     side = np.where(np.isfinite(side), side, LEAST_FACTOR)

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from nag.machine_code.lanes import VECTOR, aligned, separate
+from nag.machine_code.lanes import VECTOR, aligned_zeros, separate
 from nag.machine_code.records import Reals, Table, Wholes, address, replaced, table
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy, norms
@@ -235,7 +235,7 @@ def scratch_table(homotopy: Homotopy, order: int, toric: bool = False) -> Table:
     sizes = [slots] * 2 + [order * inner_slots] * 2 + [value_slots] * 2 + [inner_slots] * 2
     sizes += [N * N] * 2 + [rows * N] * 2 + [N] * 6 + [parts] * 2
     sizes += [N, 2 * (order + 1) * N, 1, order + 2, 1, 1, 1, 1, 1, SCALARS]
-    vectors, counters = aligned(sum(sizes)), np.zeros(48, np.int64)
+    vectors, counters = aligned_zeros(sum(sizes)), np.zeros(48, np.int64)
     words = np.array([0, *accumulate(sizes)]) * VECTOR
     words += address(vectors)
     words[-1] = address(counters)

@@ -10,7 +10,7 @@ import numpy as np
 
 from nag.algebra.number import Number
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import aligned, fma, load, splat, square_root, store
+from nag.machine_code.lanes import aligned_zeros, fma, load, splat, square_root, store
 from nag.machine_code.records import Complexes, Reals
 from nag.tracking.ends.records import words
 from nag.tracking.homotopy import Homotopy
@@ -65,8 +65,8 @@ def low_parts(homotopy: Homotopy) -> Low:
     return Low(
         re,
         im,
-        aligned(4 * size),
-        aligned(4 * max(homotopy.N, 1)),
+        aligned_zeros(4 * size),
+        aligned_zeros(4 * max(homotopy.N, 1)),
     )
 
 

@@ -23,7 +23,7 @@ from math import prod
 
 import numpy as np
 
-from nag.algebra.factoring import common_factor, factored
+from nag.algebra.factoring import common_factor, factor_into_irreducibles
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.certified_points import (
@@ -36,8 +36,8 @@ from nag.numerics.certified_points import (
 from nag.numerics.claims import Claim, nothing_against
 from nag.numerics.krawczyk import find_overlaps
 from nag.numerics.point_claims import (
+    find_nonvanishing,
     is_away,
-    nonvanishing,
 )
 from nag.witness.component_claims import claims_of_components
 from nag.witness.frame import image
@@ -175,8 +175,8 @@ def hypersurface_degree(system: PolynomialSystem) -> int | None:
     common = common_factor(equations)
     if common is None or not all(system.nonzero):
         return 0
-    excluded = {p for g in system.nonzero for p, _ in factored(g)}
-    return sum(p.degree for p, _ in factored(common) if p not in excluded)
+    excluded = {p for g in system.nonzero for p, _ in factor_into_irreducibles(g)}
+    return sum(p.degree for p, _ in factor_into_irreducibles(common) if p not in excluded)
 
 
 def _common_slices(decomposition: Decomposition) -> dict[int, Slice]:
@@ -240,7 +240,7 @@ def _without_excluded(
     if not system.nonzero:
         return points
     equations = [f for f in system.polynomials if f]
-    away = nonvanishing(system.nonzero, equations, cut.rows, points)
+    away = find_nonvanishing(system.nonzero, equations, cut.rows, points)
     proofs = [p if a else Proof.NONE for p, a in zip(points.proofs, away, strict=True)]
     return replace(points, proofs=tuple(proofs))
 
@@ -288,7 +288,7 @@ def _signature(equations: Sequence[Polynomial], points: CertifiedPoints) -> Sign
     chosen = points.having(Proof.SIMPLE)
     signature = []
     for f in equations:
-        factors = [p for p, _ in factored(f)]
+        factors = [p for p, _ in factor_into_irreducibles(f)]
         if len(factors) > 1:
             factors = [p for p in factors if not is_away(p, points, chosen)]
         if len(factors) != 1:

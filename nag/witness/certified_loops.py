@@ -24,7 +24,7 @@ from nag.tracking.moving_discs import MovingPart, MovingSystem
 from nag.witness.certificate import certify_witness_points
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre
-from nag.witness.slices import padded, random_rows, unit_complex
+from nag.witness.slices import pad_rows, random_rows, unit_complex
 from nag.witness.witness import Decomposition, WitnessSet
 
 # Loops that are tried until all points are connected.
@@ -151,7 +151,7 @@ def moving_slice(
     return MovingSystem(
         (
             MovingPart.of(1.0, 0.0, [f.terms for f in fibre.cut.polynomials], blank),
-            MovingPart.of(0.0, turn, nothing, padded(source, columns)),
-            MovingPart.of(1.0, -1.0, nothing, padded(target, columns)),
+            MovingPart.of(0.0, turn, nothing, pad_rows(source, columns)),
+            MovingPart.of(1.0, -1.0, nothing, pad_rows(target, columns)),
         )
     )

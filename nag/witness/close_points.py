@@ -20,7 +20,7 @@ from nag.numerics.digits import bits_of, in_bits, number_of_words, to_ball, word
 from nag.numerics.newton import find_zero, inverse_of, newton_step, subtract_step
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.read_only import fixed_array
-from nag.witness.slices import padded
+from nag.witness.slices import pad_rows
 
 if TYPE_CHECKING:
     from nag.algebra.polynomial import Polynomial
@@ -120,7 +120,7 @@ def with_newton_constant(
 
     Two of Newton's corrections from a point that is a little off: their quotient over the first.
     """
-    exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(point.words)))
+    exact = BallPolynomials.of(polynomials, pad_rows(rows, 1 + len(point.words)))
     size, most, bits = 1 + float(np.linalg.norm(point.rounded)), 1.0, bits_of(PROBED)
     centre = point.balls()
     for turn in (1, 2):
@@ -155,7 +155,7 @@ def zero_from(
     None if Newton's method does not converge at once to a zero that is far nearer than the next
     one.
     """
-    exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(start.words)))
+    exact = BallPolynomials.of(polynomials, pad_rows(rows, 1 + len(start.words)))
     found = find_zero(exact, start.balls(), digits, np.log10(BASIN / start.curvature))
     return None if found is None else PrecisePoint.of(found.point, found.error)
 
@@ -168,7 +168,7 @@ def follow_slice(
     The step along the tangent may be much longer than other zeros are far, as these move along:
     only what is left after it, of the order of its square, has to be small beside their distance.
     """
-    exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(point.words)))
+    exact = BallPolynomials.of(polynomials, pad_rows(rows, 1 + len(point.words)))
     x, bits = point.balls(), bits_of(2 * DIGITS)
     off, inverse = exact.values(x, bits).mid(), inverse_of(exact.jacobian(x, bits), bits)
     if inverse is None:

@@ -18,7 +18,7 @@ from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre
-from nag.witness.slices import padded
+from nag.witness.slices import pad_rows
 
 # Digits in which zeros are looked at; those nearer to each other than this (decimal logarithm),
 # relative to one, are the same.
@@ -59,7 +59,7 @@ def find_nearby_zeros(
     """
     zeros: list[SingularEnd] = []
     met: list[PrecisePoint] = []
-    slices, decided, located = padded(rows, 1 + equations.n), True, True
+    slices, decided, located = pad_rows(rows, 1 + equations.n), True, True
     seen = np.zeros((0, equations.n), dtype=complex)
     # What lies within the error of one end is looked at with it: the least known ones come first.
     for x, accuracy in sorted(ends, key=lambda end: -end[1]):

@@ -15,7 +15,7 @@ from nag.numerics.zero_values import ON, all_vanish
 from nag.witness.close_points import zero_from
 from nag.witness.fibres import Fibre
 from nag.witness.multiplicity import ACCURACY
-from nag.witness.slices import padded
+from nag.witness.slices import pad_rows
 
 # Above this singular value a zero of as many equations as unknowns needs no confirmation.
 REGULAR = 1e-5
@@ -31,7 +31,7 @@ def is_confirmed(fibre: Fibre, i: int, equations: Sequence[Polynomial]) -> bool:
     """
     cut, z = fibre.cut, fibre.points[i]
     if i not in fibre.fine:
-        matrix = np.vstack([cut.evaluator.jacobian(z), padded(fibre.rows, 1 + len(z))[:, 1:]])
+        matrix = np.vstack([cut.evaluator.jacobian(z), pad_rows(fibre.rows, 1 + len(z))[:, 1:]])
         # Far out, powers of the coordinates leave the range of doubles.
         finite = np.isfinite(matrix).all()
         smallest = np.linalg.svd(matrix, compute_uv=False).min(initial=np.inf) if finite else 0.0
@@ -70,7 +70,7 @@ def zero_in_digits(fibre: Fibre, i: int) -> PrecisePoint | None:
     """
     polynomials, z = fibre.cut.polynomials, fibre.points[i]
     if i not in fibre.fine:
-        return precise_zero(BallPolynomials.of(polynomials, padded(fibre.rows, 1 + len(z))), z)
+        return precise_zero(BallPolynomials.of(polynomials, pad_rows(fibre.rows, 1 + len(z))), z)
     fine = fibre.fine[i]
     more = int(2 * np.log10(max(fine.curvature, 1.0)))
     return zero_from(polynomials, fibre.rows, fine, DIGITS + more)
@@ -84,7 +84,7 @@ def _vanish_at(fibre: Fibre, i: int, equations: Sequence[Polynomial]) -> bool | 
     cut, z = fibre.cut, fibre.points[i]
     if cut.aux or i in fibre.fine:
         return None
-    slices = padded(fibre.rows, 1 + len(z))
+    slices = pad_rows(fibre.rows, 1 + len(z))
     zero = analyse(cut.polynomials, z, ACCURACY, np.random.default_rng(0), slices)
     if zero.place is not Place.ISOLATED or zero.precise is None:
         return None

@@ -21,7 +21,7 @@ from nag.numerics.scaling import scaled_terms, variable_scales
 from nag.numerics.zero_values import SLACK
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.witness.isosingular import DeflatedEquations, Level
-from nag.witness.slices import padded
+from nag.witness.slices import pad_rows
 
 # Newton's method may correct an end by this part of its size: errors of singular ones are unsure.
 NEAR = 1e-7
@@ -144,7 +144,7 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
     It succeeds when the steps shrink to rounding at once and the residuals vanish with them, as
     they do near a regular zero and nowhere else.
     """
-    a = padded(rows, 1 + len(z))
+    a = pad_rows(rows, 1 + len(z))
     step, slow, floor = np.inf, 0, SHARP
     for _ in range(NEWTON_STEPS):
         values = evaluator.values(z[None])[0]
@@ -188,7 +188,7 @@ def is_end(x: np.ndarray, accuracy: float, zero: np.ndarray) -> bool:
 
 def _null_basis(rows: np.ndarray, columns: int) -> np.ndarray:
     """Orthonormal basis of the directions along the slice, shape ``(columns, columns - d)``."""
-    a = padded(rows, 1 + columns)[:, 1:]
+    a = pad_rows(rows, 1 + columns)[:, 1:]
     if not len(a):
         return np.eye(columns, dtype=complex)
     _, s, adjoint = np.linalg.svd(a)

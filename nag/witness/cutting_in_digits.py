@@ -24,7 +24,7 @@ from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import MOST_DEFLATIONS, Cut, Equations, dyadic
 from nag.witness.fibres import Fibre, admit_end
 from nag.witness.isosingular import DeflatedEquations
-from nag.witness.slices import padded
+from nag.witness.slices import pad_rows
 
 # Digits that are computed with, and in which a pivot is none (decimal logarithm).
 DIGITS, ZERO = 150, -80.0
@@ -122,7 +122,7 @@ def _curvature_in_doubles(cut: Cut, rows: np.ndarray, z: np.ndarray) -> float:
     It is infinite where doubles do not show it. Other zeros nearer than the probes are off do not
     let the corrections contract, so that it is then at least about the inverse of their distance.
     """
-    a, size, most = padded(rows, 1 + len(z)), 1 + float(np.linalg.norm(z)), 0.0
+    a, size, most = pad_rows(rows, 1 + len(z)), 1 + float(np.linalg.norm(z)), 0.0
     for turn in (1, 2):
         x = z + PROBED * size * np.exp(1j * np.arange(1, len(z) + 1) ** 2 * turn)
         lengths = []
@@ -154,7 +154,7 @@ def _lifted(cut: Cut, x: list[flint.acb]) -> list[flint.acb] | None:
 def _is_regular_zero(cut: Cut, rows: np.ndarray, z: list[flint.acb]) -> bool:
     if not all(is_negligible(f, z) for f in cut.polynomials):
         return False
-    return _independent(cut.polynomials, padded(rows, 1 + len(z)), z) is not None
+    return _independent(cut.polynomials, pad_rows(rows, 1 + len(z)), z) is not None
 
 
 def _find_cut(
@@ -164,7 +164,7 @@ def _find_cut(
     n, z = equations.n, x
     system = DeflatedEquations.none(equations.polynomials, equations.evaluator, n)
     for _ in range(1 + MOST_DEFLATIONS):
-        chosen = _independent(system.polynomials, padded(rows, 1 + len(z)), z)
+        chosen = _independent(system.polynomials, pad_rows(rows, 1 + len(z)), z)
         if chosen is not None:
             subset = tuple(system.polynomials[i] for i in chosen)
             return Cut(n, system.total - n, subset, system.levels), z

@@ -30,7 +30,7 @@ from nag.witness.cutting import Cut, sharpen
 from nag.witness.fibres import Fibre, homogeneous
 from nag.witness.frame import EPS, Frame
 from nag.witness.multiplicity import ACCURACY
-from nag.witness.slices import padded
+from nag.witness.slices import pad_rows
 from nag.witness.witness import DOUBLE, WitnessSet, relative_errors
 
 # Digits that points are known to at least, where their condition allows it.
@@ -124,7 +124,7 @@ def _twice(fibre: Fibre, bits: int) -> tuple[np.ndarray, np.ndarray]:
     """By one step more than the points in doubles show."""
     n = fibre.cut.n
     start = homogeneous(fibre.points)
-    a = padded(fibre.rows, start.shape[1])
+    a = pad_rows(fibre.rows, start.shape[1])
     found = refine(fibre.cut.rows, a, start, iterations=1, twice=True)
     v, step = found.points, found.further
     quotient = v[:, 1 : n + 1] / v[:, :1]
@@ -133,7 +133,7 @@ def _twice(fibre: Fibre, bits: int) -> tuple[np.ndarray, np.ndarray]:
         step[:, 1 : n + 1] - quotient * step[:, :1]
     )
     rest = rest / v[:, :1]
-    values = fixed(quotient, bits) + fixed(rest, bits)
+    values = fixed_point_numbers(quotient, bits) + fixed_point_numbers(rest, bits)
     sizes = 1 + np.abs(quotient).max(axis=1, initial=0.0)
     return values, _errors(found) * sizes / np.abs(v[:, 0])
 
@@ -173,7 +173,7 @@ def _exact_product(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray
     return product, ((x1 * y1 - product) + x1 * y2 + x2 * y1) + x2 * y2
 
 
-def fixed(z: np.ndarray, bits: int) -> np.ndarray:
+def fixed_point_numbers(z: np.ndarray, bits: int) -> np.ndarray:
     """Complex doubles as integers of the unit ``2 ** -bits``, real and then imaginary parts."""
     parts = np.concatenate([z.real, z.imag], axis=1)
     result = np.zeros(parts.shape, dtype=object)
@@ -196,7 +196,7 @@ def _in_balls(
     """A point to so many digits; to as many more as it is close to others by, if it is."""
     if fine is None:
         return precise_zero(
-            BallPolynomials.of(cut.polynomials, padded(rows, 1 + len(z))), z, digits
+            BallPolynomials.of(cut.polynomials, pad_rows(rows, 1 + len(z))), z, digits
         )
     return zero_from(cut.polynomials, rows, fine, digits + int(np.log10(max(fine.curvature, 1.0))))
 
@@ -330,7 +330,9 @@ def _exact(fibre: Fibre, known: ExactPoints | None = None) -> ExactPoints:
 def _radii(fibre: Fibre, exact: ExactPoints) -> tuple[np.ndarray, np.ndarray]:
     """Distances from points that are known to more digits, and how many these are."""
     # Whole numbers of the unit may leave the range of doubles.
-    off = ((exact.values - fixed(fibre.x, exact.bits)) / (1 << exact.bits)).astype(float)
+    off = ((exact.values - fixed_point_numbers(fibre.x, exact.bits)) / (1 << exact.bits)).astype(
+        float
+    )
     n = fibre.cut.n
     distances = np.hypot(off[:, :n], off[:, n:])
     radii = (1 + 4 * EPS) * distances + ESTIMATE * exact.radii[:, None]

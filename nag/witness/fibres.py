@@ -34,7 +34,7 @@ from nag.witness.cutting import (
     regular_on,
     sharpen,
 )
-from nag.witness.slices import balance_rows, even_rows, padded
+from nag.witness.slices import balance_rows, even_rows, pad_rows
 from nag.witness.witness import PathCounts
 
 # Newton's constant of points that are close, over their inverse distance.
@@ -308,13 +308,13 @@ class _Motion:
 
     def _homotopy(self, fibre: Fibre) -> Homotopy:
         columns = 1 + fibre.cut.n + fibre.cut.aux
-        target = padded(self.target, columns)
+        target = pad_rows(self.target, columns)
         if fibre.fine or len(self.through):
             from nag.tracking.close_paths import moving_rows
 
-            source = padded(fibre.rows, columns)
+            source = pad_rows(fibre.rows, columns)
             return moving_rows(fibre.cut.rows, source, target, self.gamma, self.through)
-        step = padded(self.gamma * fibre.rows - self.target, columns)
+        step = pad_rows(self.gamma * fibre.rows - self.target, columns)
         return Homotopy(fibre.cut.rows, target, step)
 
 

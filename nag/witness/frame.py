@@ -134,7 +134,7 @@ def _image_of_fine(point: PointInWords, symmetry: SignedPermutation, n: int) -> 
     return PointInWords(np.concatenate([moved, point.words[n:]]), point.curvature)
 
 
-def expanded(decomposition: Decomposition) -> Decomposition:
+def expand_orbits(decomposition: Decomposition) -> Decomposition:
     """The same decomposition with all components of each orbit, every one on a slice of its own.
 
     Orbits whose symmetries are not known are left as they are.

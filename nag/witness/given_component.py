@@ -66,10 +66,10 @@ def in_doubles(point: Any, variables: Sequence[str]) -> np.ndarray:
     Raises:
         ValueError: if there are more or fewer than variables, or one is no finite number.
     """
-    return rounded(coordinates(point, variables))
+    return round_point(coordinates(point, variables))
 
 
-def rounded(entries: Sequence[Any]) -> np.ndarray:
+def round_point(entries: Sequence[Any]) -> np.ndarray:
     """Exact or complex numbers as complex doubles, shape ``(n,)``."""
     return np.array(
         [complex(float(x)) if isinstance(x, Irrational) else complex(x) for x in entries]

@@ -32,8 +32,8 @@ from nag.witness.cutting import Cut
 from nag.witness.exact_points import exact_zeros
 from nag.witness.fibres import Fibre, SliceEnds, join_fibres, move
 from nag.witness.gauss_newton import polish
-from nag.witness.given_component import check_decomposition, in_doubles, rounded
-from nag.witness.slices import padded, rows_through, unit_complex
+from nag.witness.given_component import check_decomposition, in_doubles, round_point
+from nag.witness.slices import pad_rows, rows_through, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # What rounding may do to a point that is close to others, and how much further the next one is.
@@ -265,7 +265,7 @@ def _beside(cut: Cut, point: np.ndarray) -> float:
 
 def _angle(cut: Cut, rows: np.ndarray, end: PointInWords) -> float:
     """The least singular value of the gradients and the slice, all of length one."""
-    exact = BallPolynomials.of(cut.polynomials, padded(rows, 1 + len(end.words)))
+    exact = BallPolynomials.of(cut.polynomials, pad_rows(rows, 1 + len(end.words)))
     bits = bits_of(2 * DIGITS)
     with in_bits(bits):
         slopes = exact.jacobian(end.balls(), bits)
@@ -376,7 +376,7 @@ class _Asked:
         cls, x: np.ndarray, error: float, exact: Sequence[Number], natural: NaturalCoordinates
     ) -> _Asked:
         there = natural.numbers(exact) if len(exact) else ()
-        point = natural.points(x) if natural.is_identity or not there else rounded(there)
+        point = natural.points(x) if natural.is_identity or not there else round_point(there)
         return cls(natural, point, there, error)
 
     def accuracy(self, sizes: np.ndarray | float = 1.0) -> float:
@@ -591,7 +591,7 @@ def is_on_component(
     """Whether a point lies on a component, see `WitnessSet.contains`."""
     entries = coordinates(point, system.variables)
     exact = all(isinstance(e, Fraction | Irrational) for e in entries)
-    at = rounded(entries)
+    at = round_point(entries)
     if exact:
         if not all(is_zero(value) for value in system(entries)):
             return False

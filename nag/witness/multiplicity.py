@@ -20,7 +20,7 @@ from nag.numerics.coincidence import classify_arrivals
 from nag.numerics.zero_values import WRITTEN, multiplicity_of_all, possible_zeros
 from nag.tracking.run import Run
 from nag.witness.fibres import Fibre, move
-from nag.witness.slices import padded, rows_through, unit_complex
+from nag.witness.slices import pad_rows, rows_through, unit_complex
 
 # How well points are known that were sharpened in doubles, by a deflation that may be badly
 # conditioned.
@@ -42,7 +42,7 @@ def multiplicity(
     `nag.numerics.singular_point.analyse`.
     """
     accuracy = ACCURACY if isinstance(x, np.ndarray) else WRITTEN
-    zeros = possible_zeros(polynomials, x, accuracy, rng, padded(rows, 1 + len(x)))
+    zeros = possible_zeros(polynomials, x, accuracy, rng, pad_rows(rows, 1 + len(x)))
     return multiplicity_of_all(zeros) or 0
 
 

@@ -94,7 +94,7 @@ def to_slice(rows: np.ndarray) -> Slice:
     return Slice(rows[:, 1:], -rows[:, 0])
 
 
-def padded(rows: np.ndarray, columns: int) -> np.ndarray:
+def pad_rows(rows: np.ndarray, columns: int) -> np.ndarray:
     """Rows with zero columns appended until there are ``columns``."""
     if rows.shape[1] == columns:
         return rows

@@ -9,7 +9,7 @@ import numpy as np
 from nag.bench.atlas.nine_points import CARRIED
 from nag.bench.atlas.points import KnownProblem
 from nag.bench.reference import Reference, ReferenceError
-from nag.bench.verdicts import Answer, Components, answered
+from nag.bench.verdicts import Answer, Components, compute_answer
 from nag.decomposition.decompose import decompose
 from nag.decomposition.singular_points import SingularSet, singular_locus
 from nag.solving.parameter import solve_family, solve_generic
@@ -23,7 +23,7 @@ ELSEWHERE = "point on the slice, not where its radii say"
 NOT_SIMPLE = "slice that is refused"
 
 
-def asked(method: str, problem: KnownProblem, seed: int, settings: str) -> Answer:
+def ask_method(method: str, problem: KnownProblem, seed: int, settings: str) -> Answer:
     """The answer of ``"solve"``, ``"decompose"``, ``"singular"``, ``"slice"`` or ``"family"``."""
     if method == "family":
         return _of_family(problem, seed, settings)
@@ -31,7 +31,7 @@ def asked(method: str, problem: KnownProblem, seed: int, settings: str) -> Answe
         whole = decompose(problem.system, seed=seed, settings=settings)
         ask = _singular if method == "singular" else _on_slice
         return ask(problem, whole, seed, settings)
-    return answered(method, problem.system, seed, settings, problem.symmetries)
+    return compute_answer(method, problem.system, seed, settings, problem.symmetries)
 
 
 def _components(whole: Decomposition) -> Components:

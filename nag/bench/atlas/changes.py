@@ -46,7 +46,9 @@ class Coordinates:
         return f.compose(self.forms)
 
 
-def mixed(equations: Sequence[Polynomial], rng: np.random.Generator) -> tuple[Polynomial, ...]:
+def combine_equations(
+    equations: Sequence[Polynomial], rng: np.random.Generator
+) -> tuple[Polynomial, ...]:
     """Combinations of the equations that generate the same ideal."""
     n = len(equations)
     zero = equations[0] * 0
@@ -56,12 +58,12 @@ def mixed(equations: Sequence[Polynomial], rng: np.random.Generator) -> tuple[Po
     )
 
 
-def hidden(equations: Sequence[Polynomial], rng: np.random.Generator) -> PolynomialSystem:
+def hide_equations(equations: Sequence[Polynomial], rng: np.random.Generator) -> PolynomialSystem:
     """The system of the equations, mixed, in other coordinates."""
     n = equations[0].n
     coordinates = Coordinates.random(n, rng)
     moved = [coordinates.of(f) for f in equations]
-    return PolynomialSystem(NAMES[:n], mixed(moved, rng))
+    return PolynomialSystem(NAMES[:n], combine_equations(moved, rng))
 
 
 # Sizes of scalings: powers of ten up to this.
@@ -72,7 +74,7 @@ MIXED = 3
 KINDS = ("scaled", "shifted", "variables", "equations")
 
 
-def changed(system: PolynomialSystem, rng: np.random.Generator) -> PolynomialSystem:
+def change_system(system: PolynomialSystem, rng: np.random.Generator) -> PolynomialSystem:
     """The system in other coordinates, with other equations of the same ideal.
 
     Every variable is scaled by a power of ten and shifted, multiples of some variables are added

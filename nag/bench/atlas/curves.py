@@ -15,7 +15,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.bench.atlas.asked import MET, NOT_SIMPLE
-from nag.bench.atlas.changes import hidden, mixed
+from nag.bench.atlas.changes import combine_equations, hide_equations
 from nag.bench.atlas.points import KnownProblem, plain
 from nag.bench.verdicts import Components
 from nag.witness.witness import Slice
@@ -79,14 +79,14 @@ def far_circle_in_space(k: int, rng: np.random.Generator) -> KnownProblem:
     x, y, z = Polynomial.variables(3)
     circle = [(x - 10**k) ** 2 + y**2 - 1, z - 3]
     line = [x - y - 10**k - 5, y - 2 * z + 1]
-    return KnownProblem(hidden(_union(circle, line), rng), _curves((2, 1), (1, 1)), ONLY)
+    return KnownProblem(hide_equations(_union(circle, line), rng), _curves((2, 1), (1, 1)), ONLY)
 
 
 def far_skew_lines(k: int, rng: np.random.Generator) -> KnownProblem:
     """Two skew lines, 10^k away and at a distance of 1."""
     x, y, z = Polynomial.variables(3)
     first, second = [x - 10**k, y - 10**k], [x - 10**k - 1, z - 10**k]
-    return KnownProblem(hidden(_union(first, second), rng), _curves((1, 2)), ONLY)
+    return KnownProblem(hide_equations(_union(first, second), rng), _curves((1, 2)), ONLY)
 
 
 def far_planes(k: int, rng: np.random.Generator) -> KnownProblem:
@@ -95,7 +95,7 @@ def far_planes(k: int, rng: np.random.Generator) -> KnownProblem:
     form = x + 2 * y - z - 10**k
     planes, line = [form * (form - 1)], [x - y - 10**k, y + z - 3]
     truth = Counter({(2, 1, 1): 2, (1, 1, 1): 1})
-    return KnownProblem(hidden(_union(planes, line), rng), truth, ONLY)
+    return KnownProblem(hide_equations(_union(planes, line), rng), truth, ONLY)
 
 
 def big_circle(k: int, rng: np.random.Generator) -> KnownProblem:
@@ -145,7 +145,9 @@ def touching_circles(k: int, rng: np.random.Generator) -> KnownProblem:
 def close_skew_lines(k: int, rng: np.random.Generator) -> KnownProblem:
     """Two skew lines at a distance of 10^-k."""
     x, y, z = Polynomial.variables(3)
-    return KnownProblem(hidden(_union([y, z], [x, z - _small(k)]), rng), _curves((1, 2)), ONLY)
+    return KnownProblem(
+        hide_equations(_union([y, z], [x, z - _small(k)]), rng), _curves((1, 2)), ONLY
+    )
 
 
 def close_planes(k: int, rng: np.random.Generator) -> KnownProblem:
@@ -153,13 +155,13 @@ def close_planes(k: int, rng: np.random.Generator) -> KnownProblem:
     x, y, z = Polynomial.variables(3)
     planes, line = [(x - 1) ** 2 - 2 * _small(2 * k) * y**2], [x + y - 3, z - y + 1]
     truth = Counter({(2, 1, 1): 2, (1, 1, 1): 1})
-    return KnownProblem(hidden(_union(planes, line), rng), truth, ONLY)
+    return KnownProblem(hide_equations(_union(planes, line), rng), truth, ONLY)
 
 
 def hyperbola(k: int, rng: np.random.Generator) -> KnownProblem:
     """x y - 10^-k."""
     x, y = Polynomial.variables(2)
-    return KnownProblem(hidden([x * y - _small(k)], rng), _curves((2, 1)), ONLY)
+    return KnownProblem(hide_equations([x * y - _small(k)], rng), _curves((2, 1)), ONLY)
 
 
 def nearly_circle_and_line(k: int, rng: np.random.Generator) -> KnownProblem:
@@ -183,20 +185,22 @@ def nearly_circles(k: int, rng: np.random.Generator) -> KnownProblem:
 def nearly_planes(k: int, rng: np.random.Generator) -> KnownProblem:
     """A quadric at 10^-k from two planes."""
     x, y, z = Polynomial.variables(3)
-    return KnownProblem(hidden([x * y - _small(k) * (z + 1)], rng), Counter({(2, 2, 1): 1}), ONLY)
+    return KnownProblem(
+        hide_equations([x * y - _small(k) * (z + 1)], rng), Counter({(2, 2, 1): 1}), ONLY
+    )
 
 
 def nearly_lines_in_space(k: int, rng: np.random.Generator) -> KnownProblem:
     """A hyperbola at 10^-k from two lines, in a plane of space, and a line that is skew to it."""
     x, y, z = Polynomial.variables(3)
     parts = _union([x * y - _small(k), z], [x - 3, z - y - 2])
-    return KnownProblem(hidden(parts, rng), _curves((2, 1), (1, 1)), ONLY)
+    return KnownProblem(hide_equations(parts, rng), _curves((2, 1), (1, 1)), ONLY)
 
 
 def conjugate_lines(k: int, rng: np.random.Generator) -> KnownProblem:
     """k lines through a point that only the complex numbers tell apart."""
     x, y = Polynomial.variables(2)
-    return KnownProblem(hidden([x**k - 2 * y**k], rng), _curves((1, k)), ONLY)
+    return KnownProblem(hide_equations([x**k - 2 * y**k], rng), _curves((1, k)), ONLY)
 
 
 def repeated_and_points(k: int, rng: np.random.Generator) -> KnownProblem:
@@ -219,7 +223,7 @@ def tangent_slice(k: int, rng: np.random.Generator) -> KnownProblem:
     plane = [-e, -r, 1] if rng.integers(2) else [0, 0, 1]
     cut = Slice(np.array([plane]), np.array([-r * e if plane[1] else e]))
     facts = Counter({MET: 3} if k else {NOT_SIMPLE: 1})
-    system = plain(*mixed(_union(cubic, line), rng))
+    system = plain(*combine_equations(_union(cubic, line), rng))
     return KnownProblem(system, _curves((3, 1), (1, 1)), ("slice",), facts=facts, slice=cut)
 
 

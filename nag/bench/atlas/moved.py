@@ -10,8 +10,8 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.changes import (
     Coordinates,
+    combine_equations,
     in_far_coordinates,
-    mixed,
     sparsely_changed,
 )
 from nag.bench.atlas.nine_points import CARRIED, NinePoints
@@ -140,7 +140,7 @@ def moved_case(name: str, rng: np.random.Generator) -> KnownProblem:
     coordinates = Coordinates.random(system.n, rng)
     moved = [coordinates.of(f) for f in system.polynomials]
     # With more equations than unknowns, mixing would make all of them long.
-    equations = mixed(moved, rng) if len(moved) <= system.n else tuple(moved)
+    equations = combine_equations(moved, rng) if len(moved) <= system.n else tuple(moved)
     nonzero = tuple(coordinates.of(g) for g in system.nonzero)
     return KnownProblem(PolynomialSystem(system.variables, equations, nonzero), truth)
 

@@ -21,7 +21,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
 from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.bench.atlas.changes import mix_equations, power, small
-from nag.numerics.coincidence import overlapping
+from nag.numerics.coincidence import overlapping_pairs
 from nag.solving.kantorovich import Confirmation
 from nag.solving.solutions import SolveResult
 
@@ -157,7 +157,7 @@ class NinePoints:
         both = [np.flatnonzero(each.regular) for each in (ours, theirs)]
         zeros = np.concatenate([ours.points[both[0]], theirs.points[both[1]]])
         radii = np.concatenate([ours.radii[both[0]], theirs.radii[both[1]]])
-        met = overlapping(zeros, 2 * np.linalg.norm(radii, axis=1))
+        met = overlapping_pairs(zeros, 2 * np.linalg.norm(radii, axis=1))
         pairs = met[(met[:, 0] < len(both[0])) & (met[:, 1] >= len(both[0]))]
         single = len(pairs) == len(met) == len(np.unique(pairs[:, 0]))
         return len(np.unique(pairs[:, 1])) if single else 0

@@ -15,7 +15,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.changes import NAMES, hidden, mixed
+from nag.bench.atlas.changes import NAMES, combine_equations, hide_equations
 from nag.bench.atlas.nine_points import NinePoints
 from nag.bench.verdicts import METHODS, Components, ZeroSet
 from nag.witness.witness import Slice
@@ -102,7 +102,7 @@ def cluster(value: tuple[int, int, int], rng: np.random.Generator) -> KnownProbl
     n, m, k = value
     (t,) = Polynomial.variables(1)
     first = t**m * (t**2 + t + 5) - 2 * _tenth(k * m)
-    return KnownProblem(hidden(_over(first, n), rng), points((1, (m + 2) * 2 ** (n - 1))))
+    return KnownProblem(hide_equations(_over(first, n), rng), points((1, (m + 2) * 2 ** (n - 1))))
 
 
 def multiple(value: tuple[int, int], rng: np.random.Generator) -> KnownProblem:
@@ -110,7 +110,7 @@ def multiple(value: tuple[int, int], rng: np.random.Generator) -> KnownProblem:
     n, m = value
     (t,) = Polynomial.variables(1)
     first, count = t**m * (t**2 + t + 5), 2 ** (n - 1)
-    return KnownProblem(hidden(_over(first, n), rng), points((m, count), (1, 2 * count)))
+    return KnownProblem(hide_equations(_over(first, n), rng), points((m, count), (1, 2 * count)))
 
 
 def far(value: tuple[int, int], rng: np.random.Generator) -> KnownProblem:
@@ -118,7 +118,7 @@ def far(value: tuple[int, int], rng: np.random.Generator) -> KnownProblem:
     n, k = value
     u = Polynomial.variables(n)
     chain = [_tenth(k) * u[j] ** 4 + u[j] - 1 + (u[j - 1] if j else 0) for j in range(n)]
-    return KnownProblem(hidden(chain, rng), points((1, 4**n)))
+    return KnownProblem(hide_equations(chain, rng), points((1, 4**n)))
 
 
 def far_beside(k: int, rng: np.random.Generator) -> KnownProblem:
@@ -135,7 +135,7 @@ def far_cluster(value: tuple[int, int, int], rng: np.random.Generator) -> KnownP
     (x,) = Polynomial.variables(1)
     t = _tenth(k) * x - 1
     first = t**2 * (t**2 + t + 5) - 2 * _tenth(2 * j)
-    return KnownProblem(hidden(_over(first, n), rng), points((1, 4 * 2 ** (n - 1))))
+    return KnownProblem(hide_equations(_over(first, n), rng), points((1, 4 * 2 ** (n - 1))))
 
 
 def nearly_dependent(value: tuple[int, int], rng: np.random.Generator) -> KnownProblem:
@@ -145,7 +145,7 @@ def nearly_dependent(value: tuple[int, int], rng: np.random.Generator) -> KnownP
     top = (x - y) * (x + 2 * y) if kind == 1 else (x - y) ** 2
     f = top + 2 * x + 3 * y - 1
     g = top + _tenth(k) * (x**2 - 3 * x * y + 5 * y**2) - x + 2 * y + 4
-    return KnownProblem(hidden([f, g], rng), points((1, 4)))
+    return KnownProblem(hide_equations([f, g], rng), points((1, 4)))
 
 
 def rounded(k: int, rng: np.random.Generator) -> KnownProblem:
@@ -155,7 +155,9 @@ def rounded(k: int, rng: np.random.Generator) -> KnownProblem:
     """
     x, y, z = Polynomial.variables(3)
     root = Fraction(isqrt(2 * 10 ** (2 * k)), 10**k)
-    return KnownProblem(hidden([x**2 + y**2 - 1, x + y - root, z**2 - x - 3], rng), points((1, 4)))
+    return KnownProblem(
+        hide_equations([x**2 + y**2 - 1, x + y - root, z**2 - x - 3], rng), points((1, 4))
+    )
 
 
 def to_infinity(k: int, rng: np.random.Generator) -> KnownProblem:
@@ -165,7 +167,9 @@ def to_infinity(k: int, rng: np.random.Generator) -> KnownProblem:
     """
     x, y, z = Polynomial.variables(3)
     return KnownProblem(
-        hidden([y - x**k - x, y - x**k - 2, z**2 - x - y - 3], rng), points((1, 2)), ("solve",)
+        hide_equations([y - x**k - x, y - x**k - 2, z**2 - x - y - 3], rng),
+        points((1, 2)),
+        ("solve",),
     )
 
 
@@ -173,7 +177,7 @@ def nearly_tangent(k: int, rng: np.random.Generator) -> KnownProblem:
     """A line cuts a circle in points at a distance of 10^(-k/2) or so; two for each in space."""
     x, y, z = Polynomial.variables(3)
     cut = y - 1 + _tenth(k)
-    return KnownProblem(hidden([x**2 + y**2 - 1, cut, z**2 - x - 3], rng), points((1, 4)))
+    return KnownProblem(hide_equations([x**2 + y**2 - 1, cut, z**2 - x - 3], rng), points((1, 4)))
 
 
 def osculating(k: int, rng: np.random.Generator) -> KnownProblem:
@@ -187,7 +191,7 @@ def osculating(k: int, rng: np.random.Generator) -> KnownProblem:
     weights = [int(w) for w in rng.integers(1, 6, 2)]
     factor = weights[0] * x - weights[1] * y + 3 if a + b > 2 else circle * 0 + 3
     curve = circle * factor + y**a * x**b
-    return KnownProblem(hidden([circle, curve], rng), points((k, 1), (b, b)))
+    return KnownProblem(hide_equations([circle, curve], rng), points((k, 1), (b, b)))
 
 
 def grid(value: tuple[int, ...], rng: np.random.Generator) -> KnownProblem:
@@ -195,7 +199,7 @@ def grid(value: tuple[int, ...], rng: np.random.Generator) -> KnownProblem:
     x = Polynomial.variables(len(value))
     sized = [v * Fraction(10) ** -e for v, e in zip(x, value, strict=True)]
     equations = [(v - 1) * (v - 2) * (v + 3) for v in sized]
-    return KnownProblem(plain(*mixed(equations, rng)), points((1, 3 ** len(value))))
+    return KnownProblem(plain(*combine_equations(equations, rng)), points((1, 3 ** len(value))))
 
 
 def given(k: int, rng: np.random.Generator) -> KnownProblem:

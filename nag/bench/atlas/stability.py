@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from nag.bench.atlas.asked import asked
+from nag.bench.atlas.asked import ask_method
 from nag.bench.atlas.families import FAMILIES, KnobFamily
 from nag.bench.timed_runs import timed_runs
-from nag.bench.verdicts import Answer, described, verdict
+from nag.bench.verdicts import Answer, describe_run, verdict
 from nag.errors import NagError
 from nag.files.json_values import (
     as_count,
@@ -110,7 +110,7 @@ def answer(task: AnswerTask) -> Answer:
     """The answer to one task."""
     family = family_named(task.family)
     problem = family.make(task.value, np.random.default_rng([task.seed, 20]))
-    return asked(family.method, problem, task.seed, task.settings)
+    return ask_method(family.method, problem, task.seed, task.settings)
 
 
 def run_atlas(
@@ -156,7 +156,7 @@ def run_atlas(
     return Atlas(settings, seeds, limit, tuple(rows[f.name] for f in families))
 
 
-def completed(atlas: Atlas, rest: Atlas) -> Atlas:
+def complete_atlas(atlas: Atlas, rest: Atlas) -> Atlas:
     """The atlas with those of its families that were not run from another one.
 
     Raises:
@@ -186,7 +186,7 @@ def _cell(family: KnobFamily, value: Any, runs: Sequence[Any]) -> Cell:
         kind = {"incomplete": "undecided", "error": "wrong"}.get(kind, kind)
         counts[kind] += 1
         if kind in ("undecided", "wrong") and kind not in remarks:
-            told = described(run, problem.zero_set)
+            told = describe_run(run, problem.zero_set)
             remarks[kind] = f"{kind}, seed {run.task.seed}: {told}"
     seconds = round(median(r.seconds for r in runs), 3)
     return Cell(value, **counts, seconds=seconds, remarks=tuple(remarks.values()))

@@ -21,7 +21,7 @@ import numpy as np
 
 from nag.errors import StartError
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import aligned, any_less, load, select_less, splat, store
+from nag.machine_code.lanes import aligned_zeros, any_less, load, select_less, splat, store
 from nag.machine_code.records import Reals, Wholes
 
 # Lifting values are integers below this; equal crossing times are then as good as impossible.
@@ -311,7 +311,7 @@ def _scratch(n: int, points: int) -> Followed:
         np.empty(n, dtype=np.int64),
         np.empty((n, 2)),
         np.zeros(n + 1, dtype=np.int64),
-        aligned(width + 1),
+        aligned_zeros(width + 1),
         width,
     )
 

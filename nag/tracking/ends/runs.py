@@ -81,7 +81,7 @@ def run(
         with ThreadPoolExecutor(batches) as pool:
             spent = sum(pool.map(part, [within[first::batches] for first in range(batches)]))
     for place in np.flatnonzero(apart).tolist():
-        own = scaled(system, homotopy, powers[place])
+        own = scale_equations(system, homotopy, powers[place])
         spent += part(np.array([place]), own, powers[place])
     evaluations.count(spent)
     return limits
@@ -205,7 +205,9 @@ def _exponents(homotopy: Homotopy) -> tuple[np.ndarray, np.ndarray]:
     return np.array([e for row in rows for e in row], dtype=np.float64), np.cumsum([0, *sizes[:-1]])
 
 
-def scaled(equations: KernelEquations, homotopy: Homotopy, powers: np.ndarray) -> KernelEquations:
+def scale_equations(
+    equations: KernelEquations, homotopy: Homotopy, powers: np.ndarray
+) -> KernelEquations:
     """The equations in coordinates over powers of two, each row over the power of its largest term.
 
     Args:
