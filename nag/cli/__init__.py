@@ -20,10 +20,10 @@ The way of ``nag decompose cases/bennett.toml`` from the command to the table le
 `files/mechanism_case`; `mechanism/graph`, `mechanism/problem`, `mechanism/model`,
 `mechanism/loops`, `mechanism/formulations`, `mechanism/half_angles`, `mechanism/loop_product`,
 `mechanism/joint_factors`; `algebra/system`; `tracking/run`; `decomposition/decompose`,
-`decomposition/method`; `decomposition/independent_parts` and `decomposition/branch_components`,
-which leave it to the next; `decomposition/one_equation`, `decomposition/reduction`,
+`decomposition/method`, `decomposition/one_equation`, `decomposition/reduction`,
 `decomposition/roots`, `decomposition/final_checks`; `witness/witness`; `report/answer`,
-`witness/shown`. What these call on the way gives them a value, and can be taken by its name.
+`witness/shown`. What these call on the way gives them a value, and can be taken by its name; the
+methods of decomposition that are asked first leave this case to the next ones.
 """
 
 from nag.cli.command_line import main
