@@ -16,14 +16,14 @@ exports has a ``format`` and its schema in the folder `nag/files/schema`, to whi
 `tests/test_schemas.py` holds what is written.
 
 The way of ``nag decompose cases/bennett.toml`` from the command to the table leads through
-`cli/command_line`, `cli/running`, `cli/decompose`, `cli/arguments`; `files/cases`,
+`cli/command_line`, `cli/decompose`, `cli/arguments`, `cli/running`; `files/cases`,
 `files/mechanism_case`; `mechanism/graph`, `mechanism/problem`, `mechanism/model`,
 `mechanism/loops`, `mechanism/formulations`, `mechanism/half_angles`, `mechanism/loop_product`,
 `mechanism/joint_factors`; `algebra/system`; `tracking/run`; `decomposition/decompose`,
-`decomposition/method`, `decomposition/one_equation`, `decomposition/reduction`,
-`decomposition/roots`, `decomposition/final_checks`; `witness/witness`; `report/answer`,
-`witness/shown`. What these call on the way gives them a value, and can be taken by its name; the
-methods of decomposition that are asked first leave this case to the next ones.
+`decomposition/method`; `witness/witness`; `decomposition/one_equation`, `decomposition/reduction`,
+`decomposition/roots`, `decomposition/final_checks`; `report/answer`; `witness/shown`. What these
+call on the way gives them a value, and can be taken by its name; the methods of decomposition that
+are asked first leave this case to the next ones.
 """
 
 from nag.cli.command_line import main
