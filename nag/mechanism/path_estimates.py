@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from math import prod
+from itertools import accumulate, combinations
+from math import comb, factorial, prod
+from operator import mul, sub
 
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import looped_turns
+
+# So many ways to spend what equations leave are followed at most, whatever time that takes: the
+# choice of a model must not depend on the machine.
+MOST_STATES = 2_000
 
 
 class PathNumbers:
@@ -61,15 +67,11 @@ def estimated_paths(system: PolynomialSystem) -> int:
     with as many linear equations as leave points.
     """
     polynomials = sorted((f for f in system.polynomials if f.degree > 0), key=lambda f: f.degree)
-    total = 0
-    for k in range(1, min(system.n, len(polynomials)) + 1):
-        first = polynomials[:k]
-        if system.groups:
-            degrees = [tuple(f.degree_in(g) for g in system.groups) for f in first]
-            total += intersection_number(degrees, [len(g) for g in system.groups])
-        else:
-            total += prod(f.degree for f in first)
-    return total
+    first = polynomials[: system.n]
+    if not system.groups:
+        return sum(accumulate((f.degree for f in first), mul))
+    degrees = [tuple(f.degree_in(g) for g in system.groups) for f in first]
+    return sum(intersection_numbers(degrees, [len(g) for g in system.groups])[1:])
 
 
 def fewest_estimated_paths(system: PolynomialSystem) -> int:
@@ -93,18 +95,83 @@ def paths_at_once(system: PolynomialSystem) -> int | None:
 def intersection_number(degrees: Sequence[Sequence[int]], dimensions: Sequence[int]) -> int:
     """Solutions of equations of these degrees in a product of projective spaces.
 
-    Missing equations are linear in all spaces together. It is the coefficient of the spaces' point
-    class in the product of the classes sum(d_i h_i).
+    Missing equations are linear in all spaces together.
     """
-    rows = [tuple(row) for row in degrees]
-    rows += [(1,) * len(dimensions)] * (sum(dimensions) - len(rows))
-    counts = {tuple(dimensions): 1}
-    for row in rows[: sum(dimensions)]:
+    return intersection_numbers(degrees, dimensions)[-1]
+
+
+def intersection_numbers(
+    degrees: Sequence[Sequence[int]], dimensions: Sequence[int]
+) -> tuple[int, ...]:
+    """Solutions of none, the first, the first two, ... of equations in a product of spaces.
+
+    Each with as many equations that are linear in all spaces together as leave points. It is the
+    coefficient of the spaces' point class in the product of the classes sum(d_i h_i): after some
+    factors, what is left of each space's class is what counts, and r linear equations more choose
+    from that in r! / prod(left!) ways. Spaces of the same degrees in all equations that are left
+    count as one, of which the classes are sums: so there are as many states as there are ways to
+    spend what is begun and not at its end, few where equations are local.
+
+    Where there are more than `MOST_STATES`, spaces of nearly the same degrees are given the larger
+    of them; the number is then a bound.
+
+    Args:
+        degrees: of each equation, in each space; of more equations than fit, the first count.
+        dimensions: of the spaces.
+    """
+    rows = [tuple(row) for row in degrees[: sum(dimensions)]]
+    left = sum(dimensions)
+    # What is still to come of each space: equal ones are alike from here on.
+    columns = [tuple(row[i] for row in rows) for i in range(len(dimensions))]
+    states = {tuple(dimensions): 1}
+    columns, states = _join_alike(columns, states)
+    numbers = [_in_general_position(states, left)]
+    while left > sum(dimensions) - len(rows):
         following: dict[tuple[int, ...], int] = {}
-        for left, ways in counts.items():
-            for i, d in enumerate(row):
-                if d > 0 and left[i]:
-                    key = (*left[:i], left[i] - 1, *left[i + 1 :])
-                    following[key] = following.get(key, 0) + ways * d
-        counts = following
-    return sum(counts.values())
+        for state, ways in states.items():
+            for i, column in enumerate(columns):
+                if column[0] > 0 and state[i]:
+                    key = (*state[:i], state[i] - 1, *state[i + 1 :])
+                    following[key] = following.get(key, 0) + ways * column[0]
+        columns, states = _join_alike([column[1:] for column in columns], following)
+        while len(states) > MOST_STATES:
+            columns, states = _join_alike(_level_nearest(columns), states)
+        left -= 1
+        numbers.append(_in_general_position(states, left))
+    return tuple(numbers)
+
+
+def _in_general_position(states: Mapping[tuple[int, ...], int], left: int) -> int:
+    """Solutions of as many equations more, each linear in all spaces together."""
+    ways = factorial(left)
+    return sum(count * ways // prod(map(factorial, state)) for state, count in states.items())
+
+
+def _join_alike(
+    columns: Sequence[tuple[int, ...]], states: Mapping[tuple[int, ...], int]
+) -> tuple[list[tuple[int, ...]], dict[tuple[int, ...], int]]:
+    """Spaces of the same degrees as one; its class, the sum of theirs, stands for any of them."""
+    kinds = list(dict.fromkeys(columns))
+    if len(kinds) == len(columns):
+        return list(columns), dict(states)
+    place = {column: i for i, column in enumerate(kinds)}
+    places = [place[column] for column in columns]
+    joined: dict[tuple[int, ...], int] = {}
+    for state, ways in states.items():
+        together = [0] * len(kinds)
+        for i, left in zip(places, state, strict=True):
+            together[i] += left
+            ways *= comb(together[i], left)
+        key = tuple(together)
+        joined[key] = joined.get(key, 0) + ways
+    return kinds, joined
+
+
+def _level_nearest(columns: Sequence[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """Two columns that differ least, each with the larger of their entries."""
+    first, second = min(
+        combinations(range(len(columns)), 2),
+        key=lambda pair: sum(map(abs, map(sub, *(columns[i] for i in pair)))),
+    )
+    larger = tuple(map(max, columns[first], columns[second]))
+    return [larger if i in (first, second) else c for i, c in enumerate(columns)]
