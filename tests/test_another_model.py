@@ -119,16 +119,24 @@ def test_links_that_hang_on_one_pin_add_their_turns(tmp_path, capsys) -> None:
     assert report.same_motion(nag.mobility(pin_model(made)), "degrees")
 
 
-def test_one_triangle_in_space_leaves_no_second_frame(tmp_path, capsys) -> None:
+def test_bars_that_meet_are_pinned_where_space_has_one_triangle_only(tmp_path, capsys) -> None:
     places = {"A": (0, 0, 0), "B": (1, 0, 0), "C": (0, 1, 0), "D": (1, 1, 1), "E": (2, 0, 2)}
     bars = [("A", "B"), ("A", "C"), ("B", "C"), ("C", "D"), ("D", "E"), ("E", "B")]
     exact = {name: tuple(map(F, place)) for name, place in places.items()}
-    assert not list(other_equations(problem_of(framework_model(placed_framework(3, exact, bars)))))
+    parts = framework_model(placed_framework(3, exact, bars))
+    other = next(other_equations(problem_of(parts)))
+    assert not any(other.problem.system(other.problem.reference))
+    assert (parts.points_of_each, other.problem.parts.points_of_each) == (1, 2)
+    reports = [nag.mobility(p) for p in (parts, other.problem.parts)]
+    assert [r.local_dimension for r in reports] == [3, 3]
+    assert reports[0].same_motion(reports[1], other.alike)
     file = tmp_path / "one.toml"
     file.write_text(
         'kind = "framework"\ntitle = "t"\ndimension = 3\n'
         f"bars = {[list(bar) for bar in bars]}\n[points]\n"
         + "\n".join(f"{name} = {list(place)}" for name, place in places.items())
     )
-    assert main(["mobility", str(file), "--check", "--quiet"]) == 2
-    assert "second triangle" in capsys.readouterr().err
+    named = zip(parts.system.variables, parts.reference, strict=True)
+    at = ", ".join(f"{name} = {x}" for name, x in named)
+    assert main(["mobility", str(file), "--check", "--quiet", "--at", at]) == 2
+    assert "other bars to pin, and no --at" in capsys.readouterr().err

@@ -22,11 +22,12 @@ from nag.mechanism.framework import (
     framework_of_graph,
     placed_framework,
 )
-from nag.mechanism.framework_model import framework_model
+from nag.mechanism.framework_model import framework_model, space_models
 from nag.mechanism.mobility_at import mobility
 from nag.mechanism.model import model
 from nag.mechanism.quaternion import dual_multiply
 from nag.mechanism.real_assemblies import obstacle
+from nag.numerics.local_dimension import local_dimension
 
 PRISM = ["AB", "BC", "CA", "DE", "EF", "FD", "AD", "BE", "CF"]
 
@@ -203,6 +204,37 @@ def test_ranks_tell_shaky_from_rigid_and_from_mobile():
     assert (dixon.freedoms, dixon.generic_motions(), dixon.infinitesimal_motions()) == (-3, 0, 1)
     octahedron = read_case(CASES / "spatial" / "octahedron-line-symmetric.toml").assembly.framework
     assert (octahedron.freedoms, octahedron.infinitesimal_motions()) == (0, 1)
+
+
+def test_realisations_in_space_are_as_many_whatever_points_are_pinned():
+    places = {"A": (0, 0, 0), "B": (4, 1, 0), "C": (1, 3, -1), "N": (1, 1, 5), "S": (2, 1, -3)}
+    bars = ["AB", "BC", "CA", *(base + apex for base in "ABC" for apex in "NS")]
+    exact = {name: tuple(map(Fraction, place)) for name, place in places.items()}
+    bipyramid = placed_framework(3, exact, [(a, b) for a, b in bars])
+    counts = {}
+    for pinned in space_models(bipyramid):
+        answer = decompose(pinned.system, symmetries=pinned.symmetries)
+        points = sum(c.orbit * c.degree for c in answer.components)
+        counts["".join(pinned.pinned)] = (points // pinned.points_of_each, pinned.points_of_each)
+    # Each apex above or below the triangle.
+    assert set(counts.values()) == {(4, 1), (4, 2)}
+    assert [p for p in counts if counts[p][1] == 2] == ["ANS", "BNS", "CNS"]
+
+
+@pytest.mark.parametrize(("first", "second"), [(4, 6), (5, 5)])
+def test_complete_bipartite_frameworks_in_space_are_shaky_on_a_quadric_and_rigid_beside_it(
+    first, second
+):
+    # Bolker & Roth, When is a bipartite graph a rigid framework?, 1980.
+    draw = random.Random(1)
+    places = [[Fraction(draw.randint(-9, 9), draw.randint(1, 4)) for _ in "xy"] for _ in range(10)]
+    for bend, tangent in ((0, 1), (1, 0)):
+        placement = {f"P{i}": (x, y, x * y + bend * x**3) for i, (x, y) in enumerate(places)}
+        bars = [(f"P{i}", f"P{j}") for i in range(first) for j in range(first, first + second)]
+        made = framework_model(placed_framework(3, placement, bars))
+        assert all(value == 0 for value in made.system(made.reference))
+        local = local_dimension(made.system, made.reference)
+        assert (local.dimension, local.tangent_dimension) == (0, tangent)
 
 
 def test_real_realisations_are_counted_where_coordinates_are_isotropic(capsys):

@@ -155,13 +155,12 @@ BROKEN: dict[str, tuple[str, str]] = {
         .replace("[3, 4, 5]", "[3]"),
         "points: 2 points in dimension 2 leave nothing to place; add points",
     ),
-    "no triangle in space": (
-        "dimension = 3\n"
-        + FRAMEWORK.replace('"C"]\n', '"C", "D"]\n')
-        .replace('["C", "A"]', '["C", "D"], ["D", "A"]')
-        .replace("[3, 4, 5]", "[3, 4, 5, 6]"),
-        "bars: no three points that are not in line have bars between them; a framework in space "
-        "needs such a triangle, which is pinned",
+    "bars in line in space": (
+        'title = "t"\nkind = "framework"\ndimension = 3\n'
+        'bars = [["A", "B"], ["B", "C"], ["C", "D"]]\n'
+        "[points]\nA = [0, 0, 0]\nB = [1, 0, 0]\nC = [3, 0, 0]\nD = [4, 0, 0]\n",
+        "bars: all bars that meet are in line; a framework in space needs two that are not, which "
+        "are pinned",
     ),
     "dimension four": (
         "dimension = 4\n" + FRAMEWORK,

@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError(
             "--check: there is no second formulation: that is for mechanisms with loops at their "
             "reference configuration, for tables in half-angles, linkages and frameworks; one in "
-            "space needs a second triangle of bars, and no --at"
+            "space needs other bars to pin, and no --at"
         )
     from nag.algebra.number import number_text
     from nag.mechanism.mobility_report import MobilityStatus

@@ -2,12 +2,13 @@
 
 A realisation is a placement of the points in which every bar has its length; two are the same if a
 proper motion carries one to the other. Motions are taken away by pinning one bar in the plane and
-a triangle of bars in space, in a frame in which their places are rational whenever the squared
-lengths are.
+in space a triangle of bars, or two bars that meet in their plane, in a frame in which their places
+are rational whenever the squared lengths are.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -158,6 +159,17 @@ class Framework:
         for triple in combinations(self.points, 3):
             if all(frozenset(pair) in joined for pair in combinations(triple, 2)):
                 yield triple
+
+    def bars_that_meet(self) -> Iterable[tuple[str, str, str]]:
+        """Triples but no triangles, their first point joined to both others; most bars first."""
+        count = Counter(point for bar in self.bars for point in bar)
+        most = sorted(self.points, key=lambda p: -count[p])
+        joined = {frozenset(bar) for bar in self.bars}
+        for first in most:
+            ends = [p for p in most if frozenset((first, p)) in joined]
+            for second, third in combinations(ends, 2):
+                if frozenset((second, third)) not in joined:
+                    yield first, second, third
 
 
 def placed_framework(dimension: int, placement: dict[str, Place], bars: Sequence[Bar]) -> Framework:

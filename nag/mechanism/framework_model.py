@@ -4,14 +4,15 @@ In the plane the first bar is pinned to (0, 0) and (1, 0), and lengths count in 
 own. Frameworks that are given by lengths take isotropic coordinates there, z = x + iy and
 w = x - iy: either w is eliminated (`isotropic`), or a bar is (z - z')(w - w') = l^2, bilinear. A
 realisation is real where w is the conjugate of z. Where a placement is given, coordinates are its
-own, x and y, but components are found in z where that takes fewer paths. In space a triangle is
-pinned. The frame is e1 along its first side, e2 across it in its plane, e3 across both, of whatever
-lengths make the equations rational where the squared lengths are.
+own, x and y, but components are found in z where that takes fewer paths. In space a triangle of
+bars is pinned or, where there is none, two bars that meet: the first is held, the other stays in a
+plane through it. The frame is e1 along the first side, e2 across it in the plane, e3 across both,
+of whatever lengths make the equations rational where the squared lengths are.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import sqrt
@@ -34,11 +35,13 @@ class FrameworkModel(AssemblyModel):
 
     Attributes:
         framework: what is modelled.
-        pinned: the points that are held: the ends of a bar, or a triangle.
+        pinned: the points that are held: the ends of a bar, or a triangle. Without a triangle of
+            bars the third one is held in a plane with the first two.
         coordinates: letters of each point's variables: ``"z"``, ``"zw"``, ``"xy"`` or ``"xyz"``.
         system: one equation for each bar that is not pinned; in z one for each loop.
         reference: the placement in the system's variables, or None.
-        symmetries: the reflection that keeps the pinned points.
+        symmetries: the reflection that keeps the pinned points, and the half turn about the first
+            two where the third one moves.
         smaller: the same framework in coordinates in which components are found by fewer paths.
         instead: other coordinates, and how many paths they would take.
     """
@@ -57,6 +60,16 @@ class FrameworkModel(AssemblyModel):
     counted_up_to = " up to motions"
 
     @property
+    def has_moving_third(self) -> bool:
+        """Whether the third pinned point is held in a plane only."""
+        return self.system.variables[0] == f"x_{self.pinned[-1]}"
+
+    @property
+    def points_of_each(self) -> int:
+        """Two where a half turn about the first two pinned points keeps the plane of the third."""
+        return 2 if self.has_moving_third else 1
+
+    @property
     def space(self) -> Space:
         """In which the points move."""
         return "planar" if self.framework.dimension == 2 else "spatial"
@@ -73,7 +86,7 @@ class FrameworkModel(AssemblyModel):
         text = (
             f"framework of {len(self.framework.points)} points and {len(self.framework.bars)} bars "
             f"{'in the plane' if plane else 'in space'}; {_in_words(self.coordinates)} of the "
-            f"points, {'bar' if plane else 'triangle'} {'-'.join(self.pinned)} pinned"
+            f"points, {self._pinned_text}"
         )
         if self.instead is not None:
             other, paths = self.instead
@@ -84,6 +97,17 @@ class FrameworkModel(AssemblyModel):
                 f"{self.smaller.paths} paths instead of {self.paths}, and carried over"
             )
         return text
+
+    @property
+    def _pinned_text(self) -> str:
+        if not self.has_moving_third:
+            kind = "bar" if self.framework.dimension == 2 else "triangle"
+            return f"{kind} {'-'.join(self.pinned)} pinned"
+        first, second, third = self.pinned
+        return (
+            f"bar {first}-{second} pinned, {third} held in a plane with it; realisations with the "
+            "three in line are left out"
+        )
 
     @property
     def paths(self) -> int:
@@ -106,7 +130,7 @@ def framework_model(framework: Framework) -> FrameworkModel:
     """The equations of a framework.
 
     Raises:
-        FrameworkError: if there are no points to place, or no triangle to pin in space.
+        FrameworkError: if there are no points to place, or in space no bars to pin.
     """
     if len(framework.points) <= framework.dimension:
         raise FrameworkError(
@@ -221,7 +245,7 @@ def _plane_model(framework: Framework) -> FrameworkModel:
 
 
 def pin_differently(model: FrameworkModel) -> FrameworkModel | None:
-    """The same realisations with other points held: another triangle, or another bar.
+    """The same realisations with other points held: another bar, or in space three other points.
 
     Coordinates in one frame are polynomials in those in the other. None if there is no other.
     """
@@ -242,33 +266,55 @@ def pin_differently(model: FrameworkModel) -> FrameworkModel | None:
     return replace(cartesian_model(turned), smaller=None)
 
 
-def _space_model(framework: Framework, without: frozenset[str] = frozenset()) -> FrameworkModel:
-    for pinned in framework.triangles():
-        if without == frozenset(pinned):
+def space_models(framework: Framework) -> Iterator[FrameworkModel]:
+    """A framework in space with each triangle pinned, then with each two bars that meet.
+
+    None where all such points are in line.
+    """
+    for pinned in (*framework.triangles(), *framework.bars_that_meet()):
+        first, second, third = pinned
+        s, t = (framework.squared_length(first, other) for other in (second, third))
+        opposite = framework.squared_length(second, third)
+        assert s is not None and t is not None
+        if framework.placement is not None:
+            u, v = _third_in_plane(*(_place(framework, p) for p in pinned))
+        elif opposite is not None:
+            u = (t + s - opposite) / (2 * s)
+            v = t - u * u * s
+        else:
+            u, v = Fraction(0), s
+        # The third point is first + u e1 + e2, with e1 of squared length s, e2 of squared length v.
+        if is_zero(v):
             continue
-        sides = [
-            framework.squared_length(pinned[i], pinned[j]) for i, j in ((0, 1), (0, 2), (1, 2))
-        ]
-        # C = A + u e1 + e2, with e1 = B - A of squared length s, e2 of squared length v.
-        s, t, opposite = sides
-        u = (t + s - opposite) / (2 * s)
-        v = t - u * u * s
-        if not is_zero(v):
-            break
-    else:
+        size = Fraction(max(1, round(sqrt(float(s)))))
+        if framework.placement is not None:
+            reference = _in_frame(framework, pinned, size)
+        else:
+            zero, one = Fraction(0), Fraction(1)
+            reference = dict(
+                zip(pinned, ((zero,) * 3, (one, zero, zero), (u, one, zero)), strict=True)
+            )
+        metric = [s, v, v * s / (size * size)]
+        yield _metric_model(framework, pinned, reference, metric, opposite is None)
+
+
+def _space_model(framework: Framework, without: frozenset[str] = frozenset()) -> FrameworkModel:
+    models = space_models(framework)
+    model = next((m for m in models if frozenset(m.pinned) != without), None)
+    if model is None:
         raise FrameworkError(
-            "no three points that are not in line have bars between them; a framework in space "
-            "needs such a triangle, which is pinned",
+            "all bars that meet are in line; a framework in space needs two that are not, which "
+            "are pinned",
             "bars",
         )
-    zero, one = Fraction(0), Fraction(1)
-    size = Fraction(max(1, round(sqrt(float(s)))))
-    if framework.placement is not None:
-        reference = _in_frame(framework, pinned, size)
-    else:
-        corners = ((zero,) * 3, (one, zero, zero), (u, one, zero))
-        reference = dict(zip(pinned, corners, strict=True))
-    return _metric_model(framework, pinned, reference, [s, v, v * s / (size * size)])
+    return model
+
+
+def _third_in_plane(origin: Place, second: Place, third: Place) -> tuple[Number, Number]:
+    """The share of the third point's vector along the second's, and what is left, squared."""
+    along, gap = difference(second, origin), difference(third, origin)
+    share = dot(gap, along) / dot(along, along)
+    return share, dot(gap, gap) - share * share * dot(along, along)
 
 
 def _in_frame(
@@ -295,27 +341,42 @@ def _metric_model(
     pinned: tuple[str, ...],
     reference: dict[str, tuple[Number, ...]],
     metric: Sequence[Number],
+    third_moves: bool = False,
 ) -> FrameworkModel:
-    """Coordinates along orthogonal vectors whose squared lengths are ``metric``."""
+    """Coordinates along orthogonal vectors whose squared lengths are ``metric``.
+
+    Args:
+        third_moves: the third pinned point is held in the plane of the first two vectors only.
+    """
     d = framework.dimension
-    free, variables, names = _unknowns(framework, pinned, "xyz"[:d])
-    n = len(names)
+    free, letters = framework.points_not_on(pinned), "xyz"[:d]
+    in_plane = (f"x_{pinned[-1]}", f"y_{pinned[-1]}") if third_moves else ()
+    names = (*in_plane, *(f"{letter}_{p}" for p in free for letter in letters))
+    n, variables = len(names), Polynomial.variables(len(names))
     places: dict[str, Sequence[Any]] = {p: _constants(n, reference[p]) for p in pinned}
-    places |= {p: variables[d * i : d * i + d] for i, p in enumerate(free)}
+    if third_moves:
+        places[pinned[-1]] = (*variables[:2], Polynomial(n, {}))
+    start = len(in_plane)
+    places |= {p: variables[start + d * i :][:d] for i, p in enumerate(free)}
     equations = []
     for (a, b), squared in zip(framework.bars, framework.squared_lengths, strict=True):
-        if a in pinned and b in pinned:
-            continue
         gap = difference(places[a], places[b])
+        if not any(x.support for x in gap):
+            continue
         norm = sum((x * x * m for x, m in zip(gap, metric, strict=True)), Polynomial(n, {}))
         equations.append((norm - squared) / metric[0])
-    system = PolynomialSystem(names, tuple(equations))
-    signs = tuple(-1 if i % d == d - 1 else 1 for i in range(n))
+    system = PolynomialSystem(names, tuple(equations), tuple(variables[1:2]) if third_moves else ())
+    last = letters[-1]
+    flips = [last, "yz"] if third_moves else [last]
+    symmetries = tuple(
+        SignedPermutation.of_signs(tuple(-1 if name[0] in flip else 1 for name in names))
+        for flip in flips
+    )
     at = None
     if framework.placement is not None:
-        at = tuple(x for p in free for x in reference[p])
-    mirror = (SignedPermutation.of_signs(signs),)
-    return FrameworkModel(framework, pinned, "xyz"[:d], system, at, mirror)
+        held = reference[pinned[-1]][:2] if third_moves else ()
+        at = (*held, *(x for p in free for x in reference[p]))
+    return FrameworkModel(framework, pinned, letters, system, at, symmetries)
 
 
 def _unknowns(

@@ -69,7 +69,7 @@ def _other_coordinates(
 
     A linkage that was given by its links' turns is taken by the places of its pins. A framework in
     the plane is taken in x and y without isotropic coordinates, or with them where it had none; in
-    space another triangle is pinned.
+    space other points are pinned.
     """
     if isinstance(parts, LinkageModel):
         pins = pin_model(parts)
@@ -88,4 +88,6 @@ def _other_coordinates(
         yield OtherEquations("isotropic coordinates", problem_of(other), here, "degrees")
     elif at is None and (pinned := pin_differently(parts)) is not None:
         name = f"{'-'.join(pinned.pinned)} pinned"
-        yield OtherEquations(name, problem_of(pinned), None, "counts")
+        # Of two bars that meet each realisation is pinned in two ways, and components may part so.
+        twice = parts.points_of_each + pinned.points_of_each > 2
+        yield OtherEquations(name, problem_of(pinned), None, "dimensions" if twice else "counts")
