@@ -100,6 +100,7 @@ SPARSE: dict[str, tuple[str, ...]] = {
         "planar/cube-graph", "planar/dixon-1-k33", "planar/dixon-1-k34", "planar/dixon-2-k44",
         "planar/prism-parallel", "planar/wunderlich-12-bar",
         "spatial/octahedron-line-symmetric", "spatial/octahedron-plane-symmetric",
+        "spatial/octahedron-two-flat-positions",
     ),
     "sparse-loops": (
         "spatial/bricard-line-symmetric", "spatial/bricard-plane-symmetric",
