@@ -131,7 +131,10 @@ class AlgebraicZero:
         """Whether balls prove it: Gram's determinant of the gradients is not zero."""
         with flint.ctx.workprec(BALL_BITS):
             x = self.balls(BALL_BITS)
-            rows = [[_at(f.derivative(i), x) for i in range(f.n)] for f in polynomials]
+            rows = [
+                [f.derivative(i)(x, lambda c: flint.acb(to_rational(c))) for i in range(f.n)]
+                for f in polynomials
+            ]
             if len(rows) > len(x) or not rows:
                 return not rows
             slopes = flint.acb_mat(rows)
@@ -239,18 +242,6 @@ def _composed(f: Any, at: Sequence[Any], p: Any) -> Any:
         for i, k in enumerate(exponents):
             if k:
                 term = term * power(i, int(k)) % p
-        total = total + term
-    return total
-
-
-def _at(f: Polynomial, x: Sequence[Any]) -> Any:
-    """An exact polynomial at a point in balls."""
-    total = flint.acb(0)
-    for exponents, c in f.terms.items():
-        term = flint.acb(to_rational(c))
-        for z, k in zip(x, exponents, strict=True):
-            if k:
-                term = term * z**k
         total = total + term
     return total
 

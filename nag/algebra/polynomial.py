@@ -44,6 +44,24 @@ def multiply_terms(
     return terms
 
 
+def sum_terms(
+    terms: Iterable[tuple[Sequence[int], Any]], point: Sequence[Any], start: Any = 0
+) -> Any:
+    """The value of a sum of terms, in the arithmetic of the coefficients and of the point.
+
+    Args:
+        terms: exponents and coefficients.
+        start: what they are added to.
+    """
+    total = start
+    for e, c in terms:
+        for x, k in zip(point, e, strict=True):
+            if k:
+                c = c * x**k
+        total = total + c
+    return total
+
+
 @dataclass(frozen=True, eq=False)
 class Polynomial:
     """A polynomial in ``n`` variables, as a read-only map from exponents to non-zero coefficients.
@@ -244,14 +262,8 @@ class Polynomial:
         if convert is None:
             exact = all(isinstance(x, int | Fraction | Irrational) for x in point)
             convert = (lambda c: c) if exact else float
-        total: Any = convert(Fraction(0))
-        for e, c in self.terms.items():
-            value: Any = convert(c)
-            for x, k in zip(point, e, strict=True):
-                if k:
-                    value = value * x**k
-            total = total + value
-        return total
+        converted = ((e, convert(c)) for e, c in self.terms.items())
+        return sum_terms(converted, point, convert(Fraction(0)))
 
     def compose(self, images: Sequence[Polynomial]) -> Polynomial:
         """The polynomial in the images' variables, variable ``i`` replaced by ``images[i]``."""

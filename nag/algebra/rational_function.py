@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 import flint
 
+from nag.algebra.polynomial import sum_terms
 from nag.errors import NagError
 
 Order = Literal["lex", "degrevlex"]
@@ -152,10 +153,5 @@ class RationalFunction:
 
 
 def _value(polynomial: Any, point: Sequence[Fraction]) -> Fraction:
-    total = Fraction(0)
-    for exponents, coefficient in polynomial.to_dict().items():
-        term = Fraction(int(coefficient))
-        for x, k in zip(point, exponents, strict=True):
-            term *= x ** int(k)
-        total += term
-    return total
+    terms = ((tuple(map(int, e)), Fraction(int(c))) for e, c in polynomial.to_dict().items())
+    return sum_terms(terms, point, Fraction(0))

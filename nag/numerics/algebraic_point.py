@@ -15,6 +15,7 @@ import flint
 
 from nag.algebra.exact_ranks import LARGEST_PRIME, PrimeField, primes_below
 from nag.algebra.number import Irrational, Number
+from nag.algebra.polynomial import sum_terms
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.power_series import Terms
 
@@ -112,18 +113,8 @@ def prime_images(system: ExactSystem, point: Sequence[Number], count: int) -> li
             continue
         except _NoImage:
             return []
-        if any(_value(row, centre, p) for row in rows):
+        if any(sum_terms(row, centre) % p for row in rows):
             # Nested roots may have been chosen so that they do not belong together.
             continue
         found.append(PrimeImage(p, rows, centre))
     return found if len(found) == count else []
-
-
-def _value(row: Terms, centre: Sequence[int], p: int) -> int:
-    total = 0
-    for e, c in row:
-        for x, k in zip(centre, e, strict=True):
-            if k:
-                c = c * pow(x, k, p) % p
-        total += c
-    return total % p

@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.exact_ranks import PrimeField
 from nag.algebra.number import Number
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.polynomial import Polynomial, sum_terms
 from nag.numerics.ball_polynomials import BallPolynomials, factors_of
 from nag.numerics.digits import LOG10_2, bits_of, in_bits, log_norm, to_ball
 from nag.numerics.power_series import Terms
@@ -151,7 +151,7 @@ class ExactSystem:
 
     def vanishes_exactly(self, y: Sequence[Fraction]) -> bool:
         """Whether all rows vanish at a rational point."""
-        return all(value(row, y) == 0 for row in self.rows)
+        return all(sum_terms(row, y) == 0 for row in self.rows)
 
 
 @dataclass(frozen=True)
@@ -182,17 +182,6 @@ def _in_digits(rows: Sequence[Terms], digits: int) -> list[Terms]:
 
 def _odd_bits(k: int) -> int:
     return k.bit_length() - (k & -k).bit_length()
-
-
-def value(row: Terms, y: Sequence[Any]) -> Any:
-    """The value of a row at a point, in the arithmetic of both."""
-    total: Any = 0
-    for e, c in row:
-        for x, k in zip(y, e, strict=True):
-            if k:
-                c = c * x**k
-        total = total + c
-    return total
 
 
 def _log2(c: Number | complex) -> float:

@@ -15,6 +15,7 @@ from typing import Any
 
 import flint
 
+from nag.algebra.polynomial import sum_terms
 from nag.errors import NagError
 
 # Bits of one exponent.
@@ -181,13 +182,7 @@ def product_of(matrix: list[list[Any]], column: Sequence[Series], modulus: int) 
 
 def evaluate(series: Mapping[int, Any], ring: SeriesRing, v: Sequence[Any]) -> Any:
     """The value of a truncated series at ``v``."""
-    total: Any = 0
-    for key, c in series.items():
-        for x, k in zip(v, ring.exponents(key), strict=True):
-            if k:
-                c = c * x**k
-        total = total + c
-    return total
+    return sum_terms(((ring.exponents(key), c) for key, c in series.items()), v)
 
 
 def exponents_of_degree(m: int, degree: int) -> list[tuple[int, ...]]:
