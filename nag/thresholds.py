@@ -10,6 +10,10 @@ name                                        value   what it decides, and why the
 ==========================================  ======  ================================================
 numerics.double_ranks.INDEPENDENT           1e-6    Singular value of gradients of length one that
                                                     surely are independent; else no bound is given.
+numerics.double_ranks.DEPENDENT             1e-10   Least singular value, over the largest, or pivot
+                                                    of rows that are not solved for: of a slice, of
+                                                    linear equations, of rows that are to be made
+                                                    orthogonal.
 numerics.double_ranks.NOT_ZERO              1e-7    Errors of derivatives beside their terms.
 numerics.zero_values.ON *                   1e-9    Values in doubles, beside their terms, at
                                                     sharpened points that may be zero: zeros lie
@@ -40,8 +44,6 @@ numerics.coincidence.HIT *                  1e-8    Ends of paths that may have 
 numerics.coincidence.MISS *                 1e-5    Such as had not: all lay beyond 7e-4. What falls
                                                     between is undecided.
 numerics.coincidence.BEYOND                 1e4     The same in errors of the end.
-numerics.certified_points.SLACK             1e3     Errors of a point within which a zero must lie
-                                                    to be the one that is meant, at least.
 numerics.certified_points.NEAR              1e-6    The same as a distance, if errors are unknown.
 numerics.certified_points.EVIDENCE          60      Digits to which equations vanish that a proof
                                                     did not need: said to be evidence, not proof.
@@ -51,40 +53,28 @@ numerics.clusters.ALIKE                     1e-5    Starts nearer to each other,
                                                     cluster's size, are followed once; their ends
                                                     are compared in all digits.
 numerics.curves.VANISHING                   0.75    Share of the digits that make a value zero.
-numerics.deflated_system.ZERO               -50     Decimal logarithm of entries that are zero, of
-                                                    150 digits; others lie far above.
+numerics.digits.SPARE                       20      Digits that computing may take: in so many of a
+                                                    hundred two points may differ that are one, and
+                                                    coefficients as small are zero.
 numerics.far_along.FAR                      5       Scaled distance from a singular point at which
                                                     it is seen whether equations vanish along a set:
                                                     no power of it is small.
 numerics.far_along.AT_MOST                  100     The same in variables that the set determines.
 numerics.local_dimension.ROUNDED            1e-8    Relative error of a point where none is told.
-numerics.local_dimension.MOST_ROUNDED       1e-8    Values, beside their terms, at rounded points.
 numerics.local_structure.FURTHEST           -1.3    Decimal logarithm of the largest distance in
                                                     which a zero is looked for.
 numerics.local_structure.NOTHING *          -90     The same of entries of the dual space's matrices
                                                     that are zero, of 150 digits: all below -149.
 numerics.local_structure.SOMETHING *        -45     The same of such as are not: above -1. What
                                                     falls between is undecided.
-numerics.local_structure.REPEATED           20      Digits, of a hundred, in which two points may
-                                                    differ that are one.
 numerics.ball_ranks.WELL                    1e-8    Pivots, over the largest, of a block that
                                                     doubles solve for; the rest is for all digits.
 numerics.ball_ranks.CLEAR                   0.5     Decimal logarithm of a pivot over its error that
                                                     makes it no zero.
 numerics.curves.OFF                         1e3     Zeros of truncated series over their scale,
                                                     beyond which they are none of the system's.
-numerics.rational_relations.CLEAR           1e-9    Singular values of columns of length one at
-                                                    most, in doubles, that are no rounding: smaller
-                                                    ones are looked at in all digits.
 numerics.rational_relations.SHARP           0.4     Share of the digits to which a relation must
                                                     hold to be one; others show in more points.
-numerics.deflation.SPARE                    20      Digits that rounding may have taken from
-                                                    coefficients beside those that each degree
-                                                    loses: smaller ones are zero.
-numerics.scaling.DEPENDENT                  1e-12   Singular values of rows, over the largest, that
-                                                    are not made orthogonal.
-numerics.series_zeros.REGULAR               1e-5    Singular values beside the largest one that are
-                                                    those of a regular zero.
 numerics.series_zeros.SLOW                  1e-2    Newton's last step that has come near to a zero,
                                                     perhaps a multiple one, of truncated series;
                                                     what there is shows in all digits.
@@ -94,8 +84,6 @@ numerics.sharpening.ZERO                    -100    Decimal logarithm of what va
 numerics.sharpening.ARRIVED                 -125    The same of Newton's last step.
 numerics.sharpening.LARGEST_INVERSE         70      The same of an inverse that says that a zero is
                                                     not regular after all.
-numerics.tangent_cone.NOTHING               -90     Decimal logarithm of coefficients that are zero,
-                                                    of 150 digits.
 numerics.zero_values.ALIKE                  1e-6    Relative difference of the coordinates of zeros
                                                     that a point of doubles may stand for, where it
                                                     is near several.
@@ -208,9 +196,6 @@ tracking.ends.linear_algebra.ROUGHEST       1e-6    Coordinate of a point from d
 solving.path_ends.INFINITE                  2e-12   Homogenising coordinates of ends at infinity,
                                                     beside what is proved of them.
 solving.path_ends.ROUGHLY_INFINITE          1e-7    The same of ends in few digits.
-solving.isolated_zero.TWO                   1e-80   Distance, beside their size, of zeros in 100
-                                                    digits that are two: those that the ends at one
-                                                    place stand for.
 solving.path_ends.NEARLY                    1e-5    Values, beside their terms, of ends that are no
                                                     zeros, however badly they are known.
 solving.isolated_zero.REAL *                1e-10   Imaginary parts, beside a point's size, of zeros
@@ -218,8 +203,6 @@ solving.isolated_zero.REAL *                1e-10   Imaginary parts, beside a po
                                                     their conjugate; beyond that, or their errors in
                                                     more digits, they are not. `nag certify` proves
                                                     it.
-solving.missing_zeros.SAFETY                1e3     Errors of a zero that was found in which no
-                                                    other one is looked for.
 solving.missing_zeros.EXTREME               26      Binary logarithm of sizes from which zeros are
                                                     looked for where they cannot be counted; ends so
                                                     far out may satisfy the least evidence of
@@ -238,7 +221,6 @@ solving.solution_classes.CLEAR              1e-3    Errors of a class's invarian
                                                     is not told from others: its path is lost.
 solving.solve_classes.FEW                   0.1     Part of the classes that chance may lose; more,
                                                     and the parameters are special.
-solving.start.family_monodromy.WORST        1e5     Condition of a first solution that is left out.
 solving.start.family_monodromy.VANISHING    1e-13   Values at a first solution.
 solving.start.mixed_cells.SHARE             1e-8    Distance from 0 and 1 of fractions with volumes
                                                     of cells below: less is rounding.
@@ -250,10 +232,6 @@ solving.start.monodromy.ROUNDING            1e-12   Sum of second differences ov
                                                     motion that is rounding.
 solving.start.monodromy.VISIBLE             10      Own second difference of each point, in those,
                                                     without which its absence could not show.
-solving.start.scalings.ZERO                 1e-9    Singular values of matrices of whole numbers
-                                                    that are zero.
-solving.start.total_degree.DEPENDENT        1e-10   Pivots of linear equations, of norm one, that
-                                                    depend on others.
 witness.close_to_sets.CLOSE                 1e-9    Ends of regular paths nearer than this to a zero
                                                     are compared with it in digits.
 witness.close_to_sets.REACH                 10      Errors of an end within which others are taken
@@ -309,8 +287,6 @@ witness.gauss_newton.SMALL                  1e-3    Singular values, over the la
                                                     belong to the kernel; the gap decides.
 witness.membership.SPREAD                   10      Distances, in what rounding may do to a point,
                                                     within which the next zero makes it undecided.
-witness.moving.DEPENDENT                    1e-10   Singular values of a slice, over the largest,
-                                                    that make its equations dependent.
 witness.multiplicity.ACCURACY               1e-11   Error of points that a badly conditioned
                                                     deflation sharpened in doubles.
 witness.multiplicity.MULTIPLE               1e-7    Relative error of singular ends, about a root of
@@ -376,15 +352,14 @@ Other values of these give the same answers, sooner or later: sizes of steps and
 rounding, digits that are taken, where random numbers come from.
 
 algebra.evaluation: HUGE; algebra.number: LARGEST_ANGLE; numerics.certified_points: FLAT, LEAST;
-numerics.ball_boxes: EXPANDING; numerics.close_zeros: ROUNDING; numerics.curves: CLOSE, CLOSER,
+numerics.ball_boxes: EXPANDING; numerics.close_zeros: EPS; numerics.curves: CLOSER,
 PATIENCE;
 numerics.deflated_system: MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK;
-numerics.digits: LOG10_2, SMALLEST, LARGEST; numerics.double_ranks: NOTHING;
+numerics.digits: LOG10_2, SMALLEST, LARGEST, ROUNDING; numerics.double_ranks: NOTHING;
 numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST, LEAST, GOOD;
 numerics.discs: UNIT, PRODUCT, UP, LEAST;
-numerics.implicit_function:
-ROUNDING; numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR, LEAST,
-REACHES, ROUNDED; numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
+numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR,
+REACHES, ROUNDED;
 numerics.rounds_in_doubles: APART; numerics.natural_coordinates: FAR, SEVERAL_SIZES;
 numerics.newton: GAIN, FAST, LEFT, RESTS; numerics.precise_point: LEAST_ERROR, LARGEST_ERROR;
 numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;

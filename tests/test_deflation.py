@@ -13,11 +13,11 @@ from nag.numerics import deflation
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.deflation import NotDeflated, deflate
 from nag.numerics.descent import Round, descend
-from nag.numerics.digits import log_norm, working_digits
+from nag.numerics.digits import DIGITS, log_norm, working_digits
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import find_zero
 from nag.numerics.second_round import SecondRound
-from nag.numerics.sharpening import ARRIVED, DIGITS
+from nag.numerics.sharpening import ARRIVED
 
 QUARTICS = "x^4 - 2*y^2*z^2 + x^5, y^4 + 3*x*z^3 - z^5, z^4 - x^2*y*z + y^6"
 

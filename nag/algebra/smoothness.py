@@ -16,7 +16,8 @@ from nag.algebra.polynomial import Polynomial
 
 # Variables, minors, degree of one: what a Groebner basis is asked of.
 MOST_VARIABLES, MOST_MINORS, MOST_DEGREE = 8, 60, 6
-# Bounds of that basis: polynomials, terms of one, bits of a coefficient.
+# Bounds of a basis that is found within half a second, or not: polynomials, terms of one, bits of a
+# coefficient.
 BOUNDS = (150, 400, 2000)
 
 

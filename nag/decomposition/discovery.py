@@ -23,7 +23,7 @@ from nag.decomposition.final_checks import judge_components
 from nag.decomposition.given_points import CommonSlices, GivenPoint
 from nag.decomposition.orbits import group_into_orbits
 from nag.decomposition.reduction import Reduction
-from nag.numerics.double_ranks import NEARLY_SINGULAR
+from nag.numerics.double_ranks import NEARLY_SINGULAR, largest_corank
 from nag.numerics.zero_values import LEAST
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.cutting import Cut
@@ -153,9 +153,8 @@ class _Discovery:
         near = descend(evaluator, x, close=DEEP)
         if near is None:
             return None
-        s = np.linalg.svd(evaluator.balanced_jacobian(near), compute_uv=False)
-        rank = int(np.sum(s > NEARLY_SINGULAR * max(1.0, s.max(initial=0.0))))
-        return self._brought(GivenPoint(near, MULTIPLE, range(len(near) - rank - 1, -1, -1), True))
+        most = largest_corank(evaluator.balanced_jacobian(near), NEARLY_SINGULAR)
+        return self._brought(GivenPoint(near, MULTIPLE, range(most - 1, -1, -1), True))
 
     def _brought(self, start: GivenPoint) -> tuple[int, int] | None:
         self.slices, place, spent = self.slices.with_start(start, self.rng, self.run)

@@ -26,6 +26,7 @@ from nag.algebra.factoring import factor_into_irreducibles
 from nag.algebra.given import check_whole
 from nag.algebra.groebner import Ideal, UnfinishedBasis, ideal_of
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.smoothness import BOUNDS
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.decompose import decompose
 from nag.decomposition.rank_drop import BITS, new_names, product
@@ -45,17 +46,12 @@ from nag.interpolation.vanishing import (
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import bits_of
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
+from nag.numerics.precise_point import POINT_DIGITS
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.given_component import check_system
 from nag.witness.projection import ProjectionError, project
 from nag.witness.witness import PathCounts, WitnessSet
-
-# Digits of a random point at which equations tell whether an image lies in a known set.
-DIGITS = 100
-# Bounds of a Groebner basis that is found within half a second, or not: polynomials, terms of one,
-# bits of a coefficient.
-BOUNDS = (150, 400, 2000)
 
 Proof = Literal["reduction", "points", "dimension"]
 
@@ -268,11 +264,11 @@ class _ParameterImage:
 
     def satisfies(self, equations: Sequence[Polynomial], coordinates: Sequence[int]) -> bool:
         """Whether equations hold at a random point, to all digits that it has."""
-        (point,) = self.cloud.balls(1, DIGITS)
+        (point,) = self.cloud.balls(1, POINT_DIGITS)
         if not equations:
             return True
         values = BallPolynomials.of(equations).values(
-            [point[i] for i in coordinates], bits_of(DIGITS)
+            [point[i] for i in coordinates], bits_of(POINT_DIGITS)
         )
         return all(z.contains(0) for z in values.entries())
 
@@ -428,7 +424,7 @@ def _sets_together(family: _Family, images: Sequence[_ParameterImage]) -> list[P
         elif dimension == 0:
             values = enumerate(each.polynomial.coeffs())
             f = Polynomial(1, {(k,): Fraction(int(c.p), int(c.q)) for k, c in values if c})
-            proof = _proof(family, cloud, f, DIGITS)
+            proof = _proof(family, cloud, f, POINT_DIGITS)
             found.append(ParameterSet((_primitive(f),), 0, each.degree, proof))
         else:
             known = hypersurface_equation(cloud, coordinates, each.degree)

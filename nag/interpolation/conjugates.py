@@ -18,7 +18,7 @@ import numpy as np
 from nag.algebra.flint_numbers import to_rational
 from nag.interpolation.precise_samples import Sample, Source, SourceError
 from nag.interpolation.vanishing import DIGITS, InterpolationError
-from nag.numerics.digits import bits_of, in_bits
+from nag.numerics.digits import SPARE, bits_of, in_bits
 from nag.numerics.rational_relations import TooFewDigitsError, recognise_rational
 from nag.tracking.run import Run
 from nag.witness.moving import move_and_sharpen
@@ -120,7 +120,7 @@ def conjugate_classes(
     cut = RationalSlice.at_random(sources[0], coordinates, dimension, rng)
     samples = [cut.samples(source, rng, run) for source in sources]
     for digits in DIGITS:
-        with in_bits(bits_of(digits + 20)):
+        with in_bits(bits_of(digits + SPARE)):
             values = [_distinct([cut.value(s, digits) for s in each]) for each in samples]
             zeros = _distinct([v for each in values for v in each])
             try:

@@ -32,7 +32,8 @@ from nag.interpolation.vanishing import (
     start,
 )
 from nag.numerics.digits import in_bits
-from nag.numerics.rational_relations import Echelon, TooFewDigitsError, clearly_independent
+from nag.numerics.double_ranks import clearly_independent
+from nag.numerics.rational_relations import Echelon, TooFewDigitsError
 
 # Largest degree of a numerator that is looked at.
 MOST_DEGREE = 4

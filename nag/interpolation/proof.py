@@ -24,7 +24,7 @@ from nag.algebra.rational_function import FunctionField, RationalFunction
 from nag.interpolation.essential import VariableMap
 from nag.interpolation.point_cloud import Cloud
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import bits_of
+from nag.numerics.digits import SPARE, bits_of
 from nag.numerics.zero_values import NONZERO
 
 FRESH_POINTS = 30
@@ -157,7 +157,11 @@ def largest_value(cloud: Cloud, polynomials: Sequence[Polynomial], digits: int) 
     worst = float("-inf")
     if not polynomials:
         return worst
-    system, bits, ten = BallPolynomials.of(polynomials), bits_of(digits + 20), flint.arb(10).log()
+    system, bits, ten = (
+        BallPolynomials.of(polynomials),
+        bits_of(digits + SPARE),
+        flint.arb(10).log(),
+    )
     for p in points:
         bounds = system.sizes([flint.acb(max(abs(x).mid(), flint.arb(1))) for x in p], bits)
         for value, bound in zip(system.values(p, bits).entries(), bounds, strict=True):

@@ -27,11 +27,11 @@ from nag.interpolation.point_cloud import (
     monomials_in_doubles,
     real_rows,
 )
-from nag.numerics.digits import bits_of, in_bits
+from nag.numerics.digits import SPARE, bits_of, in_bits
+from nag.numerics.double_ranks import clearly_independent
 from nag.numerics.rational_relations import (
     Echelon,
     TooFewDigitsError,
-    clearly_independent,
     recognise_rational,
 )
 
@@ -267,7 +267,7 @@ def hypersurface_equation(cloud: Cloud, coordinates: Sequence[int], degree: int)
         entries = [column[i] for i in range(total - 1) for column in columns]
         entries += map(flint.arb, form)
         try:
-            with in_bits(bits_of(digits + 20)):
+            with in_bits(bits_of(digits + SPARE)):
                 right = flint.arb_mat(total, 1, [0] * (total - 1) + [1])
                 solution = flint.arb_mat(total, total, entries).solve(right).entries()
             coefficients = [recognise_rational(c, digits) for c in solution]

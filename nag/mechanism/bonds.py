@@ -31,7 +31,7 @@ from nag.mechanism.dh import DHModel
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
 from nag.numerics.digits import bits_of, in_bits, to_ball
-from nag.numerics.precise_point import DIGITS
+from nag.numerics.precise_point import POINT_DIGITS
 from nag.numerics.read_only import fixed_mapping
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.component_equations import component_fibres
@@ -293,7 +293,7 @@ class _Ends:
     def _norms(self, point: Sequence[flint.acb]) -> dict[str, float]:
         """Of each joint's half-angle, relative to its size."""
         result = {}
-        with in_bits(bits_of(DIGITS)):
+        with in_bits(bits_of(POINT_DIGITS)):
             for name, (c, s) in self.loop.half_angles(point).items():
                 square = to_ball(self.loop.squares[name])
                 size = abs(c) ** 2 + square.real * abs(s) ** 2

@@ -25,20 +25,19 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.close_zeros import match_boxes, prove_close_zeros
 from nag.numerics.coincidence import clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
-from nag.numerics.digits import in_bits, middle, rational_point, to_ball
+from nag.numerics.digits import DIGITS, in_bits, middle, rational_point, to_ball
 from nag.numerics.discs import UP
 from nag.numerics.double_ranks import pivot_rows
 from nag.numerics.krawczyk import Boxes, enter_box, find_overlaps, prove_boxes
 from nag.numerics.singular_point import Place, analyse
+from nag.numerics.zero_values import SLACK
 
-# Zeros further from a point than its accuracy, times this, or this much, are not meant by it.
-SLACK, NEAR = 1e3, 1e-6
+# Zeros further from a point than `SLACK` times its accuracy, or this much, are not meant by it.
+NEAR = 1e-6
 # Least relative error of a point in doubles.
 LEAST = 1e-15
 # Gradients below this, relative to their terms, count as what they are.
 FLAT = 1e-8
-# Digits of a proved zero that is tested for being rational.
-DIGITS = 150
 # Digits to which the equations that were not needed for a proof must vanish.
 EVIDENCE = 60.0
 

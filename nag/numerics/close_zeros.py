@@ -19,8 +19,7 @@ from nag.numerics.newton import newton_to_rest
 
 # Places to begin at, for each zero, and steps from there: each may lead part of the way only.
 PLACES, STEPS = 10, 200
-# Rounding of a double, beside the point.
-ROUNDING = 2.0**-52
+EPS = float(np.finfo(float).eps)
 
 
 def prove_close_zeros(
@@ -35,7 +34,7 @@ def prove_close_zeros(
     """
     size = max(float(np.abs(points).max(initial=0.0)), np.finfo(float).tiny)
     spread = float(np.abs(points - points[0]).max(initial=0.0))
-    least = 4 * ROUNDING * size
+    least = 4 * EPS * size
     found: list[FineBox] = []
     for place in range(PLACES * len(points)):
         begin = points[place % len(points)]
@@ -74,7 +73,7 @@ def match_boxes(
     if real is not None:
         differs = real[:, None] != np.array([holds_conjugate(box) for box in boxes])
         # What the points' errors leave open decides nothing else.
-        unclear = 8 * np.maximum(np.nan_to_num(accuracy, posinf=0.0), ROUNDING)
+        unclear = 8 * np.maximum(np.nan_to_num(accuracy, posinf=0.0), EPS)
         cost = cost + differs * unclear[:, None]
     _, chosen = linear_sum_assignment(cost)
     return [boxes[k] for k in chosen.tolist()]

@@ -10,12 +10,11 @@ import numpy as np
 
 from nag.numerics.deflation import DeflatedPoint
 from nag.numerics.descent import Point, Round, descend
-from nag.numerics.digits import bits_of, log_size
+from nag.numerics.digits import BITS, DIGITS, log_size
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import move_point
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.series_zeros import ScaledSeries
-from nag.numerics.sharpening import DIGITS
 
 # Random starts for each zero that a cluster in several variables may have.
 STARTS, MOST_STARTS = 12, 400
@@ -52,7 +51,7 @@ def find_zeros_of_cluster(
         along = [flint.acb(complex(c)) * scale for c in u]
         step = descend(system, DIGITS, found.point, [first], order, along)
         if step is not None:
-            yield move_point(found.point, step.displacement, bits_of(DIGITS)), size, regular
+            yield move_point(found.point, step.displacement, BITS), size, regular
 
 
 def _size(ring: SeriesRing, series: Sequence[Series], order: int) -> float:

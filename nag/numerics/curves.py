@@ -11,14 +11,24 @@ import numpy as np
 from nag.numerics.ball_ranks import regular_block
 from nag.numerics.deflation import MOST_WORK_ROUGHLY, DeflatedPoint, NotDeflated, deflate
 from nag.numerics.descent import Block, Point, Round, series_cost
-from nag.numerics.digits import LOG10_2, bits_of, log_norm, log_size, middle, working_digits
+from nag.numerics.digits import (
+    BITS,
+    DIGITS,
+    LOG10_2,
+    ROUNDING,
+    SPARE,
+    log_norm,
+    log_size,
+    middle,
+    working_digits,
+)
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.far_along import far_value
 from nag.numerics.implicit_function import SeriesReduction, eliminate
 from nag.numerics.newton import find_zero, inverse_of
 from nag.numerics.power_series import evaluate
 from nag.numerics.series_zeros import STEPS, ScaledSeries
-from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO, predict_along, sharpen
+from nag.numerics.sharpening import ARRIVED, ZERO, predict_along, sharpen
 
 # Binary logarithms of distances at which a smooth set of zeros is followed; the smaller ones where
 # it bends too much.
@@ -27,16 +37,14 @@ STEP = 3
 # How many digits smaller than their distance the errors of points there may be, in this order:
 # rounding alone; what the ends of series leave; what is left of multiple zeros.
 CLOSER = (12.5, 8.0, 5.0, 2.0)
-# The digits that are taken at least. Values below this share of the digits are zero.
-LEAST_DIGITS, VANISHING = 150, 0.75
+# Values below this share of the digits are zero.
+VANISHING = 0.75
 # Digits in which a zero on a hyperplane is looked at before the set that it may lie on is.
 MORE_DIGITS = 600
 # Digits of coefficients that ask for no more.
 ROUND_NUMBERS = 20
 # Part of the usual work for a zero on a hyperplane: there are others.
 PATIENCE = 0.05
-# How many digits less than it has a zero on a hyperplane is known to.
-CLOSE = 5.0
 # Zeros of truncated series so many times as far as the hyperplane are none of the system's.
 OFF = 1e3
 # Binary logarithms of distances at which hyperplanes pass a singular point.
@@ -49,7 +57,7 @@ def digits_at(system: ExactSystem, k: int) -> int:
     Long coefficients may be nearly equal, and what is small to their difference's power.
     """
     contact = system.most_zeros * (k + 2) * LOG10_2
-    return max(LEAST_DIGITS, int((contact + _length(system) + 20) / VANISHING))
+    return max(DIGITS, int((contact + _length(system) + SPARE) / VANISHING))
 
 
 def _length(system: ExactSystem) -> float:
@@ -63,9 +71,7 @@ def is_exact_zero(system: ExactSystem, found: DeflatedPoint) -> bool:
     Where they are long, zeros may be so close together that fewer digits take them for one.
     """
     long = _length(system)
-    return found.exact and (
-        not long or _vanishes(system, found, int(LEAST_DIGITS + long / VANISHING))
-    )
+    return found.exact and (not long or _vanishes(system, found, int(DIGITS + long / VANISHING)))
 
 
 def order_of_contact(
@@ -86,11 +92,11 @@ def order_of_contact(
         beside = _beside(system, point, rounds, k)
         if beside is None:
             continue
-        first = system.log_residual(beside, LEAST_DIGITS)
-        if first < -VANISHING * LEAST_DIGITS:
-            if digits_at(system, k) <= LEAST_DIGITS:
+        first = system.log_residual(beside, DIGITS)
+        if first < -VANISHING * DIGITS:
+            if digits_at(system, k) <= DIGITS:
                 return 0.0
-            digits = LEAST_DIGITS + int(_length(system) / VANISHING)
+            digits = DIGITS + int(_length(system) / VANISHING)
             begin = (beside, *_reduced(system, beside, rounds, inverse))
             far = far_value(system, *begin, digits)
             if far is None:
@@ -98,7 +104,7 @@ def order_of_contact(
             return 0.0 if far < -VANISHING * digits else max(2.0, -first / ((k + 2) * LOG10_2))
         nearby = _beside(system, point, rounds, k + STEP)
         if nearby is not None:
-            second = system.log_residual(nearby, LEAST_DIGITS)
+            second = system.log_residual(nearby, DIGITS)
             return max(2.0, (first - second) / (STEP * LOG10_2) - 1)
     return inf
 
@@ -120,7 +126,7 @@ def _beside(system: ExactSystem, point: Point, rounds: Sequence[Round], k: int) 
     left = len(point) - sum(len(r.columns) for r in rounds)
     along = [flint.acb((1 + (i + 1) * 1j) * 2.0**-k / (i + 2)) for i in range(left)]
     start = predict_along(system, point, rounds, along)
-    found = None if start is None else sharpen(system, start, rounds, LEAST_DIGITS)
+    found = None if start is None else sharpen(system, start, rounds, DIGITS)
     if found is None:
         return None
     moved = log_norm(a - b for a, b in zip(found[0], point, strict=True))
@@ -133,13 +139,13 @@ def _reduced(
     """One round for the set that several leave, and its inverse, if one does at a general point."""
     if len(rounds) == 1:
         return rounds, inverse
-    slopes = system.values_at(LEAST_DIGITS).jacobian(point)
-    with working_digits(LEAST_DIGITS):
+    slopes = system.values_at(DIGITS).jacobian(point)
+    with working_digits(DIGITS):
         found = regular_block(slopes, system.n, ZERO)
     this = Round(tuple(found.rows), tuple(found.columns))
     if found.rank != sum(len(r.columns) for r in rounds):
         return rounds, inverse
-    block, bits = Block.of(system, this, point), bits_of(LEAST_DIGITS)
+    block, bits = Block.of(system, this, point), BITS
     found = inverse_of(block.jacobian(block.variables, bits), bits)
     return (rounds, inverse) if found is None else ((this,), log_norm(found.entries()))
 
@@ -259,7 +265,7 @@ def _zero_near(
     tries = [(start, -k * LOG10_2 - closer) for closer in CLOSER]
     regular = find_zero(sliced.functions, start, DIGITS, tries[-1][1])
     if regular is not None:
-        tries.insert(0, (regular.point, ARRIVED + CLOSE))
+        tries.insert(0, (regular.point, ARRIVED + ROUNDING))
     for point, reach in tries:
         try:
             zero = deflate(sliced, point, reach, rng, PATIENCE)
@@ -273,7 +279,7 @@ def _zero_near(
 def _on_set(system: ExactSystem, zero: DeflatedPoint, rng: np.random.Generator) -> bool:
     """Whether a zero on a hyperplane lies on a smooth set of zeros that leaves the hyperplane."""
     try:
-        whole = deflate(system, zero.point, ARRIVED + CLOSE, rng, PATIENCE)
+        whole = deflate(system, zero.point, ARRIVED + ROUNDING, rng, PATIENCE)
     except NotDeflated:
         return False
     return whole.exact and whole.free > zero.free

@@ -22,13 +22,11 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_boxes import BITS, FineBox, box_about, holds_conjugate
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import regular_block
-from nag.numerics.digits import bits_of, in_bits, log_norm, middle
+from nag.numerics.digits import LOG10_2, in_bits, log_norm
 from nag.numerics.precise_point import PrecisePoint
 
-# Digits in which ranks are taken, and below which an entry is zero (decimal logarithm).
-DIGITS, ZERO = 150, -50.0
 # Digits of the arithmetic, more than which nothing is said to vanish to.
-MOST_DIGITS = 154.0
+MOST_DIGITS = float(int(LOG10_2 * BITS[-1]))
 MOST_UNKNOWNS = 64
 # Bits of the random weights of conditions.
 WEIGHT = 20
@@ -67,13 +65,13 @@ def deflated_zero(
         zero: to about a hundred digits.
     """
     equations, rows = list(polynomials), slices
-    with in_bits(bits_of(DIGITS)):
-        point = list(zero.centre)
+    with in_bits(BITS[-1]):
+        point = zero.balls
         rounds, of_real = 0, not len(slices)
         while len(point) <= MOST_UNKNOWNS:
             system = BallPolynomials.of(equations, rows)
-            entries = system.jacobian(point, bits_of(DIGITS)).mid().tolist()
-            chosen = regular_block(entries, len(point), ZERO).rows
+            entries = system.jacobian(point, BITS[-1]).tolist()
+            chosen = regular_block(entries, len(point)).rows
             if len(chosen) == len(point):
                 return _proved(system, point, chosen, rounds, of_real)
             parts = rng.integers(-(2**WEIGHT), 2**WEIGHT, (2, len(point) - len(chosen), len(point)))
@@ -122,7 +120,7 @@ def _deflated(
         kernel = flint.acb_mat(matrix).solve(flint.acb_mat(n, 1, right)).entries()
     except ZeroDivisionError:
         return None
-    return [f for f in lifted if f], np.vstack(rows), point + [middle(z) for z in kernel]
+    return [f for f in lifted if f], np.vstack(rows), point + kernel
 
 
 def _proved(

@@ -29,18 +29,16 @@ import numpy as np
 
 from nag.numerics.ball_ranks import regular_block
 from nag.numerics.descent import Descent, Point, Round, descend, total_work
-from nag.numerics.digits import log_norm, log_size, middle, working_digits
+from nag.numerics.digits import DIGITS, SPARE, log_norm, log_size, middle, working_digits
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import jacobian
 from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives
-from nag.numerics.sharpening import ARRIVED, DIGITS, ROUNDING, ZERO, sharpen
+from nag.numerics.sharpening import ARRIVED, ROUNDING, ZERO, sharpen
 
 # Orders of the series in which the lowest terms of what remains are looked for, one after the
 # other, while they do not cost too much: where all terms so far are zero, and where they are not,
 # as at a point that is not known well.
 ORDERS = (3, 6, 12, 17, 24, 34, 48, 68, 96, 136, 192, 272, 384)
-# Digits that rounding may have taken from coefficients beside those that each degree loses.
-SPARE = 20.0
 # Newton's steps after the first may take back half of it, hardly more (decimal logarithm).
 TURNS_BACK = 0.5
 # Lines on which the sizes of forms are looked at before all of their coefficients are.

@@ -27,6 +27,14 @@ def bits_of(digits: float) -> int:
     return round((digits + 1) / LOG10_2)
 
 
+# Digits in which singular points are judged, and what vanishes at zeros of a hundred digits.
+DIGITS = 150
+BITS = bits_of(DIGITS)
+# Digits beyond those that something is known to, and that it is computed with; and such as
+# rounding may have taken of a number that little was done with.
+SPARE, ROUNDING = 20, 5.0
+
+
 def in_bits(bits: int) -> AbstractContextManager[object]:
     """A context in which FLINT's numbers have so many bits: it has no other way to be told."""
     return flint.ctx.workprec(bits)

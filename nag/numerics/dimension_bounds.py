@@ -23,7 +23,15 @@ from nag.numerics.ball_ranks import Field, UnclearRank
 from nag.numerics.curves import curve_through
 from nag.numerics.deflation import MOST_WORK, DeflatedPoint
 from nag.numerics.descent import Round, series_cost
-from nag.numerics.digits import bits_of, doubles, log_size, middle, to_ball, working_digits
+from nag.numerics.digits import (
+    BITS,
+    DIGITS,
+    doubles,
+    log_size,
+    middle,
+    to_ball,
+    working_digits,
+)
 from nag.numerics.dual_space import CurveSearch, DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
@@ -31,7 +39,7 @@ from nag.numerics.local_dimension import LocalDimension
 from nag.numerics.local_structure import FURTHEST, HIGHEST, NUMBERS, REACHES, known_digits
 from nag.numerics.located_zero import LocatedZero, is_exact, locate_zero
 from nag.numerics.power_series import Series, SeriesRing, Terms
-from nag.numerics.sharpening import DIGITS, ZERO, sharpen
+from nag.numerics.sharpening import ZERO, sharpen
 
 # Degrees of the dual space from which on sets of zeros through the point are looked for, if it has
 # not become smaller for two degrees.
@@ -112,7 +120,7 @@ def reduced_bounds(
     found, zero = _bounds(elimination.system.polynomials, kept, error, rng)
     if zero is None:
         return replace(found, point=np.array([complex(c) for c in elimination.lift(found.point)]))
-    lifted = BallPolynomials.of(elimination.images).values(zero, bits_of(DIGITS))
+    lifted = BallPolynomials.of(elimination.images).values(zero, BITS)
     return _told(found, lifted.entries())
 
 
@@ -128,7 +136,7 @@ def _on_hypersurface(
         return is_zero(common([c * k for c, k in zip(zero.exact, powers, strict=True)]))
     point = [c * unit for c, unit in zip(zero.found.point, units, strict=True)]
     sizes = [flint.acb(max(abs(c).mid(), unit)) for c, unit in zip(point, units, strict=True)]
-    system, bits = BallPolynomials.of((common,)), bits_of(DIGITS)
+    system, bits = BallPolynomials.of((common,)), BITS
     (bound,), (value,) = system.sizes(sizes, bits), system.values(point, bits).mid().entries()
     return log_size(value) < ZERO + log_size(flint.acb(bound))
 

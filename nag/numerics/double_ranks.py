@@ -24,6 +24,8 @@ GAP, SINGULAR, NEARLY_SINGULAR = 1e3, 1e-9, 1e-5
 NOTHING = 1e-17
 # Least singular value of gradients of length one that are certainly independent.
 INDEPENDENT = 1e-6
+# Least over largest singular value, or pivot, of rows that are not solved for.
+DEPENDENT = 1e-10
 # Errors of derivatives beside the sizes of their terms.
 NOT_ZERO = 1e-7
 # Larger matrices are left to LAPACK, which takes longer to load than smaller ones take.
@@ -52,6 +54,39 @@ def matrix_corank(matrix: np.ndarray, small: float = SINGULAR) -> int:
     """Corank of a balanced matrix of doubles, see `numerical_corank`."""
     singular = np.linalg.svd(matrix, compute_uv=False)
     return numerical_corank(singular, matrix.shape[1], small)
+
+
+def largest_corank(matrix: np.ndarray, small: float) -> int:
+    """A bound of the corank of a balanced matrix, where trials decide which it is.
+
+    All singular values count that may be zero, beside the largest or one.
+    """
+    singular = np.linalg.svd(matrix, compute_uv=False)
+    clear = int(np.sum(singular > small * max(1.0, singular.max(initial=0.0))))
+    return int(matrix.shape[1] - clear)
+
+
+def smallest_share(matrix: np.ndarray) -> float:
+    """The least singular value over the largest, the inverse of the condition; 0 if all are 0."""
+    singular = np.linalg.svd(matrix, compute_uv=False)
+    return float(singular[-1] / singular[0]) if singular.any() else 0.0
+
+
+def clearly_independent(columns: np.ndarray) -> bool:
+    """Whether columns of complex doubles are independent over the reals, by more than rounding.
+
+    Many digits show the same of the numbers that the doubles were rounded from. Those below one
+    count as they are: of a column of zeros nothing but rounding is left.
+
+    Args:
+        columns: shape ``(rows, columns)``.
+    """
+    real = np.vstack([columns.real, columns.imag])
+    with np.errstate(all="ignore"):
+        real = real / np.maximum(np.linalg.norm(real, axis=0), 1.0)
+    if len(real) < real.shape[1] or not np.isfinite(real).all():
+        return False
+    return bool(np.linalg.svd(real, compute_uv=False).min(initial=1.0) > SINGULAR)
 
 
 def pivot_rows(matrix: np.ndarray, count: int | None = None) -> tuple[list[int], np.ndarray]:

@@ -19,11 +19,11 @@ import flint
 import numpy as np
 
 from nag.numerics.descent import Block, Point, Round, descend
-from nag.numerics.digits import bits_of, doubles, log_norm
+from nag.numerics.digits import BITS, DIGITS, doubles, log_norm
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import move_point
 from nag.numerics.rounds_in_doubles import RoundsInDoubles
-from nag.numerics.sharpening import ARRIVED, DIGITS, LARGEST_INVERSE, predict_along, sharpen
+from nag.numerics.sharpening import ARRIVED, LARGEST_INVERSE, predict_along, sharpen
 
 # How far a set is followed in the variables that are free, or in any, all of them scaled to a size
 # of one (much further out many sets are nearly singular); and in how many steps at most.
@@ -39,8 +39,6 @@ SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING = 0.001, 0.05, 0.05, 1e-6
 FIRST, LEAST = 1e-2, 1e-30
 # Inverses (decimal logarithm) up to which doubles do.
 GOOD = 10.0
-# Bits of the points of a set that is followed in digits.
-BITS = bits_of(DIGITS)
 
 
 def far_value(

@@ -20,7 +20,7 @@ from typing import Any
 import flint
 
 from nag.numerics.ball_polynomials import MonomialProducts, factors_of
-from nag.numerics.digits import log_norm, middle
+from nag.numerics.digits import ROUNDING, log_norm, middle
 from nag.numerics.exact_system import PointValues
 from nag.numerics.power_series import (
     Series,
@@ -132,9 +132,9 @@ class Composition:
 Matrix = list[list[Any]]
 
 # Newton steps for the values at the centre, which may not be zero yet. Slopes are taken anew after
-# each but those that are rounding, of so many digits beside those that the inverse takes: what is
+# each but those that are rounding, `ROUNDING` digits beside those that the inverse takes: what is
 # deflated by their series converges no faster than they are known.
-CONSTANT_STEPS, ROUNDING = 2, 5.0
+CONSTANT_STEPS = 2
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,10 +31,9 @@ from nag.errors import ComponentError
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.text.table import one_line
 
-# Relative error that a point of doubles is taken to have.
+# Relative error that a point of doubles is taken to have; values of the equations, beside their
+# terms, at an exact point that is taken for a rounded one.
 ROUNDED = 1e-8
-# Values of the equations, beside their terms, at an exact point that is taken for a rounded one.
-MOST_ROUNDED = 1e-8
 
 
 class NoSolution(ComponentError):
@@ -193,7 +192,7 @@ def local_dimension_near(
     except NoSolution as reason:
         at = np.array([complex(float(x)) for x in point])
         residual = float(Evaluator.of(system.polynomials, system.n).residuals(at[None]).max())
-        if not residual < MOST_ROUNDED:
+        if not residual < ROUNDED:
             text = f"{reason}; its relative residual is {residual:.1e}"
             raise NoSolution(text) from None
         # The error of a double zero is the square root of what is left of the equations.

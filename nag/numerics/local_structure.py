@@ -18,7 +18,10 @@ from nag.numerics.curves import curve_through, is_exact_zero, point_beside
 from nag.numerics.deflation import MOST_WORK, DeflatedPoint, NotDeflated, deflate
 from nag.numerics.descent import series_cost
 from nag.numerics.digits import (
+    DIGITS,
     LOG10_2,
+    ROUNDING,
+    SPARE,
     doubles,
     rational_point,
     times_power_of_two,
@@ -29,8 +32,8 @@ from nag.numerics.dual_space import CurveSearch, DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.power_series import Series, SeriesRing
-from nag.numerics.precise_point import PrecisePoint
-from nag.numerics.sharpening import DIGITS, ZERO, sharpen
+from nag.numerics.precise_point import POINT_DIGITS, PrecisePoint
+from nag.numerics.sharpening import ZERO, sharpen
 from nag.numerics.singular_point import Place, SingularEnd
 
 # Decimal logarithms of the factors by which the error may exceed what is claimed, in this order.
@@ -49,13 +52,9 @@ HIGHEST = 400
 FIRST_ATTEMPTS, FIRST_STEPS = 3, 15
 # The most digits, beside those, in which a zero is looked at once more.
 MOST_DIGITS = 2000
-# Written digits of a point.
-WRITTEN = 100
 # Errors of such a point in units of its coordinates: at least this, and as much as rounding makes
-# of it by the inverse Jacobian; none is said to be smaller than the last.
-ERROR, ROUNDED, LEAST = 1e-120, 1e-135, 1e-300
-# Of these, how many may differ in two points that are one.
-REPEATED = 20.0
+# of it by the inverse Jacobian.
+ERROR, ROUNDED = 1e-120, 1e-135
 # Clusters of clusters are not resolved further than this.
 DEEPEST = 3
 
@@ -96,7 +95,7 @@ def judge_zero(
             spread = LOG10_2 * (max(system.scales, default=0) - min(system.scales, default=0))
         y = [times_power_of_two(c, -k) for c, k in zip(precise, system.scales, strict=True)]
         reach = log10(max(accuracy, 1e-300))
-        return _judged(system, y, max(reach, 5.0 - DIGITS), rng, effort, spread or 0.0)
+        return _judged(system, y, max(reach, ROUNDING - DIGITS), rng, effort, spread or 0.0)
 
 
 def _units(x: np.ndarray, radii: np.ndarray) -> tuple[float, np.ndarray]:
@@ -105,7 +104,7 @@ def _units(x: np.ndarray, radii: np.ndarray) -> tuple[float, np.ndarray]:
     Coordinates are at most one in them, and those that are known best are of size one. Those that
     may be zero are so beside the others, however well that is known.
     """
-    sizes, least = np.abs(x), 10 ** (5.0 - DIGITS)
+    sizes, least = np.abs(x), 10 ** (ROUNDING - DIGITS)
     there = radii < sizes
     if not there.any():
         return max(float(radii.max(initial=0.0)), least), np.ones(len(x))
@@ -292,7 +291,7 @@ def _resolved(
             if one.place is not Place.ISOLATED or one.precise is None:
                 continue
             apart = (one.precise.log_distance(other) for other in known)
-            if all(distance > REPEATED - WRITTEN for distance in apart):
+            if all(distance > SPARE - POINT_DIGITS for distance in apart):
                 known.append(one.precise)
                 result.append(one)
     return result if component is None else [*result, component]
@@ -326,8 +325,8 @@ def _precise(system: ExactSystem, found: DeflatedPoint, y: Sequence[flint.acb]) 
     """A zero as well as the conditions of one beside it let it be known."""
     x = _unscaled(system, y)
     error = max(ERROR, 10.0 ** max(found.inverse, 0.0) * ROUNDED)
-    radii = error * np.exp2(system.scales) + 10.0 ** (1 - WRITTEN) * np.abs(doubles(x))
-    return PrecisePoint(tuple(x), np.maximum(radii, LEAST))
+    radii = error * np.exp2(system.scales) + 10.0 ** (1 - POINT_DIGITS) * np.abs(doubles(x))
+    return PrecisePoint(tuple(x), np.maximum(radii, 1e-300))
 
 
 def _unscaled(system: ExactSystem, y: Sequence[flint.acb]) -> list[flint.acb]:
@@ -359,8 +358,8 @@ def _end(
 
 
 def known_digits(a: flint.arb) -> str:
-    """The digits of a ball that are certain to one unit of the last, at most `WRITTEN`."""
-    return "0" if a.contains(0) else a.str(WRITTEN, radius=False)
+    """The digits of a ball that are certain to one unit of the last, at most `POINT_DIGITS`."""
+    return "0" if a.contains(0) else a.str(POINT_DIGITS, radius=False)
 
 
 def _undecided(x: np.ndarray, accuracy: float, reason: str) -> SingularEnd:

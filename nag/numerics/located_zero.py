@@ -16,15 +16,12 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.curves import is_exact_zero
 from nag.numerics.deflation import DeflatedPoint, NotDeflated, SeriesTooLong, certain_round, deflate
 from nag.numerics.descent import Round
-from nag.numerics.digits import doubles, middle, rational_point, to_ball
+from nag.numerics.digits import DIGITS, ROUNDING, doubles, middle, rational_point, to_ball
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.local_structure import FURTHEST, REACHES
 from nag.numerics.scaling import scaled_terms, variable_scales
-from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO
+from nag.numerics.sharpening import ARRIVED, ZERO
 from nag.numerics.sharpening import ROUNDING as STALLED
-
-# An exact point is known to all digits but these.
-ROUNDING = 5.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from nag.numerics.digits import doubles, log_norm, times_power_of_two
 from nag.numerics.newton import Functions, find_zero
 
 # Decimal digits that zeros are worked out to where nothing else is said.
-DIGITS = 100
+POINT_DIGITS = 100
 # Exponents beyond which an error is none, or is unknown.
 LEAST_ERROR, LARGEST_ERROR = -300.0, 300.0
 # What Newton's method may move a zero in doubles by, relative: decimal logarithm.
@@ -97,7 +97,7 @@ def _of_parts(parts: Sequence[Sequence[tuple[int, int]]], radii: np.ndarray) -> 
 
 
 def precise_zero(
-    system: Functions, z: np.ndarray, digits: float = DIGITS, within: float = NEAR
+    system: Functions, z: np.ndarray, digits: float = POINT_DIGITS, within: float = NEAR
 ) -> PrecisePoint | None:
     """The regular zero near a point in doubles, shape ``(n,)``; None if there is none near.
 

@@ -10,44 +10,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from itertools import chain
-from math import log10
 
 import flint
-import numpy as np
 
 from nag.numerics.ball_ranks import known_zero, regular_block
-from nag.numerics.digits import bits_of, in_bits
+from nag.numerics.digits import LOG10_2, SPARE, bits_of, in_bits
 
 # Digits by which an approximation must be better than its size explains.
 EVIDENCE = 20
 # A rest counts as zero if its balls are smaller than this power of the working precision.
 SHARP = 0.4
-LOG10_2 = log10(2.0)
-# Digits beyond those of the columns that are computed with.
-SPARE = 20
-# Singular values of columns of length one at most that are far beyond the rounding of doubles.
-CLEAR = 1e-9
 
 
 class TooFewDigitsError(ArithmeticError):
     """A relation whose coefficients are not recognised in the digits that there are."""
-
-
-def clearly_independent(columns: np.ndarray) -> bool:
-    """Whether columns of complex doubles are independent over the reals, by more than rounding.
-
-    Many digits show the same of the numbers that the doubles were rounded from. Those below one
-    count as they are: of a column of zeros nothing but rounding is left.
-
-    Args:
-        columns: shape ``(rows, columns)``.
-    """
-    real = np.vstack([columns.real, columns.imag])
-    with np.errstate(all="ignore"):
-        real = real / np.maximum(np.linalg.norm(real, axis=0), 1.0)
-    if len(real) < real.shape[1] or not np.isfinite(real).all():
-        return False
-    return bool(np.linalg.svd(real, compute_uv=False).min(initial=1.0) > CLEAR)
 
 
 def rank_of_columns(columns: Sequence[Sequence[flint.acb]], digits: int) -> int | None:

@@ -17,9 +17,9 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.numerics.descent import Round
+from nag.numerics.digits import DIGITS
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.power_series import SeriesRing, Terms, derivatives, exponents_of_degree
-from nag.numerics.sharpening import DIGITS
 
 # Differences are taken over so much, the scaled variables being of size one.
 APART = 2.0**-17

@@ -18,6 +18,7 @@ import numpy as np
 
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
+from nag.numerics.double_ranks import DEPENDENT, smallest_share
 
 # Exponents beyond this would leave the range of doubles.
 LARGEST = 200
@@ -26,8 +27,8 @@ INERTIA = 1e-2
 # Binary orders between the coefficients of an equation from which on those that are odd lose their
 # weight, in so many steps: no scales bring such to the digits that doubles have to spare.
 ODD, SWEEPS = 40, 12
-# Least over largest singular value of the coefficients of rows that are made orthogonal.
-DEPENDENT, NEARLY_ORTHOGONAL = 1e-12, 0.1
+# Least over largest singular value of the coefficients of rows that are left as they are.
+NEARLY_ORTHOGONAL = 0.1
 
 
 def magnitude(c: Number | complex) -> float:
@@ -199,8 +200,7 @@ def independent_rows(
             continue
         monomials = sorted(support)
         matrix = np.array([[float(rows[i][e]) for e in monomials] for i in indices])
-        singular = np.linalg.svd(matrix, compute_uv=False)
-        if not DEPENDENT < singular[-1] / singular[0] < NEARLY_ORTHOGONAL:
+        if not DEPENDENT < smallest_share(matrix) < NEARLY_ORTHOGONAL:
             continue
         lower = np.linalg.qr(matrix.T, mode="r").T
         combine = np.linalg.inv(lower)

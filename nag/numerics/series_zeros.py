@@ -9,12 +9,11 @@ import flint
 import numpy as np
 
 from nag.numerics.digits import log_norm
+from nag.numerics.double_ranks import NEARLY_SINGULAR, smallest_share
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.sharpening import ZERO
 
 STEPS = 60
-# Singular values beside the largest one that are those of a regular zero.
-REGULAR = 1e-5
 # Singular values beside the largest one that Newton's method does not divide by.
 RANK = 1e-12
 # Steps beside the point that lead nowhere, and those that are rounding errors.
@@ -86,8 +85,7 @@ class ScaledSeries:
     def regular(self, u: np.ndarray) -> bool:
         """Whether a zero is a regular one, as far as doubles can tell."""
         _, jacobian = self._values(u)
-        values = np.linalg.svd(jacobian, compute_uv=False)
-        return len(values) == self.m and bool(values[-1] > REGULAR * values[0])
+        return len(jacobian) >= self.m and smallest_share(jacobian) > NEARLY_SINGULAR
 
     def newton(
         self, u: np.ndarray, plane: np.ndarray | None = None, most: int = STEPS

@@ -9,15 +9,15 @@ from typing import Protocol, TypeVar
 import flint
 
 from nag.numerics.descent import Block, Descent, Point, Round, descend
-from nag.numerics.digits import bits_of, log_norm
+from nag.numerics.digits import BITS, DIGITS, bits_of, log_norm
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import find_zero, move_point
 from nag.numerics.power_series import SeriesRing
 from nag.numerics.second_round import SecondRound
 
-# Digits in which singular points are judged. What vanishes there stays below 10^ZERO, relative to
+# What vanishes at a singular point, of `DIGITS` digits, stays below 10^ZERO, relative to
 # coefficients of one; Newton's method has arrived when its step is below 10^ARRIVED.
-DIGITS, ZERO, ARRIVED = 150, -100.0, -125.0
+ZERO, ARRIVED = -100.0, -125.0
 NEWTON_STEPS = 24
 # A longer step (decimal logarithm) leads elsewhere.
 FURTHEST_STEP = -0.3
@@ -150,5 +150,5 @@ def predict_along(
         step = descend(system, DIGITS, point, rounds, 2, along)
         change = None if step is None else step.displacement
     else:
-        change = Block.of(system, rounds[0], point).tangent_change(along, bits_of(DIGITS))
-    return None if change is None else move_point(point, change, bits_of(DIGITS))
+        change = Block.of(system, rounds[0], point).tangent_change(along, BITS)
+    return None if change is None else move_point(point, change, BITS)

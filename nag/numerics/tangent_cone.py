@@ -23,20 +23,16 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.ball_ranks import row_echelon
-from nag.numerics.digits import log_size, rational, working_digits
+from nag.numerics.digits import DIGITS, log_size, rational, working_digits
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import local_dimension
+from nag.numerics.local_structure import NOTHING
 from nag.numerics.located_zero import exact_zero
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.read_only import fixed_mapping
-from nag.numerics.sharpening import DIGITS
 
 # Orders beyond this are not looked at.
 HIGHEST = 8
-# Decimal logarithm of what is zero in 150 digits.
-NOTHING = -90.0
-
-
 # Digits of coefficients that are not rational, as they are printed.
 SHOWN = 8
 

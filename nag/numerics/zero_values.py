@@ -16,6 +16,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import BITS
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 
@@ -38,8 +39,8 @@ ALIKE, NOTHING = 1e-6, 1e-60
 WRITTEN = 1e-90
 # Values beside their terms that are zero at zeros of a hundred digits.
 VANISHES = 1e-80
-# Bits in which values at points in balls are taken, and such as doubles are the middles of.
-BITS, LEAST_BITS = 502, 128
+# Bits in which the sizes of terms are added up.
+LEAST_BITS = 128
 
 
 def possible_zeros(

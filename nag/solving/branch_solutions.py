@@ -28,7 +28,7 @@ from nag.numerics.branch_union import (
     find_repeats,
     multiplicities_in_scheme,
 )
-from nag.numerics.digits import bits_of, doubles
+from nag.numerics.digits import DIGITS, bits_of, doubles
 from nag.numerics.natural_coordinates import NaturalCoordinates, comparable_coordinates
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import (
@@ -40,7 +40,6 @@ from nag.numerics.zero_values import (
     widen_error,
 )
 from nag.solving.isolated_zero import ROUNDING
-from nag.solving.missing_zeros import DIGITS
 from nag.solving.path_search import SolveTask
 from nag.solving.solutions import LargerSets, PathStatistics, Solution, SolveResult
 

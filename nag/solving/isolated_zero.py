@@ -12,6 +12,7 @@ from nag.numerics.coincidence import SAFETY
 from nag.numerics.digits import bits_of, in_bits, number_of_words
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import SingularEnd
+from nag.numerics.zero_values import VANISHES
 from nag.solving.start.target import StartSystem
 from nag.tracking.paths import Ball
 
@@ -19,8 +20,6 @@ from nag.tracking.paths import Ball
 DIGITS = 110
 # Relative error of a coordinate in doubles, where a few operations led to it.
 ROUNDING = 2.0**-50
-# Least distance, beside their size or one, of zeros that are two.
-TWO = 1e-80
 # Imaginary parts of real points, relative to their size, where errors are underestimated.
 REAL = 1e-10
 
@@ -69,7 +68,7 @@ class IsolatedZero(NamedTuple):
         """Whether two zeros are two, in the digits that both are known to."""
         if self.fine is None or other.fine is None:
             return False
-        error = max(TWO, self.fine.error + other.fine.error)
+        error = max(VANISHES, self.fine.error + other.fine.error)
         pairs = zip(self.fine.centre, other.fine.centre, strict=True)
         return any(float(abs(a - b).mid()) > error * (1 + float(abs(a).mid())) for a, b in pairs)
 
@@ -92,7 +91,7 @@ def which_are_real(zeros: Sequence[IsolatedZero]) -> np.ndarray:
         fine = zeros[i].fine
         parts = np.array([float(abs(z.imag).mid()) for z in fine.centre])
         # A small coordinate may be known far better than others.
-        over = parts / np.maximum(fine.radii, TWO * (1 + np.abs(points[i])))
+        over = parts / np.maximum(fine.radii, VANISHES * (1 + np.abs(points[i])))
         imaginary[i], errors[i] = over.max(initial=0.0), SAFETY
     real = imaginary <= errors
     for i in np.flatnonzero(in_doubles & ~real & (imaginary <= REAL * sizes)).tolist():

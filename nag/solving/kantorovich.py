@@ -24,6 +24,7 @@ from nag.algebra.family import Family
 from nag.numerics.array_table import ArrayTable
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import bits_of, doubles
+from nag.numerics.krawczyk import invert_matrices
 
 EPS = float(np.finfo(float).eps)
 # Newton steps in doubles at most, and with residuals in `DIGITS` digits.
@@ -161,7 +162,7 @@ class Confirmation:
         """Kantorovich's bounds at points; ``exact`` are residuals without rounding errors."""
         n = self.family.n
         matrix, factor = self._scale_jacobian(points, values, lengths)
-        inverse = _invert_each(matrix)
+        inverse = invert_matrices(matrix)
         z = self._append_parameters(points, values)
         # Derivatives in directions of these lengths are at most those where coordinates have them.
         reach = np.maximum(np.abs(points), lengths)
@@ -219,15 +220,4 @@ def _solve_linear(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
     try:
         return np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
     except np.linalg.LinAlgError:
-        return (_invert_each(matrix) @ right[:, :, None])[:, :, 0]
-
-
-def _invert_each(matrix: np.ndarray) -> np.ndarray:
-    try:
-        return np.linalg.inv(matrix)
-    except np.linalg.LinAlgError:
-        result = np.full_like(matrix, np.nan)
-        for i, m in enumerate(matrix):
-            if np.isfinite(m).all() and np.linalg.matrix_rank(m) == len(m):
-                result[i] = np.linalg.inv(m)
-        return result
+        return (invert_matrices(matrix) @ right[:, :, None])[:, :, 0]

@@ -10,20 +10,18 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.zero_count import Completeness
+from nag.numerics.digits import DIGITS
 from nag.numerics.singular_point import Place, analyse
+from nag.numerics.zero_values import SLACK
 from nag.solving.isolated_zero import IsolatedZero
 from nag.solving.path_search import PathSearch
 from nag.solving.tropical_zeros import tropical_zeros
 from nag.tracking.paths import PathStatus
 
-# Digits in which these zeros are known.
-DIGITS = 150
 # They are looked for beside so many paths: cells take time as well.
 MOST_PATHS = 2000
 # Lost paths at whose last points zeros are looked for, and how near to one these are at best.
 MOST_LOST, NEAR = 16, 1e-6
-# Errors of known points, in those estimated, in which another zero may not lie.
-SAFETY = 1e3
 # Binary logarithm of a size at which a zero may look infinite to the least evidence: some 1e8.
 EXTREME = 26.0
 
@@ -105,4 +103,4 @@ def _known_zeros(search: PathSearch) -> tuple[np.ndarray, np.ndarray]:
     accuracy = np.array([z.accuracy for z in isolated])
     # Errors of projective points are relative to all coordinates together.
     sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
-    return points, SAFETY * accuracy * sizes**2
+    return points, SLACK * accuracy * sizes**2

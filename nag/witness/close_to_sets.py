@@ -20,9 +20,8 @@ from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre
 from nag.witness.slices import pad_rows
 
-# Digits in which zeros are looked at; those nearer to each other than this (decimal logarithm),
-# relative to one, are the same.
-DIGITS, SAME = 100, -80.0
+# Zeros nearer to each other than this (decimal logarithm), relative to one, are the same.
+SAME = -80.0
 # Doubles are no more accurate than this, relative to the point; regular ends nearer to a zero than
 # this are compared with it in digits.
 ROUNDED, CLOSE = 1e-15, 1e-9

@@ -9,7 +9,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.precise_point import DIGITS, PrecisePoint, precise_zero
+from nag.numerics.precise_point import POINT_DIGITS, PrecisePoint, precise_zero
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import ON, all_vanish
 from nag.witness.close_points import zero_from
@@ -63,7 +63,7 @@ def find_vanishing(fibre: Fibre, f: Polynomial) -> list[bool | None]:
 
 
 def zero_in_digits(fibre: Fibre, i: int) -> PrecisePoint | None:
-    """A point of a fibre, added unknowns included, to `DIGITS` digits.
+    """A point of a fibre, added unknowns included, to `POINT_DIGITS` digits.
 
     One that is close to others is known to as many more as these differ by. None where Newton's
     method does not lead to it.
@@ -73,7 +73,7 @@ def zero_in_digits(fibre: Fibre, i: int) -> PrecisePoint | None:
         return precise_zero(BallPolynomials.of(polynomials, pad_rows(fibre.rows, 1 + len(z))), z)
     fine = fibre.fine[i]
     more = int(2 * np.log10(max(fine.curvature, 1.0)))
-    return zero_from(polynomials, fibre.rows, fine, DIGITS + more)
+    return zero_from(polynomials, fibre.rows, fine, POINT_DIGITS + more)
 
 
 def _vanish_at(fibre: Fibre, i: int, equations: Sequence[Polynomial]) -> bool | None:

@@ -15,7 +15,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import regular_block
-from nag.numerics.digits import bits_of, in_bits, middle
+from nag.numerics.digits import BITS, in_bits, middle
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import all_vanish, is_negligible
 from nag.witness.close_points import CLOSE, PointInWords, fine_of_balls, with_newton_constant
@@ -26,8 +26,8 @@ from nag.witness.fibres import Fibre, admit_end
 from nag.witness.isosingular import DeflatedEquations
 from nag.witness.slices import pad_rows
 
-# Digits that are computed with, and in which a pivot is none (decimal logarithm).
-DIGITS, ZERO = 150, -80.0
+# A pivot that is none in `DIGITS` digits (decimal logarithm).
+ZERO = -80.0
 # Part of its size that a point is off where doubles tell Newton's constant there: where other zeros
 # are close, second corrections are 1e-8 then, which at conditions up to 1e8 no rounding error is.
 PROBED = 1e-6
@@ -79,7 +79,7 @@ def admit_zero(
     if zero.precise is None:
         return False
     x = list(zero.precise.centre)
-    with in_bits(bits_of(DIGITS)):
+    with in_bits(BITS):
         for i, fibre in enumerate(fibres):
             if fibre.cut.deflated != (zero.multiplicity != 1):
                 continue
@@ -203,7 +203,7 @@ def _unknowns(
 
 def _slopes(polynomials: Sequence[Polynomial], z: list[flint.acb]) -> flint.acb_mat:
     blank = np.zeros((0, 1 + len(z)), dtype=complex)
-    return BallPolynomials.of(polynomials, blank).jacobian(z, bits_of(DIGITS)).mid()
+    return BallPolynomials.of(polynomials, blank).jacobian(z, BITS).mid()
 
 
 def _times(slopes: flint.acb_mat, q: np.ndarray) -> list[list[flint.acb]]:
@@ -225,7 +225,7 @@ def _independent(
 ) -> list[int] | None:
     """As many equations as determine a point on slices; None if they do not."""
     n, need = len(x), len(x) - len(slices)
-    jacobian = BallPolynomials.of(polynomials, slices).jacobian(x, bits_of(DIGITS)).tolist()
+    jacobian = BallPolynomials.of(polynomials, slices).jacobian(x, BITS).tolist()
     matrix = []
     for i, row in enumerate(jacobian):
         size = _size(row)

@@ -11,6 +11,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
+from nag.numerics.double_ranks import DEPENDENT
 from nag.numerics.zero_values import ON
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
@@ -20,9 +21,6 @@ from nag.witness.fibres import Fibre, move
 from nag.witness.given_component import check_component
 from nag.witness.slices import to_slice, unit_complex
 from nag.witness.witness import Slice, WitnessSet
-
-# Rows whose singular values differ by more than this count as dependent.
-DEPENDENT = 1e-10
 
 
 class SliceError(ComponentError):

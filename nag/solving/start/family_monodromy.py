@@ -22,6 +22,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.family import Family
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.errors import StartError
+from nag.numerics.double_ranks import NEARLY_SINGULAR, smallest_share
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solution_classes import SolutionClasses
 from nag.solving.start.scalings import random_scaling, scaling_weights
@@ -37,9 +38,8 @@ Progress = Callable[[str, int, int], None]
 # is known; and loops in all.
 CONFIRMING, IDLE = 3, 8
 MOST_LOOPS = 120
-# Random points and Newton steps that are tried for a first solution; and how much larger the
-# largest singular value of its Jacobian may be than the smallest.
-SEEDS, NEWTON_STEPS, WORST = 200, 60, 1e5
+# Random points and Newton steps that are tried for a first solution.
+SEEDS, NEWTON_STEPS = 200, 60
 # A step that is rounding alone, relative to the point, and values there that are, to their terms.
 ARRIVED, VANISHING = 1e-14, 1e-13
 # A loop that loses a path finds it again later, so that nothing is tracked twice. Points that are
@@ -92,8 +92,7 @@ def first_solution(family: Family, rng: np.random.Generator) -> tuple[np.ndarray
                 break
         if not np.isfinite(z).all() or evaluator.residuals(z[None]).max() > VANISHING:
             continue
-        singular = np.linalg.svd(evaluator.jacobian(z)[:, :n], compute_uv=False)
-        if singular[0] <= WORST * singular[-1]:
+        if smallest_share(evaluator.jacobian(z)[:, :n]) > NEARLY_SINGULAR:
             return z[n:], z[:n]
     raise StartError("parameter: no regular solution was found by Newton's method")
 

@@ -20,6 +20,7 @@ from functools import partial
 import flint
 import numpy as np
 
+from nag.algebra.exact_ranks import LARGE
 from nag.errors import StartError
 from nag.numerics.digits import bits_of, in_bits
 from nag.solving.start.coefficient_monodromy import (
@@ -97,17 +98,15 @@ def irreducible_row(supports: Sequence[np.ndarray], rng: np.random.Generator) ->
     """
     n = len(supports)
 
-    def in_span(i: int) -> np.ndarray:
-        return rng.normal(size=len(supports[i])) @ supports[i]
+    def in_span(i: int) -> list[int]:
+        weights = np.rint(2.0**LONG * rng.normal(size=len(supports[i])))
+        return (weights.astype(np.int64).astype(object) @ supports[i].astype(object)).tolist()
 
     degrees = [int(s.sum(axis=1).max()) for s in supports]
     # A row of high degree gains the fewest solutions by a form that is linear.
     for row in sorted(range(n), key=lambda i: (-degrees[i], len(supports[i]), i)):
         others = [i for i in range(n) if i != row]
-        if all(
-            np.linalg.matrix_rank(np.array([in_span(i) for i in (*others, twice)])) == n
-            for twice in others
-        ):
+        if all(LARGE.rank([in_span(i) for i in (*others, twice)]) == n for twice in others):
             return row
     return None
 

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from nag.algebra.exact_ranks import LARGE
 from nag.algebra.family import Family
 
-# Singular values of the matrix of differences of exponents, whole numbers, that are zero.
-ZERO = 1e-9
 # Starts and steps of the search for the nearest scaling.
 TRIALS, NEWTON_STEPS = 8, 20
 
@@ -29,12 +28,13 @@ def scaling_weights(family: Family) -> np.ndarray:
     for f in family.polynomials:
         exponents = np.array(list(f.terms), dtype=float).reshape(-1, size)
         rows.append(exponents[1:] - exponents[:1])
-    _, singular, basis = np.linalg.svd(np.concatenate(rows), full_matrices=True)
-    rank = int((singular > ZERO * max(1.0, singular.max(initial=0.0))).sum())
-    kernel = basis[rank:]
+    matrix = np.concatenate(rows)
+    whole = matrix.astype(int).tolist()
+    dimension = size - LARGE.rank(whole)
+    kernel = np.linalg.svd(matrix, full_matrices=True)[2][size - dimension :]
     # Of the kernel that part is kept which moves parameters.
-    _, moved, directions = np.linalg.svd(kernel[:, n:], full_matrices=False)
-    count = int((moved > ZERO).sum())
+    directions = np.linalg.svd(kernel[:, n:], full_matrices=False)[2]
+    count = dimension - n + LARGE.rank([row[:n] for row in whole])
     if not count:
         return np.zeros((0, size))
     coordinates = np.linalg.lstsq(kernel[:, n:].T, directions[:count].T, rcond=None)[0]

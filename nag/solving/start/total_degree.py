@@ -19,6 +19,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Exponents
 from nag.errors import StartError
+from nag.numerics.double_ranks import DEPENDENT
 from nag.solving.start.interchange import Interchange, interchange
 from nag.solving.start.target import (
     StartSystem,
@@ -35,8 +36,6 @@ from nag.tracking.known import KnownOfPaths
 MOST_TERMS = 10_000
 # Largest integer such that doubles hold all up to it.
 LARGEST_WHOLE = 2**53
-# Pivots below this belong to linear equations that depend on others.
-DEPENDENT = 1e-10
 # Start points are kept in memory.
 MOST_PATHS = 4_000_000
 
