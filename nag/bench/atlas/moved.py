@@ -107,6 +107,14 @@ SPARSE: dict[str, tuple[str, ...]] = {
         "spatial/bricard-trihedral", "spatial/bricard_cube", "spatial/general-7r",
         "spatial/schatz", "spatial/spherical-pair-6r", "spatial/sarrus",
     ),
+    "sparse-arms": (
+        "spatial/puma-held", "spatial/ur5-held", "spatial/seven-joint-arm",
+        "spatial/seven-joint-arm-offset",
+    ),
+    "sparse-walking": (
+        "planar/jansen-leg", "planar/chebyshev-four-bar", "planar/lambda-linkage",
+        "planar/hart-inversor",
+    ),
     "sparse-planar": ("planar/eight-bar", "planar/six-bar-placed"),
     "sparse-spatial": ("spatial/sarrus-kinematotropic", "spatial/universal-shaft"),
     "sparse-large": ("benchmarks/rhombus-chain-5",),
