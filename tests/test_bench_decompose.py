@@ -17,7 +17,7 @@ from nag.bench.decomposition import (
     measure_decomposition,
     rhombus_chain,
 )
-from nag.bench.models import measure_models, measure_parts
+from nag.bench.models import measure_models
 from nag.bench.table import decomposition_table as table
 from nag.bench.table import models_table
 from nag.cli import main
@@ -117,7 +117,7 @@ def test_models_are_measured_in_every_formulation_that_can_be_tracked():
 def test_parts_are_measured_in_every_coordinates_with_the_same_components():
     """A four-bar's sextic curve, by the turns of its links and by the places of its pins."""
     parts = read_case(CASES / "planar" / "four-bar.toml").assembly
-    turns, pins = measure_parts("four-bar", parts, 120)
+    turns, pins = measure_models("four-bar", parts, 120)
     assert (turns.formulation, pins.formulation) == ("turns (c, s)", "pins (x, y)")
     assert (turns.taken, pins.taken) == (True, False)
     # The two linear equations are solved: three distances are left.

@@ -13,8 +13,7 @@ from nag.cli import main
 from nag.files.cases import read_case
 from nag.files.export import read_export
 from nag.mechanism.coordinates import carry_to_euler
-from nag.mechanism.dh import DHModel
-from nag.mechanism.dh_euler import dh_euler_model
+from nag.mechanism.dh import DHModel, dh_euler_model
 from nag.mechanism.loop_product import displacement
 from nag.mechanism.problem import problem_of
 

@@ -12,16 +12,14 @@ from typing import Any
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.decompose import decompose
 from nag.mechanism.assembly import AssemblyModel
-from nag.mechanism.dh import DHLoop
-from nag.mechanism.dh_euler import table_alternatives, table_model
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import model
-from nag.mechanism.parts_coordinates import coordinates_of_parts
 from nag.mechanism.path_estimates import fewest_estimated_paths
 from nag.mechanism.problem import problem_of
 from nag.witness.witness import Decomposition
 
-Parts = Mechanism | DHLoop | AssemblyModel
+Parts = Mechanism | AssemblyModel
+UNREDUCED = "unreduced"
 
 # Systems whose estimated number of paths is larger are not tracked.
 MOST_PATHS = 200_000
@@ -62,37 +60,27 @@ class Formulated:
 
 
 def measure_models(
-    name: str, mechanism: Mechanism, patience: float, formulations: Sequence[str] | None = None
+    name: str, given: Parts, patience: float, formulations: Sequence[str] | None = None
 ) -> list[Formulated]:
-    """Every formulation of a mechanism, the unreduced one first, each given ``patience`` seconds.
+    """A mechanism, a table or parts in all formulations, or coordinates, that they may have.
+
+    Each is given ``patience`` seconds. The unreduced equations of a mechanism are the first.
 
     Raises:
-        nag.mechanism.model.ModelError: if the mechanism has no loop.
+        nag.mechanism.model.ModelError: if a mechanism has no loop.
     """
-    chosen = model(mechanism)
-    rows = [_measured(name, "unreduced", False, chosen.unreduced, mechanism, patience)]
-    for each in chosen.alternatives:
-        if each.form is None or (formulations and each.formulation not in formulations):
-            continue
-        taken = each.formulation == chosen.formulation
-        rows.append(_measured(name, each.formulation, taken, each.system, mechanism, patience))
+    problem = problem_of(given)
+    made, rows = problem.model, []
+    if problem.mechanism is not None:
+        unreduced = problem.mechanism.unreduced
+        rows.append(_measured(name, UNREDUCED, False, unreduced, given, patience))
+    covered = [a for a in made.alternatives if a.form is not None]
+    taken = made.formulation or covered[0].formulation
+    for each in covered:
+        if not formulations or each.formulation in formulations:
+            here = each.formulation == taken
+            rows.append(_measured(name, each.formulation, here, each.system, given, patience))
     return rows
-
-
-def measure_table(name: str, loop: DHLoop, patience: float) -> list[Formulated]:
-    """A table by Denavit and Hartenberg in every formulation, each given ``patience`` seconds."""
-    return [
-        _measured(name, each.formulation, each.formulation == "H", each.system, loop, patience)
-        for each in table_alternatives(loop)
-    ]
-
-
-def measure_parts(name: str, parts: AssemblyModel, patience: float) -> list[Formulated]:
-    """A linkage or a framework in all its coordinates, each given ``patience`` seconds."""
-    return [
-        _measured(name, each.formulation, each.taken, each.system, parts, patience)
-        for each in coordinates_of_parts(parts)
-    ]
 
 
 def _measured(
@@ -100,7 +88,7 @@ def _measured(
     formulation: str,
     taken: bool,
     system: PolynomialSystem,
-    mechanism: Parts,
+    given: Parts,
     patience: float,
 ) -> Formulated:
     degrees = sorted(f.degree for f in system.polynomials)[: system.n]
@@ -115,18 +103,18 @@ def _measured(
     )
     if row.estimate > MOST_PATHS:
         return row
-    answer = _in_time(mechanism, formulation, patience)
+    answer = _in_time(given, formulation, patience)
     if answer is None:
         return row
     seconds, paths, components, complete = answer
     return replace(row, paths=paths, seconds=seconds, components=components, complete=complete)
 
 
-def _in_time(mechanism: Parts, formulation: str, patience: float) -> Any:
+def _in_time(given: Parts, formulation: str, patience: float) -> Any:
     """What `_decomposed` gives, in a process of its own, which is ended when time is over."""
     context = multiprocessing.get_context("spawn")
     receiving, sending = context.Pipe(False)
-    process = context.Process(target=_send, args=(sending, mechanism, formulation))
+    process = context.Process(target=_send, args=(sending, given, formulation))
     process.start()
     sending.close()
     try:
@@ -138,26 +126,17 @@ def _in_time(mechanism: Parts, formulation: str, patience: float) -> Any:
         process.join()
 
 
-def _send(sending: Any, mechanism: Parts, formulation: str) -> None:
-    sending.send(_decomposed(mechanism, formulation))
+def _send(sending: Any, given: Parts, formulation: str) -> None:
+    sending.send(_decomposed(given, formulation))
 
 
 def _decomposed(
-    mechanism: Parts, formulation: str
+    given: Parts, formulation: str
 ) -> tuple[float, int, tuple[tuple[int, int, int], ...], bool]:
     best = float("inf")
     for warm in (False, True):
         begin = time.process_time()
-        if not isinstance(mechanism, Mechanism | DHLoop):
-            answer = _of_parts(mechanism, formulation)
-        elif isinstance(mechanism, DHLoop):
-            table = table_model(mechanism, formulation)
-            answer = decompose(table.system, symmetries=table.symmetries)
-        elif formulation == "unreduced":
-            answer = decompose(model(mechanism, "E").unreduced)
-        else:
-            made = model(mechanism, formulation)
-            answer = decompose(made.system, symmetries=made.symmetries)
+        answer = _answer(given, formulation)
         best = min(best, time.process_time() - begin) if warm else best
         if not warm and time.process_time() - begin > 10:
             best = time.process_time() - begin
@@ -165,11 +144,13 @@ def _decomposed(
     return best, answer.paths.tracked, _kinds(answer), answer.complete
 
 
-def _of_parts(parts: AssemblyModel, coordinates: str) -> Decomposition:
-    each = next(c for c in coordinates_of_parts(parts) if c.formulation == coordinates)
-    if each.taken:
-        return problem_of(parts).decompose()
-    return decompose(each.parts.system, symmetries=each.parts.symmetries)
+def _answer(given: Parts, formulation: str) -> Decomposition:
+    if formulation == UNREDUCED:
+        return decompose(model(given, "E").unreduced)
+    if isinstance(given, AssemblyModel) and given.formulation is None:
+        others = {a.formulation: a.form for a in given.alternatives[1:]}
+        return problem_of(others.get(formulation, given)).decompose()
+    return problem_of(given, formulation=formulation).decompose()
 
 
 def _kinds(answer: Decomposition) -> tuple[tuple[int, int, int], ...]:

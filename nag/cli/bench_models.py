@@ -37,7 +37,7 @@ def files(names: list[str] | None, folder: str) -> list[Path]:
 
 def run(options: argparse.Namespace) -> CommandAnswer:
     """Formulations side by side; complete if every answer that came is."""
-    from nag.bench.models import measure_models, measure_parts, measure_table
+    from nag.bench.models import measure_models
     from nag.bench.table import models_table
     from nag.mechanism.model import ModelError
 
@@ -51,12 +51,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         if not options.quiet:
             print(f"{path.stem} ...", file=sys.stderr, flush=True)
         try:
-            if case.mechanism is not None:
-                rows += measure_models(path.stem, case.mechanism, options.patience)
-            elif case.assembly.formulation is None:
-                rows += measure_parts(path.stem, case.assembly, options.patience)
-            else:
-                rows += measure_table(path.stem, case.assembly.loop, options.patience)
+            rows += measure_models(path.stem, case.mechanism or case.assembly, options.patience)
         except ModelError as error:
             raise UsageError(f"{path}: {error}") from None
     document = {"format": "nag-bench-models", "rows": [r.document() for r in rows]}

@@ -6,12 +6,12 @@ Read in this order, bottom-up: `graph` on `joint_types` (the data), `networkx_gr
 equations), and `half_angles` and `rods` on `joint_factors` and `loop_product` (their loop
 equations); `assembly_modes`, `mode_classes` and `mode_decomposition`; `configuration` (all bodies),
 and `unreduced` (all constraints, for checks). Other ways to give one are `framework` (with
-`framework_model`, `isotropic` and `framework_decomposition`), `dh` (with `dh_euler`) and `linkage`,
-on `assembly` and `real_assemblies`; `parts_coordinates` is what each of their coordinates would
-cost. `problem` is what all of these come down to, and cases and equations with them, and what
-`nag.decompose` and `nag.solve` ask; `coordinates` carries its components over to Euler parameters,
-`other_equations` are those that must say the same. `mobility_at` with `mobility_report` and `bonds`
-says how one moves; `shown` is what is seen at the prompt.
+`framework_model`, `isotropic` and `framework_decomposition`), `dh` and `linkage`, on
+`assembly` and `real_assemblies`. `problem` is what all of these come down to, and cases and
+equations with them, and what `nag.decompose` and `nag.solve` ask; `coordinates` carries its
+components over to Euler parameters, `other_equations` are those that must say the same.
+`mobility_at` with `mobility_report` and `bonds` says how one moves; `shown` is what is seen at the
+prompt.
 
 To add a type of joint, write its record in `joint_types.JOINT_TYPES`, by the rules at the head of
 that file, and a row in the README: all formulations, case files, graphs and tables read it from

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.axes import Space
+from nag.mechanism.path_estimates import Alternative
 
 # Imaginary parts of real assemblies, relative to the size of the point.
 REAL = 1e-8
+
+
+@dataclass(frozen=True)
+class Side:
+    """Two places a known distance apart: the ends of a bar, or two pins of a link."""
+
+    ends: tuple[str, str]
+    squared: Number
+    name: str
 
 
 class AssemblyModel:
@@ -31,6 +42,10 @@ class AssemblyModel:
         solution: what one solution is called.
         counted_up_to: what solutions are the same up to, in words after their number.
         points_of_each: how many solutions each assembly is.
+        alternatives: all formulations, or all coordinates, those that components are found in
+            first.
+        joint_types: the types of the joints, where each is a constraint on two bodies' frames.
+        sides: places that the parts keep at a distance, where these are all that they keep.
     """
 
     system: PolynomialSystem
@@ -47,6 +62,9 @@ class AssemblyModel:
     solution = "assembly"
     counted_up_to = ""
     points_of_each = 1
+    alternatives: tuple[Alternative, ...]
+    joint_types: tuple[str, ...] = ()
+    sides: tuple[Side, ...] = ()
 
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real assembly, to within rounding.

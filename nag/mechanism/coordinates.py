@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from nag.decomposition.given_points import best_lifted, components_through_points
-from nag.mechanism.dh_euler import dh_euler_model
+from nag.mechanism.dh import dh_euler_model
 from nag.mechanism.model import Model, model
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.rods import RodModel

@@ -4,39 +4,57 @@ Row i of the table takes the frame of joint i to that of joint i + 1: a turn by 
 slide by d along z, a slide by a along x, a turn by alpha about x. The loop closes when the product
 of all rows is the identity. In dual quaternions a turn of half-angle (c : s) is c + s k, all other
 factors are constant, and the product has to be a real number (Hegedus, Schicho & Schroecker 2013).
+This one product gives both formulations. In half-angles two neighbouring turns of it are eliminated
+(`loop_product`).
+
+In Euler parameters a body lies between two open joints. Its frame is that of the joint before it,
+after the turn, so that the body's constant factor (p, v) of rotation and translation leads to the
+frame of the next joint before its turn. Joint i + 1 turns about the common z axis: with
+r = conj(a) b for the bodies a before and b after it, conj(p) r is a turn about z, two equations
+linear in r (T25, lemma 2.1). The loop closes when the sum of all R(a) v vanishes. The last body is
+the base, its frame the global one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from math import acos, degrees, sqrt
 from typing import Any
 
+from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.number import Number, is_zero
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import zero_length
+from nag.mechanism.configuration import arithmetic_of, as_entries
+from nag.mechanism.euler import independent_equations, parameter_names, sign_changes
 from nag.mechanism.graph import Joint, Mechanism
-from nag.mechanism.joint_factors import UNIT, Charts, Factor
+from nag.mechanism.joint_factors import NOTHING, ONE, UNIT, ZERO, Charts, Factor
 from nag.mechanism.loop_product import Closure, Element, closure_of
+from nag.mechanism.path_estimates import Alternative
 from nag.mechanism.quaternion import (
     DualQuaternion,
+    conjugate,
     dual_multiply,
+    multiply,
     norm_squared,
     rotate,
+    scale,
     translation,
 )
 from nag.text.table import count_text
 
 HalfAngle = tuple[Number, Number]
 
-ZERO, ONE = Fraction(0), Fraction(1)
-_NONE = (ZERO, ZERO, ZERO, ZERO)
-_AXIS: DualQuaternion = ((ZERO, ZERO, ZERO, ONE), _NONE)
+_AXIS: DualQuaternion = ((ZERO, ZERO, ZERO, ONE), NOTHING)
+
+# The formulations of a table, by rising number of paths.
+FORMULATIONS = ("H", "E")
 
 # An equation has two to the number of open joints terms.
 MOST_JOINTS = 12
@@ -79,8 +97,15 @@ class Row:
         """The row without its turn about z, up to a real factor."""
         offset: DualQuaternion = ((ONE, ZERO, ZERO, ZERO), (ZERO, ZERO, ZERO, self.d / 2))
         length: DualQuaternion = ((ONE, ZERO, ZERO, ZERO), (ZERO, self.a / 2, ZERO, ZERO))
-        twist: DualQuaternion = ((self.alpha[0], self.alpha[1], ZERO, ZERO), _NONE)
+        twist: DualQuaternion = ((self.alpha[0], self.alpha[1], ZERO, ZERO), NOTHING)
         return dual_multiply(dual_multiply(offset, length), twist)
+
+    @property
+    def displacement(self) -> DualQuaternion:
+        """The whole row, its angle being given, up to a real factor."""
+        assert self.theta is not None
+        c, s = self.theta
+        return dual_multiply(((c, ZERO, ZERO, s), NOTHING), self.link)
 
 
 @dataclass(frozen=True)
@@ -108,6 +133,18 @@ class DHLoop:
         """Numbers of the joints whose angles are not given."""
         return tuple(i for i, row in enumerate(self.rows) if row.theta is None)
 
+    @property
+    def links(self) -> list[DualQuaternion]:
+        """All that is constant after each open joint, up to the next one, as one factor."""
+        found: list[DualQuaternion] = []
+        start = self.open[0]
+        for row in (*self.rows[start:], *self.rows[:start]):
+            if row.theta is None:
+                found.append(row.link)
+            else:
+                found[-1] = dual_multiply(found[-1], row.displacement)
+        return found
+
 
 class TableModel(AssemblyModel):
     """All ways to close a table with open angles, in whatever formulation.
@@ -119,6 +156,7 @@ class TableModel(AssemblyModel):
     loop: DHLoop
 
     space = "spatial"
+    joint_types = ("revolute",)
     solution = "closing"
 
     @property
@@ -130,6 +168,11 @@ class TableModel(AssemblyModel):
     def gruebler_kutzbach(self) -> int:
         """The mobility that counting predicts."""
         return len(self.loop.open) - 6
+
+    @property
+    def alternatives(self) -> tuple[Alternative, ...]:
+        """The table in all its formulations, by rising number of paths."""
+        return tuple(Alternative(name, table_model(self.loop, name)) for name in FORMULATIONS)
 
 
 @dataclass(frozen=True)
@@ -216,7 +259,7 @@ def assemble_table(loop: DHLoop) -> Mechanism:
     """
     if loop.open:
         raise DHError("some angles are open", loop.open[0], "theta")
-    total: DualQuaternion = ((ONE, ZERO, ZERO, ZERO), _NONE)
+    total = UNIT
     joints = []
     count = len(loop.rows)
     for i, row in enumerate(loop.rows):
@@ -225,7 +268,7 @@ def assemble_table(loop: DHLoop) -> Mechanism:
         point = tuple(x / size for x in moved)
         bodies = (f"link{(i - 1) % count + 1}", f"link{i + 1}")
         joints.append(Joint(row.name, "revolute", bodies, point, axis))
-        total = dual_multiply(dual_multiply(total, _turn(*row.theta)), row.link)
+        total = dual_multiply(total, row.displacement)
     if not all(is_zero(x) for x in (*total[0][1:], *total[1])):
         raise DHError(_gap(total))
     return Mechanism(f"link{count}", tuple(joints))
@@ -243,27 +286,10 @@ def _gap(total: DualQuaternion) -> str:
     )
 
 
-def open_joints(loop: DHLoop) -> tuple[tuple[int, ...], list[DualQuaternion]]:
-    """The open joints, and all that is constant after each of them, as one factor."""
-    start = loop.open[0]
-    count = len(loop.rows)
-    numbers: list[int] = []
-    links: list[DualQuaternion] = []
-    for i in ((start + j) % count for j in range(count)):
-        row = loop.rows[i]
-        if row.theta is None:
-            numbers.append(i)
-            links.append(row.link)
-        else:
-            held = dual_multiply(_turn(*row.theta), row.link)
-            links[-1] = dual_multiply(links[-1], held)
-    return tuple(numbers), links
-
-
 def _choose_closure(loop: DHLoop) -> Closure:
     """The loop with two neighbouring turns eliminated, about skew axes if there are such."""
     elements: list[Element] = []
-    for number, link in zip(*open_joints(loop), strict=True):
+    for number, link in zip(loop.open, loop.links, strict=True):
         turn = Factor(loop.rows[number].name, "turn", (UNIT, _AXIS))
         elements += [Element(turn, turn.generators), Element(None, (link,))]
     found = []
@@ -279,7 +305,106 @@ def _choose_closure(loop: DHLoop) -> Closure:
     raise DHError("all axes are one line: every joint turns freely")
 
 
-def _turn(c: Any, s: Any) -> DualQuaternion:
-    """c + s k."""
-    zero = 0 * c
-    return (c, zero, zero, s), (zero, zero, zero, zero)
+@dataclass(frozen=True)
+class DHEulerModel(TableModel):
+    """All ways to close a table, by the Euler parameters of the bodies between its open joints.
+
+    Attributes:
+        loop: the table.
+        links: each body's rotation and translation from its joint's frame to the next one's; body i
+            follows the i-th open joint.
+        elimination: from all Euler parameters to the variables of `system`.
+        system: norms, prime components of the joints, and the closure of the loop.
+        symmetries: the sign changes of the bodies' Euler parameters.
+    """
+
+    loop: DHLoop
+    links: tuple[DualQuaternion, ...]
+    elimination: Elimination
+    system: PolynomialSystem
+    symmetries: tuple[SignedPermutation, ...]
+
+    formulation = "E"
+
+    @property
+    def points_of_each(self) -> int:
+        """How many solutions each closing is: Euler parameters have signs."""
+        return 2 ** len(self.symmetries)
+
+    @property
+    def reason(self) -> str:
+        """One sentence: what was made of the table."""
+        moving = len(self.links) - 1
+        return (
+            f"formulation E: loop of {len(self.loop.rows)} revolute joints by Denavit and "
+            f"Hartenberg's numbers; Euler parameters of {moving} bodies, each in the frame of the "
+            f"joint before it, {2 ** len(self.symmetries)} sign changes of them keep the equations"
+        )
+
+    def of_half_angles(self, source: DHModel, point: Sequence[Any]) -> tuple[Any, ...]:
+        """The point of `system`, one of an orbit, that a closing in half-angles is.
+
+        Exact for exact points, with square roots where norms are no squares.
+
+        Raises:
+            ZeroDivisionError: at a point of norm zero, which is no closing.
+        """
+        point = as_entries(point)
+        arithmetic = arithmetic_of(point)
+        convert = arithmetic.convert
+        angles = source.turns(point, convert)
+        values: list[Any] = []
+        before: Sequence[Any] = tuple(convert(x) for x in UNIT[0])
+        for i, number in enumerate(self.loop.open[:-1]):
+            c, s = angles[self.loop.rows[number].name]
+            rotation = tuple(convert(x) for x in self.links[i - 1][0])
+            turned = multiply(multiply(before, rotation), (c, 0 * c, 0 * c, s))
+            before = scale(turned, convert(ONE) / arithmetic.sqrt(norm_squared(turned)))
+            values += before
+        return tuple(values[k] for k in self.elimination.kept)
+
+
+def dh_euler_model(loop: DHLoop) -> DHEulerModel:
+    """The closure equations of a table in Euler parameters.
+
+    Raises:
+        DHError: if no angle is open.
+    """
+    if not loop.open:
+        raise DHError("no angle is open; leave some open")
+    links = loop.links
+    moving = len(links) - 1
+    names = parameter_names(moving)
+    n = len(names)
+    variables = Polynomial.variables(n)
+    bodies = [tuple(variables[4 * i : 4 * i + 4]) for i in range(moving)]
+    bodies.append(tuple(Polynomial.constant(n, x) for x in UNIT[0]))
+    equations = [norm_squared(a) - 1 for a in bodies[:-1]]
+    for i in range(moving + 1):
+        # The body before the first one is the base, the last.
+        turn = multiply(conjugate(links[i - 1][0]), multiply(conjugate(bodies[i - 1]), bodies[i]))
+        equations += turn[1:3]
+    total: Sequence[Any] = (ZERO,) * 3
+    for body, link in zip(bodies, links, strict=True):
+        moved, size = translation(link)
+        turned = rotate(body, tuple(x / size for x in moved))
+        total = tuple(x + y for x, y in zip(turned, total, strict=True))
+    equations += total
+    full = PolynomialSystem(names, tuple(f for f in equations if f))
+    elimination = eliminate_linear(full, graphs=False)
+    system = independent_equations(elimination)
+    symmetries = tuple(map(SignedPermutation.of_signs, sign_changes(moving, elimination)))
+    return DHEulerModel(loop, tuple(links), elimination, system, symmetries)
+
+
+def table_model(loop: DHLoop, formulation: str) -> DHModel | DHEulerModel:
+    """A table's equations in half-angles or in Euler parameters.
+
+    Raises:
+        DHError: if it has no such formulation, or too few angles are open.
+    """
+    if formulation not in FORMULATIONS:
+        raise DHError(
+            f"formulation {formulation}: a table has formulations {' and '.join(FORMULATIONS)}"
+        )
+    return dh_model(loop) if formulation == "H" else dh_euler_model(loop)

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 
-from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import FEWEST_LOOPS
-from nag.errors import MechanismError
 from nag.mechanism import FORMULATIONS
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space
@@ -16,38 +13,12 @@ from nag.mechanism.euler import EulerModel, euler_model
 from nag.mechanism.graph import Joint
 from nag.mechanism.half_angles import HalfAngleModel, half_angle_model
 from nag.mechanism.loops import LoopStructure
-from nag.mechanism.path_estimates import PathNumbers
+from nag.mechanism.path_estimates import Alternative
 from nag.mechanism.planar import PlanarModel, planar_model
 from nag.mechanism.rods import RodModel, rod_model
 from nag.text.table import count_text, join_words
 
 Form = EulerModel | HalfAngleModel | PlanarModel | RodModel
-
-
-class ModelError(MechanismError):
-    """A mechanism that the asked formulation does not cover."""
-
-
-@dataclass(frozen=True)
-class Alternative(PathNumbers):
-    """A formulation of a mechanism, or why it does not cover it.
-
-    Attributes:
-        formulation: one of `FORMULATIONS`.
-        form: the equations; None if the formulation does not cover the mechanism.
-        problem: why not; empty otherwise.
-    """
-
-    formulation: str
-    form: Form | None
-    problem: str = ""
-
-    @property
-    def system(self) -> PolynomialSystem:
-        """The equations."""
-        if self.form is None:
-            raise ModelError(f"formulation {self.formulation}: {self.problem}")
-        return self.form.system
 
 
 def alternative(

@@ -22,11 +22,11 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.mechanism.assembly import REAL, AssemblyModel
+from nag.mechanism.assembly import REAL, AssemblyModel, Side
 from nag.mechanism.axes import Space, cross, difference, dot
 from nag.mechanism.framework import Framework, FrameworkError, Place
 from nag.mechanism.isotropic import conjugates, isotropic_system
-from nag.mechanism.path_estimates import fewest_estimated_paths
+from nag.mechanism.path_estimates import Alternative, fewest_estimated_paths
 
 
 @dataclass(frozen=True)
@@ -110,6 +110,19 @@ class FrameworkModel(AssemblyModel):
         )
 
     @property
+    def alternatives(self) -> tuple[Alternative, ...]:
+        """All coordinates, those that components are found in first."""
+        taken = (self.smaller or self).coordinates
+        each = sorted(in_each_coordinates(self), key=lambda m: m.coordinates != taken)
+        return tuple(Alternative.of_parts(_letters(m.coordinates), m) for m in each)
+
+    @property
+    def sides(self) -> tuple[Side, ...]:
+        """The bars."""
+        bars = zip(self.framework.bars, self.framework.squared_lengths, strict=True)
+        return tuple(Side(bar, squared, f"bar {'-'.join(bar)}") for bar, squared in bars)
+
+    @property
     def paths(self) -> int:
         """Estimated number of paths that equation by equation are tracked at most."""
         return fewest_estimated_paths(self.system)
@@ -147,8 +160,11 @@ def framework_model(framework: Framework) -> FrameworkModel:
 
 def _in_words(coordinates: str) -> str:
     kind = "isotropic coordinates" if coordinates.startswith("z") else "coordinates"
-    letters = ", ".join(coordinates)
-    return f"{kind} {letters}" if len(coordinates) == 1 else f"{kind} ({letters})"
+    return f"{kind} {_letters(coordinates)}"
+
+
+def _letters(coordinates: str) -> str:
+    return coordinates if len(coordinates) == 1 else f"({', '.join(coordinates)})"
 
 
 def _isotropic_model(framework: Framework) -> FrameworkModel:

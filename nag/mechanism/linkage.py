@@ -20,13 +20,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from nag.algebra.number import Number, is_zero
+from nag.algebra.number import Number, is_zero, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
-from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.assembly import AssemblyModel, Side
 from nag.mechanism.graph import connected_to
 from nag.mechanism.loops import minimum_cycles
+from nag.mechanism.path_estimates import Alternative
 from nag.text.table import count_text
 
 Place = tuple[Number, Number]
@@ -147,6 +148,26 @@ class LinkageModel(AssemblyModel):
     def freedoms_left_out(self) -> tuple[tuple[int, str], ...]:
         """The turns of links that close nothing."""
         return ((len(self.free), "the links that hang on one pin"),) if self.free else ()
+
+    @property
+    def alternatives(self) -> tuple[Alternative, ...]:
+        """In turns of the links, in which components are found, and in places of the pins."""
+        turns = linkage_model(self.linkage)
+        each = {"turns (c, s)": turns, "pins (x, y)": pin_model(turns)}
+        return tuple(Alternative.of_parts(name, made) for name, made in each.items())
+
+    @property
+    def sides(self) -> tuple[Side, ...]:
+        """Pairs of pins of a link; those of two links that share both once."""
+        found: dict[frozenset[str], Side] = {}
+        for link in self.linkage.links:
+            for j, second in enumerate(link.pins):
+                for i, first in enumerate(link.pins[:j]):
+                    gaps = (p - q for p, q in zip(link.shape[i], link.shape[j], strict=True))
+                    squared = sum((x * x for x in gaps), square_root(0))
+                    side = Side((first, second), squared, f"link {link.name}")
+                    found.setdefault(frozenset(side.ends), side)
+        return tuple(found.values())
 
     @property
     def reason(self) -> str:

@@ -18,9 +18,7 @@ from nag.mechanism.axes import Space, same_line, space_of, zero_length
 from nag.mechanism.configuration import Configuration
 from nag.mechanism.euler import EulerModel
 from nag.mechanism.formulations import (
-    Alternative,
     Form,
-    ModelError,
     alternative,
     alternatives,
     description,
@@ -30,7 +28,7 @@ from nag.mechanism.formulations import (
 from nag.mechanism.graph import Joint, Mechanism, check_mechanism
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
-from nag.mechanism.path_estimates import path_bound
+from nag.mechanism.path_estimates import Alternative, ModelError, path_bound
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.rods import RodModel
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
@@ -110,6 +108,11 @@ class Model:
     def alternatives(self) -> tuple[Alternative, ...]:
         """All formulations of the mechanism, by rising number of paths."""
         return alternatives(self.structure, self.space, self.modes)
+
+    @property
+    def joint_types(self) -> tuple[str, ...]:
+        """The types of the mechanism's joints, each once."""
+        return tuple(dict.fromkeys(j.type for j in self.mechanism.joints))
 
     @property
     def gruebler_kutzbach(self) -> int:

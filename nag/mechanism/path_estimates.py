@@ -1,26 +1,61 @@
-"""How many paths a system may ask for: what the choice among models goes by."""
+"""The equations that a mechanism or parts may have, and how many paths each may ask for.
+
+These numbers are what the choice among formulations, and among coordinates, goes by.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate, combinations
 from math import comb, factorial, prod
 from operator import mul, sub
+from typing import Any
 
+from nag.algebra.elimination import eliminate_linear
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import looped_turns
+from nag.errors import MechanismError
 
 # So many ways to spend what equations leave are followed at most, whatever time that takes: the
 # choice of a model must not depend on the machine.
 MOST_STATES = 2_000
 
 
-class PathNumbers:
-    """How many paths a system may ask for, by several counts."""
+class ModelError(MechanismError):
+    """A mechanism that the asked formulation does not cover."""
 
-    system: PolynomialSystem
+
+@dataclass(frozen=True)
+class Alternative:
+    """Equations that a mechanism, a table or parts may have, or why they have none like that.
+
+    Attributes:
+        formulation: its name; of parts that have none, that of their coordinates.
+        form: what the equations are those of; None if the formulation does not cover the
+            mechanism.
+        problem: why not; empty otherwise.
+        solved: what is left of parts' equations when linear ones have been solved; None where those
+            of ``form`` have been already.
+    """
+
+    formulation: str
+    form: Any
+    problem: str = ""
+    solved: PolynomialSystem | None = None
+
+    @classmethod
+    def of_parts(cls, coordinates: str, form: Any) -> Alternative:
+        """The equations of parts in some coordinates."""
+        return cls(coordinates, form, solved=eliminate_linear(form.system, graphs=False).system)
+
+    @property
+    def system(self) -> PolynomialSystem:
+        """The equations, the linear ones solved."""
+        if self.form is None:
+            raise ModelError(f"formulation {self.formulation}: {self.problem}")
+        return self.form.system if self.solved is None else self.solved
 
     @property
     def bezout(self) -> int:
@@ -35,12 +70,17 @@ class PathNumbers:
     @cached_property
     def at_once(self) -> int | None:
         """Number of paths to a slice where these may be all it takes: see `paths_at_once`."""
-        return paths_at_once(self.system)
+        return paths_at_once(self.system if self.solved is None else self.form.system)
 
     @property
     def most(self) -> int:
-        """Estimated number of paths that equation by equation are tracked at most."""
-        return estimated_paths(self.system)
+        """Estimated number of paths that equation by equation are tracked at most.
+
+        Of parts with their groups of variables or without, whichever are fewer.
+        """
+        if self.solved is None:
+            return estimated_paths(self.system)
+        return fewest_estimated_paths(self.solved)
 
     @property
     def paths(self) -> int:

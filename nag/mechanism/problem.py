@@ -235,7 +235,7 @@ def _of_parts(parts: AssemblyModel, formulation: str) -> Problem:
     if formulation not in ("auto", parts.formulation):
         if parts.formulation is None:
             check_formulation(formulation)
-        from nag.mechanism.dh_euler import table_model
+        from nag.mechanism.dh import table_model
 
         parts = table_model(parts.loop, formulation)  # type: ignore[attr-defined]
     known = () if parts.reference is None else (NamedPoint("placement", parts.reference),)

@@ -8,7 +8,6 @@ for by Newton's method from random real points; where none is found, nothing is 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from math import sqrt
 
@@ -18,22 +17,12 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number, square_root
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel, cartesian_model
-from nag.mechanism.linkage import LinkageModel
 from nag.text.table import join_words
 from nag.witness.gauss_newton import IterationEnd, descend, polish
 
 STARTS = 24
 # Values, beside their terms, of what must not vanish at an assembly, at a zero known to rounding.
 NONZERO = 1e-8
-
-
-@dataclass(frozen=True)
-class Side:
-    """Two places a known distance apart: the ends of a bar, or two pins of a link."""
-
-    ends: tuple[str, str]
-    squared: Number
-    name: str
 
 
 def obstacle(parts: AssemblyModel) -> str:
@@ -45,7 +34,7 @@ def obstacle(parts: AssemblyModel) -> str:
     """
     import networkx
 
-    sides = list(_sides(parts))
+    sides = parts.sides
     graph: networkx.Graph = networkx.Graph()
     for side in sides:
         graph.add_edge(*side.ends, side=side, length=sqrt(float(side.squared)))
@@ -73,7 +62,8 @@ def real_assemblies(parts: AssemblyModel, seed: int = 0) -> Iterator[IterationEn
     system, size = parts.system, 1.0
     if isinstance(parts, FrameworkModel) and parts.coordinates.startswith("z"):
         system = cartesian_model(parts.framework).system
-        squares = [float(s / parts.framework.squared_lengths[0]) for s in _squares(parts)]
+        squared = parts.framework.squared_lengths
+        squares = [float(s / squared[0]) for s in squared]
         size = 1 + sqrt(max(squares))
     evaluator = Evaluator.of(system.polynomials, system.n)
     nonzero = Evaluator.of(system.nonzero, system.n)
@@ -120,25 +110,3 @@ def real_text(parts: AssemblyModel, coranks: Collection[int]) -> str:
         coranks: as for `real_doubt`.
     """
     return real_doubt(parts, coranks) or "a real one was found"
-
-
-def _squares(parts: FrameworkModel) -> tuple[Number, ...]:
-    return parts.framework.squared_lengths
-
-
-def _sides(parts: AssemblyModel) -> Iterator[Side]:
-    if isinstance(parts, FrameworkModel):
-        for bar, squared in zip(parts.framework.bars, _squares(parts), strict=True):
-            yield Side(bar, squared, f"bar {'-'.join(bar)}")
-    if isinstance(parts, LinkageModel):
-        seen: set[frozenset[str]] = set()
-        for link in parts.linkage.links:
-            for j, second in enumerate(link.pins):
-                for i, first in enumerate(link.pins[:j]):
-                    # Links that share two pins are one side here.
-                    if frozenset((first, second)) in seen:
-                        continue
-                    seen.add(frozenset((first, second)))
-                    gaps = (p - q for p, q in zip(link.shape[i], link.shape[j], strict=True))
-                    squared = sum((x * x for x in gaps), square_root(0))
-                    yield Side((first, second), squared, f"link {link.name}")

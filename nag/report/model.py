@@ -11,12 +11,9 @@ from nag.text.table import align, count_text, printable
 
 if TYPE_CHECKING:
     from nag.mechanism.assembly import AssemblyModel
-    from nag.mechanism.dh import DHModel
-    from nag.mechanism.dh_euler import DHEulerModel
-    from nag.mechanism.formulations import Alternative
     from nag.mechanism.framework import Framework
     from nag.mechanism.model import Model
-    from nag.mechanism.parts_coordinates import PartsCoordinates
+    from nag.mechanism.path_estimates import Alternative
     from nag.mechanism.problem import Problem
 
 Rows = list[tuple[str, str]]
@@ -83,19 +80,29 @@ def _framework_rows(framework: Framework) -> Rows:
 
 def formulation_lines(problem: Problem) -> list[str]:
     """Joints, and every formulation or all coordinates of a problem, the one taken marked."""
-    if problem.mechanism is not None:
-        return _joint_lines(problem.mechanism) + _alternative_lines(problem.mechanism)
-    if problem.parts is None:
+    made = problem.model
+    if made is None:
         return []
-    return (_parts_lines if problem.formulation is None else _table_lines)(problem.parts)
-
-
-def _joint_lines(model: Model) -> list[str]:
-    """The types of the joints and the prime components of their constraints."""
-    return _component_lines(list(dict.fromkeys(j.type for j in model.mechanism.joints)))
+    covered = [a for a in made.alternatives if a.form is not None]
+    others = [a for a in made.alternatives if a.form is None]
+    taken = made.formulation or covered[0].formulation
+    what = "coordinates" if made.formulation is None else "formulation"
+    rows = [[what, "variables", "equations", "Bezout", "groups' bound", "paths", ""]]
+    rows += [] if problem.mechanism is None else [unreduced_row(problem.mechanism)]
+    rows += [[*alternative_row(a), "taken" if a.formulation == taken else ""] for a in covered]
+    return [
+        *_component_lines(made.joint_types),
+        f"{what.removesuffix('s')}s; paths: at most so many, equation by equation",
+        *(f"  {line}" for line in align(rows, (0, 6))),
+        *(line for a in covered for line in _at_once_lines(a)),
+        *(f"  {a.formulation}: {printable(a.problem)}" for a in others),
+    ]
 
 
 def _component_lines(kinds: Sequence[str]) -> list[str]:
+    """The types of the joints and the prime components of their constraints."""
+    if not kinds:
+        return []
     rows = [["joints", "freedoms", "constraints", "modes", "components", "dimension", "degree"]]
     for kind in kinds:
         known = JOINT_TYPES[kind]
@@ -109,51 +116,7 @@ def _component_lines(kinds: Sequence[str]) -> list[str]:
     return [*lines, *(f"  {line}" for line in align(rows, (0, 2)))]
 
 
-def _alternative_lines(model: Model) -> list[str]:
-    """Every formulation with its numbers, the one that is taken marked."""
-    covered = [a for a in model.alternatives if a.form is not None]
-    lines = _formulation_lines(covered, model.formulation, [unreduced_row(model)])
-    lines += [
-        f"  {a.formulation}: {printable(a.problem)}" for a in model.alternatives if a.form is None
-    ]
-    return lines
-
-
-def _table_lines(table: DHModel | DHEulerModel) -> list[str]:
-    """Joints and formulations of a table by Denavit and Hartenberg."""
-    from nag.mechanism.dh_euler import table_alternatives
-
-    return _component_lines(["revolute"]) + _formulation_lines(
-        table_alternatives(table.loop), table.formulation, []
-    )
-
-
-def _parts_lines(parts: AssemblyModel) -> list[str]:
-    """The coordinates of a linkage's or a framework's parts with their numbers."""
-    from nag.mechanism.parts_coordinates import coordinates_of_parts
-
-    each = coordinates_of_parts(parts)
-    taken = next(c.formulation for c in each if c.taken)
-    return _formulation_lines(each, taken, [], "coordinates")
-
-
-def _formulation_lines(
-    covered: Sequence[Alternative | PartsCoordinates],
-    taken: str,
-    others: Sequence[Sequence[str]],
-    what: str = "formulation",
-) -> list[str]:
-    rows = [[what, "variables", "equations", "Bezout", "groups' bound", "paths", ""]]
-    rows += [list(row) for row in others]
-    rows += [[*alternative_row(a), "taken" if a.formulation == taken else ""] for a in covered]
-    return [
-        f"{what.removesuffix('s')}s; paths: at most so many, equation by equation",
-        *(f"  {line}" for line in align(rows, (0, 6))),
-        *(line for a in covered for line in _at_once_lines(a)),
-    ]
-
-
-def _at_once_lines(each: Alternative | PartsCoordinates) -> list[str]:
+def _at_once_lines(each: Alternative) -> list[str]:
     """What is tracked before equations are intersected one by one, if anything is."""
     if each.at_once is None:
         return []
@@ -165,7 +128,7 @@ def _at_once_lines(each: Alternative | PartsCoordinates) -> list[str]:
     ]
 
 
-def alternative_row(each: Alternative | PartsCoordinates) -> list[str]:
+def alternative_row(each: Alternative) -> list[str]:
     """Formulation, variables, equations, Bezout's number, the groups' bound, paths."""
     system = each.system
     numbers = (system.n, len(system.polynomials), each.bezout, each.bound, each.paths)
