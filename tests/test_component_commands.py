@@ -260,9 +260,9 @@ def test_exports_that_are_none_get_one_line(tmp_path, capsys) -> None:
     assert "is not JSON" in capsys.readouterr().err
 
 
-def test_the_commands_of_the_readme_run(tmp_path, monkeypatch, capsys) -> None:
-    readme = (CASES.parent / "README.md").read_text("utf-8")
-    lines = re.findall(r"^    nag (.* rhombus\.json.*)$", readme, re.MULTILINE)
+def test_the_commands_that_are_shown_run(tmp_path, monkeypatch, capsys) -> None:
+    page = (CASES.parent / "docs" / "commands.md").read_text("utf-8")
+    lines = re.findall(r"^    nag (.* rhombus\.json.*)$", page, re.MULTILINE)
     assert [line.split()[0] for line in lines] == ["decompose", "member", "sample", "intersect"]
     (tmp_path / "cases").symlink_to(CASES)
     monkeypatch.chdir(tmp_path)

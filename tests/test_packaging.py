@@ -1,4 +1,4 @@
-"""What is shipped is complete, and the README's commands are the ones that are checked."""
+"""What is shipped is complete, and what the README and `docs` show is what happens."""
 
 from __future__ import annotations
 
@@ -19,11 +19,16 @@ import pytest
 import nag
 import nag.decomposition
 from nag.cli import main
+from nag.cli.command_line import COMMANDS, parser
 from nag.files.export import FORMAT, VERSION
 from nag.files.json_schema import schema
 
 ROOT = Path(__file__).parent.parent
-README = (ROOT / "README.md").read_text("utf-8")
+PAGES = {
+    file.relative_to(ROOT).as_posix(): file.read_text("utf-8")
+    for file in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
+}
+README, COMMAND_PAGE = PAGES["README.md"], PAGES["docs/commands.md"]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 
 
@@ -191,38 +196,80 @@ def test_the_example_of_the_readme_is_what_is_printed(capsys) -> None:
     assert all(x / 10 < y < 10 * x for x, y in zip(written, found, strict=True))
 
 
-def test_the_certificate_of_the_readme_is_what_is_printed(tmp_path, monkeypatch, capsys) -> None:
+def test_the_certificate_that_is_shown_is_what_is_printed(tmp_path, monkeypatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     case = ROOT / "cases" / "benchmarks" / "katsura-8.toml"
-    assert "nag solve cases/benchmarks/katsura-8.toml --json solutions.json\n" in README
+    assert "nag solve cases/benchmarks/katsura-8.toml --json solutions.json\n" in COMMAND_PAGE
     assert main(["solve", str(case), "--json", "solutions.json", "--quiet"]) == 0
     capsys.readouterr()
     assert main(["certify", "solutions.json"]) == 0
     printed = capsys.readouterr().out
-    block = README.split("    $ nag certify solutions.json\n    ...\n")[1].split("\n\n")[0]
+    block = COMMAND_PAGE.split("    $ nag certify solutions.json\n    ...\n")[1].split("\n\n")[0]
     shown = printed[printed.index("certified ") :]
     assert _without_measurements(block) == _without_measurements(shown)
 
 
 def test_a_point_of_a_case_is_named_after_the_file(monkeypatch, capsys) -> None:
     monkeypatch.chdir(ROOT)
-    (command,) = re.findall(r"`nag (member cases/.*?)`", README)
+    (command,) = re.findall(r"`nag (member cases/.*?)`", COMMAND_PAGE)
     assert main([*shlex.split(command), "--quiet"]) == 0
     assert " on it\n" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("text", re.findall(r"```toml\n(.*?)```", README, re.DOTALL))
-def test_the_cases_of_the_readme_give_what_they_say_is_known(text: str, tmp_path, capsys) -> None:
+def _blocks(language: str) -> list[tuple[str, str]]:
+    """What the pages show in a language, each with the page's name."""
+    return [
+        (page, block)
+        for page, text in PAGES.items()
+        for block in re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)
+    ]
+
+
+@pytest.mark.parametrize("text", [block for _, block in _blocks("toml")])
+def test_the_cases_that_are_shown_give_what_they_say_is_known(text: str, tmp_path, capsys) -> None:
     file = tmp_path / "case.toml"
     file.write_text(text, encoding="utf-8")
     assert main(["decompose", str(file), "--quiet"]) == 0
     assert re.search(r"^known +agrees with what is known: ", capsys.readouterr().out, re.MULTILINE)
 
 
-def test_the_programs_of_the_readme_run(tmp_path, monkeypatch) -> None:
-    programs = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+def test_the_programs_that_are_shown_run(tmp_path, monkeypatch) -> None:
     (tmp_path / "cases").symlink_to(ROOT / "cases")
     monkeypatch.chdir(tmp_path)
-    for program in programs:
-        exec(compile(program, "README.md", "exec"), {})
+    for page, program in _blocks("python"):
+        exec(compile(program, page, "exec"), {})
     assert (tmp_path / "bennett.json").is_file()
+
+
+def _heading_names(text: str) -> set[str]:
+    """What links call the headings of a page."""
+    headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_links_lead_to_files_and_headings_that_are_there(page: str) -> None:
+    for target in re.findall(r"\]\(([^)]*)\)", PAGES[page]):
+        path, _, heading = target.partition("#")
+        file = (ROOT / page).parent / path if path else ROOT / page
+        assert file.is_file(), target
+        if heading:
+            assert heading in _heading_names(file.read_text("utf-8")), target
+
+
+def test_a_first_reader_is_shown_every_command_and_not_more_than_200_lines() -> None:
+    named = re.findall(r"^\| \[`nag (\w+)", README, re.MULTILINE)
+    assert sorted(named) == sorted(name for name, _, _ in COMMANDS)
+    assert README.count("\n") <= 200
+
+
+@pytest.mark.parametrize("command", [name for name, _, _ in COMMANDS])
+def test_every_option_is_told_in_the_pages(command: str) -> None:
+    told = "\n".join(PAGES.values())
+    (grammar,) = (a for a in parser([command])._actions if a.dest == "command")
+    left = [grammar.choices[command]]
+    while left:
+        for action in left.pop()._actions:
+            left += action.choices.values() if isinstance(action.choices, dict) else ()
+            for option in action.option_strings:
+                assert option in ("-h", "--help") or re.search(rf"{option}\b", told), option

@@ -234,10 +234,10 @@ def test_a_keyword_that_is_not_known_is_no_schema() -> None:
         find_problem("x", {"type": "string", "pattern": "a"})
 
 
-def test_every_start_system_is_named_by_the_schema_of_solutions_the_help_and_the_readme():
+def test_every_start_system_is_named_by_the_schema_of_solutions_the_help_and_the_commands():
     named_there = schema("nag-solutions")["properties"]["start"]["enum"]
     assert set(named_there) == {"none", "parameter", *KINDS}
-    readme = (CASES.parent / "README.md").read_text("utf-8")
+    page = (CASES.parent / "docs" / "commands.md").read_text("utf-8")
     for kind in ASKED_FOR:
         assert f'``"{kind}"``' in nag.solve.__doc__
-        assert f"| `--start {kind}` |" in readme
+        assert f"| `--start {kind}` |" in page

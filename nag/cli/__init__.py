@@ -11,9 +11,9 @@ document that ``--json`` writes. `running.answer_of` makes one of a title, rows 
 own fields; the documents of `decompose`, `solve` and `certify` are made in `nag.files`, that of
 `eliminate` in `nag.report`.
 
-To add a command, write such a file, enter it in `command_line.COMMANDS` and the README; what it
-exports has a ``format`` and its schema in the folder `nag/files/schema`, to which
-`tests/test_schemas.py` holds what is written.
+To add a command, write such a file, enter it in `command_line.COMMANDS`, the README and
+`docs/commands.md`; what it exports has a ``format`` and its schema in the folder
+`nag/files/schema`, to which `tests/test_schemas.py` holds what is written.
 
 The way of ``nag decompose cases/bennett.toml`` from the command to the table leads through
 `cli/command_line`, `cli/decompose`, `cli/arguments`, `cli/running`; `files/cases`,

@@ -14,8 +14,8 @@ components over to Euler parameters, `other_equations` are those that must say t
 prompt.
 
 To add a type of joint, write its record in `joint_types.JOINT_TYPES`, by the rules at the head of
-that file, and a row in the README: all formulations, case files, graphs and tables read it from
-there, and nothing asks for its name. A new kind of factor is a record in
+that file, and a row in `docs/cases.md`: all formulations, case files, graphs and tables read it
+from there, and nothing asks for its name. A new kind of factor is a record in
 `joint_types.FACTOR_KINDS`, and has its generators in `joint_factors`. Something new that is given
 of a joint, as a pitch, is a field of `graph.Joint` (where `networkx_graph` and `shown` find it) and
 in `joint_types.VECTORS`, and `nag.files.mechanism_case` reads it.

@@ -9,10 +9,10 @@ takes systems to turns in loops (`nag.solving.solve.by_turns`), and `family_mono
 
 To add a start system, write a file whose function makes a `target.StartSystem` of a
 `target.Target`; name the kind in `KINDS`, in the enum ``start`` of
-`nag/files/schema/nag-solutions-1.json` (a test holds the two together) and in the README's table of
-``--start``; make it in `choice._make_start`, where it is asked for, and say in `choice._least_work`
-when it is taken unasked. `nag.solving.certified_paths` proves paths from every kind but monodromy,
-in whose place it takes the one with the least work.
+`nag/files/schema/nag-solutions-1.json` (a test holds the two together) and in the table of
+``--start`` in `docs/commands.md`; make it in `choice._make_start`, where it is asked for, and say
+in `choice._least_work` when it is taken unasked. `nag.solving.certified_paths` proves paths from
+every kind but monodromy, in whose place it takes the one with the least work.
 """
 
 KINDS = ("total", "multihomogeneous", "polyhedral", "monodromy")
