@@ -31,7 +31,7 @@ from systems import system
 from nag.algebra.symmetry import SignedPermutation
 from nag.cli import main
 from nag.decomposition.decompose import decompose
-from nag.files import export, solutions_export
+from nag.files import export
 from nag.solving.solve import solve
 
 Document = dict[str, Any]
@@ -77,9 +77,9 @@ def exports() -> list[Document]:
         (system("x y z", "(x^2 + y^2 - 1)*z", "(y - x^2)*z*(z - 2)", nonzero=("z - 2",)), ()),
         (system("x y z", "z^2 - 2", "x^2 + y^2 - 1"), (mirror,)),
     ]
-    documents = [solutions_export.document(solve(s), "title", "case.toml") for s in solved]
+    documents = [solve(s).document("title", "case.toml") for s in solved]
     origin = export.Origin("title", "case.toml", "system", None, "no choice")
-    documents += [export.document(decompose(s, symmetries=g), origin) for s, g in sets]
+    documents += [decompose(s, symmetries=g).document(**origin.head) for s, g in sets]
     return [json.loads(json.dumps(d)) for d in documents]
 
 

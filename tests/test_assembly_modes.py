@@ -9,7 +9,6 @@ import pytest
 from linkages import case, closed_chain, general_loop, loops_of_all_joints, residual
 from solved import components_of
 
-from nag.files.export import modes_document
 from nag.mechanism.assembly_modes import all_modes
 from nag.mechanism.axes import cross, difference, dot
 from nag.mechanism.loops import loop_structure
@@ -166,11 +165,7 @@ def test_every_mode_of_a_class_has_the_same_components_in_half_angles():
 
 
 def test_the_export_of_all_modes_holds_every_combination_once(bricard_in_all_modes):
-    from linkages import CASES
-
-    from nag.files.cases import read_case
-
-    text = modes_document(bricard_in_all_modes, read_case(CASES / "bricard-cube.toml"))
+    text = bricard_in_all_modes.document("Bricard", "bricard-cube.toml")
     combinations_ = [tuple(sorted(m.items())) for c in text["classes"] for m in c["modes"]]
     assert len(set(combinations_)) == len(combinations_) == 64
     names = [j.name for j in BRICARD.joints]

@@ -32,7 +32,6 @@ from nag.numerics.certified_points import Proof, certify_points, certify_regular
 from nag.numerics.discs import DiscPolynomials, Discs, product
 from nag.numerics.krawczyk import boxes_in_doubles, find_overlaps, prove_boxes, tell_real_zeros
 from nag.numerics.point_claims import zero_digits
-from nag.report.certificate import solution_rows
 from nag.solving.certificate import certify_solutions
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
@@ -355,7 +354,7 @@ def test_a_point_of_any_size_is_told_in_the_certificate_alone(tmp_path, capsys) 
 def test_what_is_left_over_of_deflated_equations_is_said_to_be_evidence() -> None:
     certificate = certify_solutions(solve(system("x y", "(x^2 - 2)^2 + y", "y")))
     assert set(certificate.points.proofs) == {Proof.DEFLATED}
-    lines = [text for _, text in solution_rows(certificate, 0.0)]
+    lines = [text for _, text in certificate.rows(0.0)]
     assert any(line.endswith("digits, which is evidence and no proof") for line in lines)
 
 

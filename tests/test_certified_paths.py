@@ -19,7 +19,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
-from nag.files.export import document, export_of, write_decomposition
+from nag.files.export import export_of, write_decomposition
 from nag.files.json_schema import schema
 from nag.files.solutions_export import write_solutions
 from nag.numerics.discs import DiscPolynomials, Discs
@@ -220,6 +220,6 @@ def test_a_point_that_is_no_solution_is_the_end_of_no_path() -> None:
 def test_a_point_off_a_curve_is_connected_with_none() -> None:
     answer = decompose(nag.system(["x*y - z", "x*z - 1"]))
     assert prove_all(answer)[0].connected
-    written = document(answer)
+    written = answer.document()
     written["components"][0]["points"][0][0][0] += 1e-3
     assert not prove_all(export_of(written).decomposition)[0].connected

@@ -18,7 +18,6 @@ from nag.bench.atlas.families import FAMILIES
 from nag.bench.reference import Reference
 from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
-from nag.files.certificate_export import certificate_document
 from nag.numerics.certified_points import CertifiedPoints
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.singular_point import analyse
@@ -164,7 +163,7 @@ def test_sampled_points_are_as_near_to_the_curve_as_they_say() -> None:
 def test_zeros_beyond_doubles_are_written_to_digits_that_are_right(gap: Fraction) -> None:
     x, y = Polynomial.variables(2)
     system = PolynomialSystem(("x", "y"), (x**2 - 2 * x + 1 - 2 * gap**2, y**2 - x - 2))
-    document = certificate_document(certify_solutions(solve(system)))
+    document = certify_solutions(solve(system)).document()
     points = [p["decimals"] for p in document["points"] if "decimals" in p]
     assert points
     with flint.ctx.workdps(120):

@@ -20,7 +20,6 @@ from nag.algebra.system import PolynomialSystem
 from nag.files.export import (
     ExportError,
     Origin,
-    document,
     export_text,
     read_decomposition,
     read_export,
@@ -212,7 +211,7 @@ def test_irrational_coefficients_read_back_equal_and_are_marked(tmp_path) -> Non
 
 
 def test_every_field_of_a_component_is_exported() -> None:
-    exported = document(circle())["components"][0]
+    exported = circle().document()["components"][0]
     names = {field.name for field in fields(WitnessSet)}
     # The system is written once for all components.
     names -= {"multidegree", "images", "fibres", "system"}
@@ -242,7 +241,7 @@ def test_a_component_that_is_read_back_is_moved_by_the_equations_of_the_file(tmp
 
 
 def test_files_of_version_1_are_read(tmp_path) -> None:
-    old = document(circle())
+    old = circle().document()
     old["version"] = 1
     del old["equations"]
     for component in old["components"]:
@@ -262,7 +261,7 @@ def with_radii_of_its_accuracy(answer: Decomposition) -> Decomposition:
 
 
 def test_files_without_error_radii_are_read(tmp_path) -> None:
-    old = document(circle())
+    old = circle().document()
     for component in old["components"]:
         del component["radii"], component["digits"]
     old["components"][0]["precision"] = "double"
@@ -273,10 +272,10 @@ def test_files_without_error_radii_are_read(tmp_path) -> None:
 
 
 def test_multidegree_is_exported_only_where_the_system_has_groups() -> None:
-    plain = document(circle())
+    plain = circle().document()
     assert "multidegree" not in plain["components"][0]
     system = replace(circle().system, groups=((0,), (1,)))
-    grouped = document(replace(circle(multidegree=[2, 2]), system=system))
+    grouped = replace(circle(multidegree=[2, 2]), system=system).document()
     assert grouped["components"][0]["multidegree"] == [2, 2]
     assert grouped["system"]["groups"] == [["x"], ["y"]]
 
@@ -284,7 +283,7 @@ def test_multidegree_is_exported_only_where_the_system_has_groups() -> None:
 def test_export_names_the_file_without_its_folder_and_holds_exact_polynomials() -> None:
     system = PolynomialSystem(("x",), [Polynomial(1, {(2,): Fraction(1, 3), (0,): Fraction(-7)})])
     empty = Decomposition(system, (), PathCounts(), 0, "default", (0,), True)
-    content = document(empty, Origin("A title", "case.toml", "system"))
+    content = empty.document(**Origin("A title", "case.toml", "system").head)
     assert content["case"] == {"title": "A title", "file": "case.toml", "kind": "system"}
     assert content["system"]["polynomials"] == ["1/3*x^2 - 7"]
     assert content["format"] == "nag-decomposition"
@@ -292,7 +291,7 @@ def test_export_names_the_file_without_its_folder_and_holds_exact_polynomials() 
 
 
 def _broken(change) -> str:
-    content = document(circle())
+    content = circle().document()
     change(content)
     return json.dumps(content)
 

@@ -15,7 +15,6 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.decomposition.decompose import decompose
-from nag.files import export, solutions_export
 from nag.files.export import write_decomposition
 from nag.files.json_schema import schema
 from nag.numerics.claims import Standing
@@ -174,7 +173,7 @@ def test_a_wrong_multiplicity_of_an_isolated_point_is_refuted(multiplicity, stan
 @pytest.mark.parametrize("options", [(), ("--paths",)])
 def test_a_list_of_five_of_nine_solutions_is_not_complete(options, tmp_path: Path) -> None:
     result = solve(PolynomialSystem(("x", "y"), (x**3 - 2 * y**2 + 1, y**3 + x * y - 3)))
-    whole = solutions_export.document(result)
+    whole = result.document()
     status, standings = tampered(whole, tmp_path, *options)
     assert (status, standings["complete"]) == (0, {"proved"})
     status, standings = tampered(whole | {"solutions": whole["solutions"][:5]}, tmp_path, *options)
@@ -191,7 +190,7 @@ def test_a_component_without_one_of_its_points_has_no_linear_trace(tmp_path: Pat
         digits=curve.digits[:2],
         fibres=(),
     )
-    whole, less = (export.document(replace(answer, components=(c,))) for c in (curve, cut))
+    whole, less = (replace(answer, components=(c,)).document() for c in (curve, cut))
     status, standings = tampered(whole, tmp_path, "--paths")
     assert (status, standings["components[].degree"]) == (0, {"on evidence"})
     status, standings = tampered(less, tmp_path, "--paths")
@@ -214,7 +213,7 @@ def test_two_components_as_one_and_points_that_are_two_are_refuted() -> None:
 
 @pytest.mark.parametrize("edit", ["accuracy", "precision", "exact", "more"])
 def test_what_the_rest_of_a_file_contradicts_and_what_is_not_read_is_named(edit, tmp_path) -> None:
-    document = export.document(decompose(PolynomialSystem(("x", "y"), (x * y - 1,))))
+    document = decompose(PolynomialSystem(("x", "y"), (x * y - 1,))).document()
     inside = {"exact": document["system"], "more": document}.get(edit, document["components"][0])
     inside[edit] = {"accuracy": 1e-20, "precision": "99 digits", "exact": False, "more": 1}[edit]
     status, standings = tampered(document, tmp_path)
@@ -234,7 +233,7 @@ def fields_of(value: object, place: str = "") -> set[str]:
 def test_there_is_a_statement_about_every_field_of_an_export(tmp_path: Path) -> None:
     system = PolynomialSystem(("x", "y"), ((x**2 - 2) * y, (x - y) * y), (), [[0], [1]])
     result = solve(replace(LINE_AND_CIRCLE, nonzero=(x + 1,)))
-    for written in (export.document(decompose(system)), solutions_export.document(result)):
+    for written in (decompose(system).document(), result.document()):
         _, standings = tampered(written, tmp_path)
         for field in fields_of(written) - {"format", "version", "components", "solutions"}:
             whole = field.replace("[]", "").split(".")
@@ -254,7 +253,7 @@ def certified_lines(document: dict, tmp_path: Path, capsys: pytest.CaptureFixtur
 
 def test_a_refutation_names_the_entry_the_field_and_what_it_says(tmp_path: Path, capsys) -> None:
     answer = decompose(PolynomialSystem(("x", "y"), ((x**2 + y**2 - 1) * (x - 2 * y),)))
-    document = export.document(answer)
+    document = answer.document()
     k = next(i for i, c in enumerate(document["components"]) if c["degree"] == 2)
     document["components"][k] |= {"multiplicity": 3, "accuracy": 1e-20}
     document["components"][k]["radii"][1] = [0.0, 0.0]
@@ -269,7 +268,7 @@ def test_a_refutation_names_the_entry_the_field_and_what_it_says(tmp_path: Path,
 
 def test_lines_about_completeness_do_not_contradict_each_other(tmp_path: Path, capsys) -> None:
     circles = PolynomialSystem(("x", "y"), (x**2 + y**2 - 5, x * y - 2))
-    document = solutions_export.document(solve(circles))
+    document = solve(circles).document()
     wrong = copy.deepcopy(document)
     wrong["solutions"][2]["multiplicity"] = 2
     printed = certified_lines(wrong, tmp_path, capsys)

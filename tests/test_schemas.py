@@ -15,10 +15,9 @@ from systems import system
 
 import nag
 from nag.cli import main
-from nag.files.export import document, export_of
+from nag.files.export import export_of
 from nag.files.json_schema import find_problem, schema
 from nag.files.json_values import ExportError
-from nag.files.solutions_export import document as solutions_document
 from nag.files.solutions_export import solutions_of
 from nag.solving.start import ASKED_FOR, KINDS
 
@@ -145,7 +144,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, int], l
     ask("decompose", str(CASES / "bennett.toml"), "--modes", "all")
     ask("certify", export, "--paths", running=False)
     ask("certify", solved, "--paths", running=False)
-    found["nag-decomposition", 2].append(json.loads(json.dumps(document(nag.decompose(SHEETS)))))
+    found["nag-decomposition", 2].append(json.loads(json.dumps(nag.decompose(SHEETS).document())))
     return found
 
 
@@ -172,12 +171,10 @@ READERS = {"nag-decomposition": export_of, "nag-solutions": solutions_of}
 def read_documents() -> list[Any]:
     sets = nag.decompose(["(y - x^2)^2", "z^2 - 2"], symmetries=[{"z": "-z"}])
     zeros = nag.solve(["(x - 1)^2*(x + 2)", "y^2 - x - 3"])
-    sheets = document(nag.decompose(SHEETS))
+    sheets = nag.decompose(SHEETS).document()
     # One of two that are alike.
     del sheets["components"][1:]
-    return [
-        json.loads(json.dumps(each)) for each in (document(sets), sheets, solutions_document(zeros))
-    ]
+    return [json.loads(json.dumps(each)) for each in (sets.document(), sheets, zeros.document())]
 
 
 DOCUMENTS = read_documents()

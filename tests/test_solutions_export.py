@@ -15,14 +15,11 @@ from nag.cli import main
 from nag.files.json_schema import schema
 from nag.files.json_values import ExportError
 from nag.files.solutions_export import (
-    FORMAT,
-    VERSION,
-    document,
     export_text,
     read_solutions,
     write_solutions,
 )
-from nag.solving.solutions import SolveResult
+from nag.solving.solutions import FORMAT, VERSION, SolveResult
 from nag.solving.solve import solve
 
 CASE = """
@@ -42,7 +39,7 @@ def result() -> SolveResult:
 
 def test_the_schema_is_a_schema_of_what_is_written(result: SolveResult) -> None:
     jsonschema.Draft202012Validator.check_schema(schema("nag-solutions"))
-    value = document(result, "title", "file.toml")
+    value = result.document("title", "file.toml")
     jsonschema.validate(value, schema("nag-solutions"))
     assert (value["format"], value["version"]) == (FORMAT, VERSION)
     assert [s["multiplicity"] for s in value["solutions"]].count(4) == 1
@@ -76,7 +73,7 @@ def test_an_export_reads_back_equal(result: SolveResult, tmp_path: Path) -> None
 def test_what_is_no_export_is_refused_with_its_place(
     change: object, message: str, result: SolveResult, tmp_path: Path
 ) -> None:
-    value = document(result)
+    value = result.document()
     change(value)
     file = tmp_path / "bad.json"
     file.write_text(json.dumps(value), "utf-8")

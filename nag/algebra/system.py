@@ -100,6 +100,16 @@ class PolynomialSystem:
         """The polynomials as text."""
         return [f.text(self.variables) for f in self.polynomials]
 
+    def document(self) -> dict[str, Any]:
+        """The system as a JSON object."""
+        return {
+            "variables": list(self.variables),
+            "polynomials": self.text(),
+            "nonzero": [f.text(self.variables) for f in self.nonzero],
+            "groups": [[self.variables[i] for i in group] for group in self.groups],
+            "exact": self.exact,
+        }
+
     __repr__ = one_line
 
     def __str__(self) -> str:

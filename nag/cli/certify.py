@@ -14,10 +14,10 @@ from nag.cli.running import CommandAnswer
 
 if TYPE_CHECKING:
     from nag.numerics.claims import Claim
-    from nag.report.certificate import Rows
     from nag.solving.certificate import SolutionsCertificate
     from nag.solving.certified_paths import ProvedPaths
     from nag.solving.solutions import SolveResult
+    from nag.text.table import Row
     from nag.witness.certificate import DecompositionCertificate
     from nag.witness.certified_loops import ProvedMonodromy
     from nag.witness.witness import Decomposition
@@ -41,7 +41,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """What is proved of an export."""
     from nag.algebra.system import system_line
-    from nag.files.certificate_export import certificate_document
     from nag.files.json_values import read_file
     from nag.text.table import sheet
 
@@ -51,18 +50,18 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     return CommandAnswer(
         sheet(title, rows),
         proved.all_proved,
-        lambda: certificate_document(proved.certificate, proved.claims, proved.paths),
+        lambda: proved.certificate.document(proved.claims, proved.paths),
     )
 
 
 def proof_asked_for(
     options: argparse.Namespace, found: SolveResult | Decomposition
-) -> Callable[[], tuple[Rows, bool]] | None:
+) -> Callable[[], tuple[list[Row], bool]] | None:
     """What proves a result, if ``--certify`` or ``--certify-paths`` is given."""
     if not (options.certify or options.certify_paths):
         return None
 
-    def prove() -> tuple[Rows, bool]:
+    def prove() -> tuple[list[Row], bool]:
         proved = certify_result(found, options.certify_paths)
         return proved.rows, proved.all_proved
 
@@ -94,24 +93,19 @@ def certify_result(
     Args:
         lost: fields of an export that are not in what was read of it.
     """
-    from nag.numerics.claims import nothing_against
-    from nag.report.certificate import claims_rows, decomposition_rows, solution_rows
+    from nag.numerics.claims import claims_rows, nothing_against
     from nag.solving.certificate import certify_solutions
     from nag.solving.solutions import SolveResult
     from nag.witness.certificate import certify_decomposition
 
     started = time.perf_counter()
     if isinstance(found, SolveResult):
-        certificate = certify_solutions(found)
-        claims = certificate.claims
-        rows = solution_rows(certificate, time.perf_counter() - started)
-        more = _paths(certificate) if paths else None
+        certificate, prove = certify_solutions(found), _paths
     else:
-        certificate = certify_decomposition(found)
-        claims = certificate.claims
-        rows = decomposition_rows(certificate, time.perf_counter() - started)
-        more = _loops(certificate) if paths else None
-    proved, further, good, claims = more or (None, [], True, claims)
+        certificate, prove = certify_decomposition(found), _loops
+    claims = certificate.claims
+    rows = certificate.rows(time.perf_counter() - started)
+    proved, further, good, claims = prove(certificate) if paths else (None, [], True, claims)
     claims = (*claims, *lost)
     good = good and certificate.all_proved and nothing_against(claims)
     return Certified([*rows, *further, *claims_rows(claims)], good, certificate, proved, claims)
@@ -122,7 +116,6 @@ Further = tuple[Any, list[tuple[str, str]], bool, tuple["Claim", ...]]
 
 def _paths(certificate: SolutionsCertificate) -> Further:
     """The proof of the paths to solutions, its lines, whether nothing was left open, statements."""
-    from nag.report.certificate import paths_rows
     from nag.solving.certified_paths import PathsError, prove_paths
     from nag.solving.solution_claims import claims_of_paths
 
@@ -131,7 +124,7 @@ def _paths(certificate: SolutionsCertificate) -> Further:
         proved = prove_paths(found)
     except PathsError as error:
         return None, [("paths", f"not proved: {error}")], False, certificate.claims
-    rows = paths_rows(proved, len(found.solutions), time.perf_counter() - started)
+    rows = proved.rows(len(found.solutions), time.perf_counter() - started)
     simple = sum(s.multiplicity == 1 for s in found.solutions)
     good = proved.distinct and not proved.lost and len(proved.solutions) >= simple
     return proved, rows, good, claims_of_paths(certificate, proved.others)
@@ -140,8 +133,7 @@ def _paths(certificate: SolutionsCertificate) -> Further:
 def _loops(certificate: DecompositionCertificate) -> Further:
     """The proof of the loops of all components, its lines, whether all is proved, statements."""
     from nag.decomposition.trace import linear_traces
-    from nag.report.certificate import loops_rows
-    from nag.witness.certified_loops import prove_all
+    from nag.witness.certified_loops import loops_rows, prove_all
     from nag.witness.component_claims import claims_of_loops
 
     found, started = certificate.decomposition, time.perf_counter()
@@ -161,14 +153,15 @@ def _read_result(value: Any) -> tuple[SolveResult | Decomposition, str, list[Cla
         read = export.export_of(value)
         found, title = read.decomposition, read.origin.title if read.origin else memory
         # Files of version 1 say some things in other words.
-        again = export.document(found, read.origin) if value["version"] > 1 else value
+        head = read.origin.head if read.origin else {}
+        again = found.document(**head) if value["version"] > 1 else value
     else:
         if isinstance(value, dict) and value.get("format") != solutions_export.FORMAT:
             both = f'"{export.FORMAT}" or "{solutions_export.FORMAT}"'
             raise ExportError(f"format: must be {both}")
         solved = solutions_export.solutions_of(value)
         found, title = solved.result, solved.title or memory
-        again = solutions_export.document(found, solved.title, solved.file)
+        again = found.document(solved.title, solved.file)
     lost = read_differently(value, again)
     return found, title, [_claim_of_field(place, why) for place, why in lost.items()]
 

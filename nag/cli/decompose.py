@@ -15,7 +15,7 @@ from nag.cli.arguments import (
     whole,
 )
 from nag.cli.certify import proof_asked_for
-from nag.cli.running import CommandAnswer, chosen_run, run_row
+from nag.cli.running import CommandAnswer, chosen_run, name_case, run_row
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of
 
@@ -88,7 +88,7 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
     if arguments.modes == "all":
         return _all_modes(arguments, case)
     from nag.decomposition.through import note_doubts, through_points
-    from nag.files.export import Origin, document
+    from nag.files.export import Origin
     from nag.report.answer import answer_lines
     from nag.witness.frame import expand_orbits
 
@@ -100,7 +100,7 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
     return CommandAnswer(
         answer_lines(decomposition, case, problem, points, run_row(arguments)),
         decomposition.complete,
-        lambda: document(decomposition, Origin.of(case, problem)),
+        lambda: decomposition.document(**Origin.of(case, problem).head),
         proof_asked_for(arguments, decomposition),
     )
 
@@ -151,7 +151,6 @@ def _decompose(arguments: argparse.Namespace, problem: Problem) -> tuple[Problem
 
 def _all_modes(arguments: argparse.Namespace, case: Case) -> CommandAnswer:
     """Decompose one combination of modes of each class, as `run` does the one of the reference."""
-    from nag.files.export import modes_document
     from nag.mechanism.mode_decomposition import decompose_modes
     from nag.mechanism.model import ModelError
     from nag.report.modes import modes_lines
@@ -166,4 +165,4 @@ def _all_modes(arguments: argparse.Namespace, case: Case) -> CommandAnswer:
     except ModelError as error:
         raise UsageError(f"{arguments.case}: {error}") from None
     lines = modes_lines(answer, case.title, run_row(arguments))
-    return CommandAnswer(lines, answer.complete, lambda: modes_document(answer, case))
+    return CommandAnswer(lines, answer.complete, lambda: answer.document(*name_case(case)))

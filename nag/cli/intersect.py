@@ -35,7 +35,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """The intersection of two components."""
     from nag.decomposition.intersection import IntersectionError, intersect_components
-    from nag.files.export import component_document
     from nag.witness.shown import component_table, paths_text, remarks, title_line
 
     found = read_components(options)
@@ -55,7 +54,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         "of": [{"number": n, **component_facts(c)} for n, c in numbered],
         "paths": asdict(result.paths),
         "system": {"variables": list(variables), "polynomials": result.system.text()},
-        "components": [component_document(c, variables) for c in result.components],
+        "components": [c.document(variables) for c in result.components],
     }
     # Only a complete answer without components says that there are none.
     nothing = "they do not meet" if complete else "undecided: no common point is certain"

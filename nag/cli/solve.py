@@ -27,7 +27,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """All isolated solutions of a case."""
     from nag.errors import StartError
-    from nag.files.solutions_export import document
     from nag.report.solutions import solution_lines
 
     case, problem = read_problem(options)
@@ -38,6 +37,6 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     return CommandAnswer(
         solution_lines(result, case, problem, run_row(options, places=2)),
         result.complete,
-        lambda: document(result, *name_case(case)),
+        lambda: result.document(*name_case(case)),
         proof_asked_for(options, result),
     )

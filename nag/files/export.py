@@ -10,7 +10,7 @@ of version 2 without error radii, are read as well.
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -29,16 +29,17 @@ from nag.files.json_values import (
     parse_system,
     read_file,
     real_number,
-    system_document,
     wrong,
 )
 from nag.files.written_file import write_target
-from nag.text.json_text import lay_out, pairs, real_or_null
+from nag.text.json_text import lay_out
 from nag.witness.close_points import WORDS, PointInWords
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
 from nag.witness.witness import (
     DOUBLE,
+    FORMAT,
+    VERSION,
     Decomposition,
     PathCounts,
     Slice,
@@ -49,14 +50,7 @@ from nag.witness.witness import (
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
-    from nag.mechanism.mode_decomposition import ModesAnswer
     from nag.mechanism.problem import Problem
-
-FORMAT = "nag-decomposition"
-MODES_FORMAT = "nag-modes"
-VERSION = 2
-
-# A file is taken into memory whole, several times its size as Python objects.
 
 
 @dataclass(frozen=True)
@@ -84,6 +78,12 @@ class Origin:
         kind, reason = ("system", None) if made is None else ("mechanism", made.reason)
         return cls(case.title, Path(case.path).name, kind, problem.formulation, reason)
 
+    @property
+    def head(self) -> dict[str, Any]:
+        """What a decomposition's document says of it."""
+        case = {"title": self.title, "file": self.file, "kind": self.kind}
+        return {"case": case, "formulation": self.formulation, "reason": self.reason}
+
 
 @dataclass(frozen=True)
 class Export:
@@ -93,114 +93,9 @@ class Export:
     origin: Origin | None = None
 
 
-def component_document(component: WitnessSet, variables: Sequence[str]) -> dict[str, Any]:
-    orbit: dict[str, Any] = {"size": component.orbit}
-    if component.images:
-        orbit["images"] = [g.text(variables) for g in component.images]
-    document: dict[str, Any] = {"dimension": component.dimension, "degree": component.degree}
-    if component.multidegree is not None:
-        document["multidegree"] = component.multidegree.tolist()
-    return document | {
-        "multiplicity": component.multiplicity,
-        "status": str(component.status),
-        "note": component.note,
-        "orbit": orbit,
-        "residual": real_or_null(component.residual),
-        "accuracy": real_or_null(component.accuracy),
-        "precision": f"{component.precision} digits",
-        "corank": component.corank,
-        "slice": {"A": pairs(component.slice.A), "b": pairs(component.slice.b)},
-        "points": pairs(component.points),
-        "radii": [[real_or_null(r) for r in row] for row in component.radii.tolist()],
-        "digits": component.digits.tolist(),
-    }
-
-
-def _unknowns(count: int, variables: Sequence[str]) -> list[str]:
-    """Names for unknowns that deflation added."""
-    stem = "u"
-    while any(name.startswith(stem) for name in variables):
-        stem += "u"
-    return [f"{stem}{i + 1}" for i in range(count)]
-
-
-def _equations_document(cut: Cut, variables: Sequence[str]) -> dict[str, Any]:
-    names = _unknowns(cut.aux, variables)
-    texts = [f.text([*variables, *names]) for f in cut.polynomials]
-    return {"unknowns": names, "polynomials": texts}
-
-
-def document(decomposition: Decomposition, origin: Origin | None = None) -> dict[str, Any]:
-    """The export as a JSON object (dicts, lists, strings, numbers, None)."""
-    system = decomposition.system
-    cuts = list(dict.fromkeys(f.cut for c in decomposition.components for f in c.fibres))
-    place = {cut: i for i, cut in enumerate(cuts)}
-    components = [
-        component_document(c, system.variables)
-        | {
-            "cut_by": [
-                {
-                    "equations": place[f.cut],
-                    "points": len(f),
-                    "unknowns": pairs(f.points[:, system.n :]),
-                }
-                | ({"close": close_document(f.fine)} if f.fine else {})
-                for f in c.fibres
-            ]
-        }
-        for c in decomposition.components
-    ]
-    case = origin and {"title": origin.title, "file": origin.file, "kind": origin.kind}
-    return {
-        "format": FORMAT,
-        "version": VERSION,
-        "case": case,
-        "formulation": origin and origin.formulation,
-        "reason": origin and origin.reason,
-        "seed": decomposition.seed,
-        "settings": decomposition.settings,
-        "complete": decomposition.complete,
-        "notes": list(decomposition.notes),
-        "paths": {
-            "tracked": decomposition.paths.tracked,
-            "failed": decomposition.paths.failed,
-            "at_infinity": decomposition.paths.at_infinity,
-        },
-        "method": decomposition.method,
-        "order": [int(i) for i in decomposition.order],
-        "system": system_document(system),
-        "equations": [_equations_document(cut, system.variables) for cut in cuts],
-        "components": components,
-    }
-
-
-def modes_document(answer: ModesAnswer, case: Case) -> dict[str, Any]:
-    """The components of all assembly modes as a JSON object: for each class a decomposition."""
-    from nag.mechanism.problem import problem_of
-
-    classes = []
-    for each in answer.classes:
-        classes.append(
-            {
-                "modes": [dict(modes) for modes in each.modes.members],
-                "decomposition": document(
-                    each.decomposition, Origin.of(case, problem_of(each.model))
-                ),
-            }
-        )
-    return {
-        "format": MODES_FORMAT,
-        "version": 1,
-        "complete": answer.complete,
-        "modes_apart": answer.apart,
-        "meetings": [list(meeting) for meeting in answer.meetings],
-        "classes": classes,
-    }
-
-
 def export_text(decomposition: Decomposition, origin: Origin | None = None) -> str:
     """The export as JSON text, ASCII, the same for equal arguments."""
-    return lay_out(document(decomposition, origin)) + "\n"
+    return lay_out(decomposition.document(**(origin.head if origin else {}))) + "\n"
 
 
 def write_decomposition(
@@ -412,22 +307,10 @@ def read_decomposition(path: str | os.PathLike[str]) -> Decomposition:
 ROUNDED = 1e-12
 
 
-def close_document(fine: Mapping[int, PointInWords]) -> list[dict[str, Any]]:
-    """The points of a fibre that are close to others, by their indices in it."""
-    return [
-        {
-            "point": i,
-            "coordinates": fine[i].words.tolist(),
-            "curvature": real_or_null(fine[i].curvature),
-        }
-        for i in sorted(fine)
-    ]
-
-
 def close_points(
     value: Sequence[dict[str, Any]], points: np.ndarray, place: str
 ) -> dict[int, PointInWords]:
-    """What `close_document` wrote of points of shape ``(P, n + aux)``.
+    """What `Fibre.document` says of close ones of points of shape ``(P, n + aux)``.
 
     Raises:
         nag.files.json_values.ExportError: if it does not fit them.

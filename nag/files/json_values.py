@@ -23,18 +23,6 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import InputError, NagError
 from nag.files.json_schema import find_problem, schema
 
-
-def system_document(system: PolynomialSystem) -> dict[str, Any]:
-    """A polynomial system as a JSON object."""
-    return {
-        "variables": list(system.variables),
-        "polynomials": system.text(),
-        "nonzero": [f.text(system.variables) for f in system.nonzero],
-        "groups": [[system.variables[i] for i in group] for group in system.groups],
-        "exact": system.exact,
-    }
-
-
 LARGEST_FILE = 256 * 1024**2
 T = TypeVar("T")
 
@@ -139,7 +127,7 @@ def parse_polynomials(
 
 
 def parse_system(table: Mapping[str, Any], place: str) -> PolynomialSystem:
-    """The system that `system_document` wrote.
+    """The system of which this is the document.
 
     Raises:
         ExportError: if there is none such.

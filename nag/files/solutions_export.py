@@ -18,15 +18,11 @@ from nag.files.json_values import (
     parse_system,
     read_file,
     real_number,
-    system_document,
     wrong,
 )
 from nag.files.written_file import write_target
-from nag.solving.solutions import PathStatistics, Solution, SolveResult
-from nag.text.json_text import lay_out, pairs, real_or_null
-
-FORMAT = "nag-solutions"
-VERSION = 1
+from nag.solving.solutions import FORMAT, VERSION, PathStatistics, Solution, SolveResult
+from nag.text.json_text import lay_out
 
 
 @dataclass(frozen=True)
@@ -38,49 +34,9 @@ class SolutionsExport:
     file: str | None = None
 
 
-def _solution_document(solution: Solution) -> dict[str, Any]:
-    return {
-        "point": pairs(solution.point),
-        "multiplicity": solution.multiplicity,
-        "real": solution.real,
-        "residual": real_or_null(solution.residual),
-        "accuracy": real_or_null(solution.accuracy),
-        "condition": real_or_null(solution.condition),
-        "precision": solution.precision,
-    }
-
-
-def document(
-    result: SolveResult, title: str | None = None, file: str | None = None
-) -> dict[str, Any]:
-    """The export as a JSON object (dicts, lists, strings, numbers, None)."""
-    system = result.system
-    return {
-        "format": FORMAT,
-        "version": VERSION,
-        "case": None if title is None else {"title": title, "file": file or ""},
-        "seed": result.seed,
-        "settings": result.settings,
-        "method": result.method,
-        "start": result.start,
-        "reason": result.reason,
-        "complete": result.complete,
-        "notes": list(result.notes),
-        "paths": {f.name: int(getattr(result.paths, f.name)) for f in fields(PathStatistics)},
-        "system": system_document(system),
-        "solutions": [_solution_document(s) for s in result.solutions],
-        "excluded": result.excluded,
-        "excluded_solutions": [_solution_document(s) for s in result.excluded_solutions],
-        "on_components": pairs(result.on_components),
-        "on_excluded": pairs(result.on_excluded),
-        "on_doubtful": pairs(result.on_doubtful),
-        "undecided": pairs(result.undecided),
-    }
-
-
 def export_text(result: SolveResult, title: str | None = None, file: str | None = None) -> str:
     """The export as JSON text, ASCII, the same for equal arguments."""
-    return lay_out(document(result, title, file)) + "\n"
+    return lay_out(result.document(title, file)) + "\n"
 
 
 def write_solutions(

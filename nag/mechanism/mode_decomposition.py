@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from nag.algebra.exact_ranks import rank
 from nag.decomposition.decompose import decompose
@@ -53,6 +54,30 @@ class ModesAnswer:
     def complete(self) -> bool:
         """Whether every class is."""
         return all(c.decomposition.complete for c in self.classes)
+
+    def document(self, title: str, file: str) -> dict[str, Any]:
+        """The answer as a JSON object: for each class the decomposition of one of its modes.
+
+        Args:
+            title, file: of the case.
+        """
+        case = {"title": title, "file": file, "kind": "mechanism"}
+        return {
+            "format": "nag-modes",
+            "version": 1,
+            "complete": self.complete,
+            "modes_apart": self.apart,
+            "meetings": [list(meeting) for meeting in self.meetings],
+            "classes": [
+                {
+                    "modes": [dict(modes) for modes in each.modes.members],
+                    "decomposition": each.decomposition.document(
+                        case, each.model.formulation, each.model.reason
+                    ),
+                }
+                for each in self.classes
+            ],
+        }
 
 
 @takes_run

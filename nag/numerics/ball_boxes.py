@@ -51,6 +51,10 @@ class FineBox:
             for z, r in zip(self.centre, self.inner, strict=True)
         ]
 
+    def decimals(self, digits: int) -> list[list[str]]:
+        """Real and imaginary parts of the zero, to what the box leaves, at most so many digits."""
+        return [[part.str(digits, radius=False) for part in (z.real, z.imag)] for z in self.balls]
+
 
 def one_zero(a: FineBox, b: FineBox) -> bool | None:
     """Whether two boxes have the same zero: the zero of one lies where the other has but one.

@@ -8,11 +8,13 @@ singular, the zero of deflated equations is proved in the same way.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
 from functools import cache, partial
+from typing import Any
 
 import flint
 import numpy as np
@@ -31,6 +33,8 @@ from nag.numerics.double_ranks import pivot_rows
 from nag.numerics.krawczyk import Boxes, enter_box, find_overlaps, prove_boxes
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import SLACK
+from nag.text.json_text import pairs, real_or_null
+from nag.text.table import magnitude, printable
 
 # Zeros further from a point than `SLACK` times its accuracy, or this much, are not meant by it.
 NEAR = 1e-6
@@ -38,6 +42,8 @@ NEAR = 1e-6
 LEAST = 1e-15
 # Gradients below this, relative to their terms, count as what they are.
 FLAT = 1e-8
+# Most decimal digits of a zero, in a document, for which doubles do not suffice.
+MOST_DECIMALS = 60
 # Digits to which the equations that were not needed for a proof must vanish.
 EVIDENCE = 60.0
 
@@ -56,6 +62,18 @@ class Proof(StrEnum):
     DEFLATED = "deflated"
     EXACT = "exact"
     NONE = "none"
+
+
+# What stands after the number of points that have a proof.
+WORDS = {
+    Proof.SIMPLE: "simple zeros of all equations, one in each box",
+    Proof.PART: "simple zeros of as many equations as unknowns, the others vanishing there to "
+    "{digits}",
+    Proof.DEFLATED: "singular, as simple zeros of as many deflated equations as unknowns, the "
+    "others vanishing there to {digits}",
+    Proof.EXACT: "singular, as exact rational zeros",
+    Proof.NONE: "not proved",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,6 +116,27 @@ class CertifiedPoints:
     def all_proved(self) -> bool:
         """Whether each point is proved, and none on evidence."""
         return Proof.NONE not in self.proofs and not self.on_evidence.any()
+
+    def document(self) -> list[dict[str, Any]]:
+        """What is proved of each point, as JSON objects."""
+        boxes, errors, centres = self.boxes, self.errors(), pairs(self.boxes.centres)
+        documents, evidence = [], self.on_evidence
+        for i, proof in enumerate(self.proofs):
+            document: dict[str, Any] = {"proof": str(proof), "refuted": i in self.refuted}
+            if evidence[i]:
+                document["evidence"] = True
+            if boxes.proved[i]:
+                document |= {
+                    "centre": centres[i],
+                    "inner": boxes.inner[i].tolist(),
+                    "outer": boxes.outer[i].tolist(),
+                    "error": real_or_null(float(errors[i])),
+                    "digits": real_or_null(float(self.digits[i])),
+                }
+            if i in boxes.fine:
+                document["decimals"] = boxes.fine[i].decimals(MOST_DECIMALS)
+            documents.append(document)
+        return documents
 
     def errors(self) -> np.ndarray:
         """Proved bounds of the distances of points from their zeros, relative, shape ``(P,)``.
@@ -404,3 +443,54 @@ def _rational_box(point: Sequence[Fraction]) -> FineBox:
         centre = tuple(middle(z) for z in exact)
         off = tuple(flint.acb(abs(z - c)).abs_upper() for z, c in zip(exact, centre, strict=True))
     return FineBox(centre, (flint.arb(0),) * len(point), off)
+
+
+def points_rows(
+    groups: Iterable[CertifiedPoints], what: str, images: Sequence[CertifiedPoints] = ()
+) -> list[tuple[str, str]]:
+    """How many of the points of several groups are proved, in which way, and how far off they are.
+
+    Args:
+        what: what the points are.
+        images: those of components that symmetries carry others into.
+    """
+    groups = list(groups)
+    counts = Counter(p for g in groups for p in g.proofs)
+    total = sum(counts.values())
+    evidence = sum(int(g.on_evidence.sum()) for g in groups)
+    proved = total - counts[Proof.NONE]
+    more = f"; {evidence} on evidence" if evidence else ""
+    rows = [("certified", f"{proved - evidence} of {total} {what}{more}")]
+    rows += [
+        ("", f"{counts[p]} {WORDS[p].format(digits=_least_digits(groups, p))}")
+        for p in Proof
+        if counts[p]
+    ]
+    if images:
+        there = sum(int(g.boxes.proved.sum()) for g in images)
+        points = sum(len(g.points) for g in images)
+        text = f"besides {there} of {points} on {len(images)} more components, by symmetries"
+        rows.append(("", text))
+    errors = [g.errors()[g.boxes.proved] for g in groups]
+    largest = max((float(e.max()) for e in errors if len(e)), default=0.0)
+    if proved:
+        text = f"no point is further from its zero than {magnitude(largest)}, relative to its size"
+        rows.append(("error", text))
+    return rows
+
+
+def _least_digits(groups: Iterable[CertifiedPoints], proof: Proof) -> str:
+    """Digits to which equations that a proof of this kind did not need vanish, in words."""
+    digits = (float(g.digits[g.having(proof)].min(initial=np.inf)) for g in groups)
+    least = min(digits, default=np.inf)
+    if np.isinf(least):
+        return "all digits"
+    return f"{least:.0f} digits, which is evidence and no proof"
+
+
+def cost_row(groups: Sequence[CertifiedPoints], seconds: float) -> tuple[str, str]:
+    """In what arithmetic points were proved, and how long it took."""
+    fine = sum(len(g.boxes.fine) for g in groups)
+    proved = sum(int(g.boxes.proved.sum()) for g in groups)
+    text = f"{proved - fine} boxes in doubles, {fine} in balls of more digits"
+    return ("proof", printable(f"{text}, {seconds:.3f} s"))

@@ -10,6 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
+
+from nag.text.table import printable
 
 
 class Standing(StrEnum):
@@ -28,6 +31,11 @@ class Standing(StrEnum):
     UNSEEN = "not looked at"
 
 
+# Fields of one line, and what stands before statements that are not true, or not known to be.
+FIELDS_IN_A_LINE = 6
+LABELS = {Standing.REFUTED: "refuted", Standing.DOUBTED: "doubt", Standing.OPEN: "open"}
+# The head of the document of a certificate.
+CERTIFICATE = {"format": "nag-certificate", "version": 1}
 # Statements that stand like that leave nothing to be said against an export.
 GOOD = Standing.PROVED, Standing.EVIDENCE, Standing.UNSEEN
 # Entries of a list that are named, of more the first ones.
@@ -49,6 +57,21 @@ class Claim:
     text: str
     standing: Standing
     subject: str = ""
+
+    def __str__(self) -> str:
+        """Whose statement it is, what it says, and the field where it stands."""
+        if not self.subject:
+            return f"{self.field}: {self.text}"
+        return f"{self.subject}: {self.text} ({self.field})"
+
+    def document(self) -> dict[str, Any]:
+        """The statement as a JSON object."""
+        return {
+            "field": self.field,
+            "of": self.subject,
+            "says": self.text,
+            "standing": str(self.standing),
+        }
 
 
 def name_entries(what: str, places: Sequence[int]) -> str:
@@ -122,3 +145,21 @@ def claims_not_looked_at(fields: Iterable[str], text: str, subject: str = "") ->
 def nothing_against(claims: Iterable[Claim]) -> bool:
     """Whether no statement is refuted, doubted, or left open."""
     return all(claim.standing in GOOD for claim in claims)
+
+
+def claims_rows(claims: Iterable[Claim]) -> list[tuple[str, str]]:
+    """How the statements of an export stand that are not proved, as labelled lines."""
+    claims = list(claims)
+    rows = [
+        (label, f"{c}{', by evidence' if standing is Standing.DOUBTED else ''}")
+        for standing, label in LABELS.items()
+        for c in claims
+        if c.standing is standing
+    ]
+    for standing, label in ((Standing.EVIDENCE, "evidence"), (Standing.UNSEEN, "unseen")):
+        fields = list(dict.fromkeys(c.field for c in claims if c.standing is standing))
+        for first in range(0, len(fields), FIELDS_IN_A_LINE):
+            text = ", ".join(fields[first : first + FIELDS_IN_A_LINE])
+            what = "by evidence only: " if standing is Standing.EVIDENCE else "not looked at: "
+            rows.append(("" if first else label, text if first else what + text))
+    return [(label, printable(text)) for label, text in rows]

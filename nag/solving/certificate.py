@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,18 +23,24 @@ from nag.numerics.certified_points import (
     CertifiedPoints,
     Proof,
     certify_points,
+    cost_row,
     distinct_simple,
+    points_rows,
 )
-from nag.numerics.claims import Claim, nothing_against
+from nag.numerics.claims import CERTIFICATE, Claim, nothing_against
 from nag.numerics.krawczyk import find_overlaps, tell_real_zeros
 from nag.numerics.point_claims import (
     find_nonvanishing,
+    zero_digits,
 )
 from nag.solving.solution_claims import claims_of_solutions
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.start.multihomogeneous import best_groups
 from nag.solving.start.target import Target
 from nag.solving.start.total_degree import bezout
+
+if TYPE_CHECKING:
+    from nag.solving.certified_paths import ProvedPaths
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,6 +148,79 @@ class SolutionsCertificate:
         """
         listed = self.bound is not None and self.zeros == self.bound
         return listed and not self.solutions_left_out.any()
+
+    def rows(self, seconds: float) -> list[tuple[str, str]]:
+        """What is proved, as labelled texts; ``seconds``: how long it took."""
+        points, proved = self.points, self.points.boxes.proved
+        rows = points_rows([points], "solutions")
+        evidence = points.on_evidence
+        sides = self.real, self.not_real
+        real, complex_ = (int((side & ~evidence).sum()) for side in sides)
+        text = f"{real} proved real, {complex_} proved not real"
+        open_ = int((proved & ~sides[0] & ~sides[1]).sum())
+        rows.append(("reality", text + (f", {open_} open" if open_ else "")))
+        if evidence.any():
+            real, complex_ = (int((side & evidence).sum()) for side in sides)
+            rows.append(("", f"on evidence {real} real, {complex_} not real"))
+        if self.distinct:
+            rows.append(("distinct", "the zeros in the boxes are proved to be distinct"))
+        rows += self._excluded_rows()
+        if self.bound is not None:
+            number = f"{self.bound_name}, {self.bound}"
+            text = f"proved: there are no more isolated zeros than {number}"
+            if not self.complete:
+                text = f"not proved: {self.zeros} simple zeros are proved"
+                if self.solutions_left_out.any():
+                    text += ", among them solutions that are said to be excluded"
+                text += f"; there are no more than {number}"
+            rows.append(("complete", text))
+        rows.append(cost_row([points], seconds))
+        return rows
+
+    def _excluded_rows(self) -> list[tuple[str, str]]:
+        """What is proved of the zeros where something vanishes that must not."""
+        left_out = self.excluded
+        chosen = left_out.boxes.proved & ~self.solutions_left_out
+        if not chosen.any():
+            return []
+        system = self.result.system
+        equations = [f for f in system.polynomials if f]
+        digits = zero_digits(system.nonzero, equations, left_out)[chosen].min()
+        text = (
+            f"{chosen.sum()} more zeros of the equations are proved, where something that must not "
+            f"vanish does to {digits:.0f} digits"
+        )
+        return [("excluded", text)]
+
+    def document(
+        self, claims: Sequence[Claim] | None = None, paths: ProvedPaths | None = None
+    ) -> dict[str, Any]:
+        """The certificate as a JSON object.
+
+        Args:
+            claims: how the statements of an export stand, if paths say more than the certificate.
+            paths: what is proved of the paths to the solutions.
+        """
+        proved = ~self.points.on_evidence
+        return {
+            **CERTIFICATE,
+            "of": "solutions",
+            "system": self.result.system.document(),
+            "all_proved": self.all_proved and nothing_against(claims or ()),
+            "complete": self.complete,
+            "bound": self.bound,
+            "simple": self.simple,
+            "real": [
+                True if real else False if other else None
+                for real, other in zip(self.real & proved, self.not_real & proved, strict=True)
+            ],
+            "same": [list(pair) for pair in self.same],
+            "unknown": [list(pair) for pair in self.unknown],
+            "points": self.points.document(),
+            "excluded": self.excluded.document(),
+            **({} if paths is None else {"paths": paths.document()}),
+            "statements": [c.document() for c in (self.claims if claims is None else claims)],
+        }
 
 
 @np.errstate(over="ignore", invalid="ignore")

@@ -7,6 +7,7 @@ exact system, in scaled variables.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -58,6 +59,33 @@ class ProvedPaths:
     ends: np.ndarray
     steps: int
     others: np.ndarray
+
+    def rows(self, solutions: int, seconds: float) -> list[tuple[str, str]]:
+        """What is proved of the paths to so many solutions, as labelled texts."""
+        total, ends, largest = len(self.reached), len(self.solutions), self.reached.max(initial=0)
+        text = (
+            f"{total - self.lost} of {total} proved from t = 1 on; {self.arrived} end in simple "
+            f"zeros, among them {ends} of the {solutions} solutions"
+        )
+        if self.followed:
+            text += f"; {self.followed} go on to t = {self.reached[self.left].max():.0e}"
+        rows = [("paths", text)]
+        if self.lost:
+            rows.append(("doubt", f"{self.lost} paths were lost, the first at t = {largest:.2g}"))
+        if not self.distinct:
+            rows.append(("doubt", "the start points were not proved to be distinct"))
+        rows.append(("", f"{self.steps} tubes, {seconds:.2f} s"))
+        return rows
+
+    def document(self) -> dict[str, Any]:
+        """What is proved, as a JSON object."""
+        return {
+            "start": self.start,
+            "distinct": self.distinct,
+            "reached": self.reached.tolist(),
+            "ends": [int(k) if k >= 0 else None for k in self.ends],
+            "tubes": self.steps,
+        }
 
     @property
     def arrived(self) -> int:

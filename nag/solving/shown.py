@@ -35,14 +35,16 @@ def answer_text(result: SolveResult) -> str:
     return text
 
 
-def solution_rows(result: SolveResult, most: int, columns: int) -> list[list[str]]:
+def solution_rows(
+    result: SolveResult, most: int | None = None, columns: int | None = None
+) -> list[list[str]]:
     """Headings, and a row for each of at most ``most`` solutions, the real ones first.
 
     At most ``columns`` coordinates are shown.
     """
     ordered = sorted(range(len(result.solutions)), key=lambda i: not result.solutions[i].real)
     names = result.system.variables
-    dots = ["..."] if len(names) > columns else []
+    dots = ["..."] if columns is not None and len(names) > columns else []
     head = ["solution", *names[:columns], *dots]
     rows = [[*head, "multiplicity", "real", "residual", "condition", "digits"]]
     for i in ordered[:most]:

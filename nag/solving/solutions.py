@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
+from typing import Any
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.read_only import equal_values, fixed_array
+from nag.text.json_text import pairs, real_or_null
 from nag.text.table import count_text, one_line
 from nag.tracking.run import Run
+
+# Of exported results.
+FORMAT, VERSION = "nag-solutions", 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +50,18 @@ class Solution:
         object.__setattr__(self, "point", fixed_array(self.point, np.complex128))
         if self.radii is not None:
             object.__setattr__(self, "radii", fixed_array(self.radii))
+
+    def document(self) -> dict[str, Any]:
+        """The solution as a JSON object."""
+        return {
+            "point": pairs(self.point),
+            "multiplicity": self.multiplicity,
+            "real": self.real,
+            "residual": real_or_null(self.residual),
+            "accuracy": real_or_null(self.accuracy),
+            "condition": real_or_null(self.condition),
+            "precision": self.precision,
+        }
 
     def __repr__(self) -> str:
         from nag.solving.shown import solution_line
@@ -264,6 +281,45 @@ class SolveResult:
     def perhaps_infinite(self) -> bool:
         """Whether it has such points, or may have."""
         return self.positive_dimensional or len(self.on_doubtful) > 0
+
+    def rows(self, most: int | None = None, columns: int | None = None) -> list[list[str]]:
+        """Headings, and a row for each solution, the real ones first.
+
+        Args:
+            most: so many solutions at most.
+            columns: so many coordinates at most.
+        """
+        from nag.solving.shown import solution_rows
+
+        return solution_rows(self, most, columns)
+
+    def document(self, title: str | None = None, file: str | None = None) -> dict[str, Any]:
+        """The export as a JSON object of the format `FORMAT` (dicts, lists, strings, numbers).
+
+        Args:
+            title, file: of the case that was solved.
+        """
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            "case": None if title is None else {"title": title, "file": file or ""},
+            "seed": self.seed,
+            "settings": self.settings,
+            "method": self.method,
+            "start": self.start,
+            "reason": self.reason,
+            "complete": self.complete,
+            "notes": list(self.notes),
+            "paths": {name: int(count) for name, count in asdict(self.paths).items()},
+            "system": self.system.document(),
+            "solutions": [s.document() for s in self.solutions],
+            "excluded": self.excluded,
+            "excluded_solutions": [s.document() for s in self.excluded_solutions],
+            "on_components": pairs(self.on_components),
+            "on_excluded": pairs(self.on_excluded),
+            "on_doubtful": pairs(self.on_doubtful),
+            "undecided": pairs(self.undecided),
+        }
 
     __repr__ = one_line
 

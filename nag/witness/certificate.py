@@ -20,6 +20,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import prod
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -30,10 +31,12 @@ from nag.numerics.certified_points import (
     CertifiedPoints,
     Proof,
     certify_points,
+    cost_row,
     distinct_simple,
     joined_boxes,
+    points_rows,
 )
-from nag.numerics.claims import Claim, nothing_against
+from nag.numerics.claims import CERTIFICATE, Claim, nothing_against
 from nag.numerics.krawczyk import find_overlaps
 from nag.numerics.point_claims import (
     find_nonvanishing,
@@ -44,6 +47,9 @@ from nag.witness.frame import image
 from nag.witness.moving import witness_at
 from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import Decomposition, Slice, WitnessSet
+
+if TYPE_CHECKING:
+    from nag.witness.certified_loops import ProvedMonodromy
 
 # Number of the stream of random slices.
 SLICES = 29
@@ -75,6 +81,17 @@ class ComponentCertificate:
     def all_proved(self) -> bool:
         """Whether each point is proved, not on evidence, and each pair is distinct."""
         return self.points.all_proved and self.distinct
+
+    def document(self) -> dict[str, Any]:
+        """What is proved, as a JSON object."""
+        return {
+            "dimension": self.component.dimension,
+            "degree": self.component.degree,
+            "distinct": self.distinct,
+            "slice": self.component.slice.document(),
+            "points": self.points.document(),
+            "images": [points.document() for points in self.images if points is not None],
+        }
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,6 +146,48 @@ class DecompositionCertificate:
     def complete(self) -> bool:
         """Whether it is proved that there are no other components."""
         return bool(self.components) and sum(self.bounds.values()) == self.most
+
+    def rows(self, seconds: float) -> list[tuple[str, str]]:
+        """What is proved, as labelled texts; ``seconds``: how long it took."""
+        groups = [c.points for c in self.components]
+        images = [g for c in self.components for g in c.images if g is not None]
+        rows = points_rows(groups, "witness points", images)
+        for dimension, bound in sorted(self.bounds.items(), reverse=True):
+            if bound:
+                text = f"dimension {dimension}: the degrees of all components add up to"
+                rows.append(("proved", f"{text} {bound} at least"))
+        if self.complete:
+            text = f"proved: the degrees of all components add up to {self.most} at most"
+            rows.append(("complete", text))
+        rows.append(cost_row(groups, seconds))
+        return rows
+
+    def document(
+        self,
+        claims: Sequence[Claim] | None = None,
+        loops: Sequence[ProvedMonodromy] | None = None,
+    ) -> dict[str, Any]:
+        """The certificate as a JSON object.
+
+        Args:
+            claims: how the statements of an export stand, if loops say more than the certificate.
+            loops: what is proved of the loops of each component.
+        """
+        bounds = sorted(self.bounds.items(), reverse=True)
+        components = [c.document() for c in self.components]
+        for component, proved in zip(components, loops or (), strict=loops is not None):
+            component["loops"] = proved.document()
+        return {
+            **CERTIFICATE,
+            "of": "decomposition",
+            "system": self.decomposition.system.document(),
+            "all_proved": self.all_proved and nothing_against(claims or ()),
+            "complete": self.complete,
+            "bound": self.most,
+            "degrees": [{"dimension": d, "at_least": int(k)} for d, k in bounds],
+            "components": components,
+            "statements": [c.document() for c in (self.claims if claims is None else claims)],
+        }
 
 
 @np.errstate(over="ignore", invalid="ignore")

@@ -12,7 +12,9 @@ References:
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -46,6 +48,16 @@ class ProvedMonodromy:
     orbits: np.ndarray
     steps: int
     zeros: bool
+
+    def document(self) -> dict[str, Any]:
+        """What is proved, as a JSON object."""
+        return {
+            "connected": self.connected,
+            "permutations": [
+                [int(k) if k >= 0 else None for k in places] for places in self.permutations
+            ],
+            "tubes": self.steps,
+        }
 
     @property
     def connected(self) -> bool:
@@ -155,3 +167,23 @@ def moving_slice(
             MovingPart.of(1.0, -1.0, nothing, pad_rows(target, columns)),
         )
     )
+
+
+def loops_rows(proved: Sequence[ProvedMonodromy], seconds: float) -> list[tuple[str, str]]:
+    """What is proved of the loops of components, as labelled lines."""
+    connected = sum(m.connected for m in proved)
+    loops = sum(len(m.permutations) for m in proved)
+    text = (
+        f"the witness points of {connected} of {len(proved)} components are proved to lie on one "
+        "irreducible component each"
+    )
+    rows = [("loops", text)]
+    for k, m in enumerate(proved):
+        if not m.connected:
+            sets = len(set(m.orbits.tolist()))
+            text = f"component {k + 1}: its {len(m.orbits)} points are in {sets} sets still"
+            if not m.zeros:
+                text = f"component {k + 1}: not all of its points are proved to be zeros"
+            rows.append(("doubt", text))
+    rows.append(("", f"{loops} loops, {sum(m.steps for m in proved)} tubes, {seconds:.2f} s"))
+    return rows

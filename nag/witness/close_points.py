@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import flint
 import numpy as np
@@ -20,6 +20,7 @@ from nag.numerics.digits import bits_of, in_bits, number_of_words, to_ball, word
 from nag.numerics.newton import find_zero, inverse_of, newton_step, subtract_step
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.read_only import fixed_array
+from nag.text.json_text import real_or_null
 from nag.witness.slices import pad_rows
 
 if TYPE_CHECKING:
@@ -64,6 +65,10 @@ class PointInWords:
         if not isinstance(other, PointInWords):
             return NotImplemented
         return self.curvature == other.curvature and np.array_equal(self.words, other.words)
+
+    def document(self) -> dict[str, Any]:
+        """The digits as a JSON object."""
+        return {"coordinates": self.words.tolist(), "curvature": real_or_null(self.curvature)}
 
     @classmethod
     def of_doubles(cls, x: np.ndarray, curvature: float = 1.0) -> PointInWords:

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -71,6 +72,15 @@ class Cut:
     polynomials: tuple[Polynomial, ...]
     levels: tuple[Level, ...] = ()
     plain: Cut | None = None
+
+    def document(self, variables: Sequence[str]) -> dict[str, Any]:
+        """The cut as a JSON object, in the variables and further unknowns."""
+        stem = "u"
+        while any(name.startswith(stem) for name in variables):
+            stem += "u"
+        names = [f"{stem}{i + 1}" for i in range(self.aux)]
+        texts = [f.text([*variables, *names]) for f in self.polynomials]
+        return {"unknowns": names, "polynomials": texts}
 
     @cached_property
     def rows(self) -> CompiledRows:

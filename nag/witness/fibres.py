@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from nag.algebra.number import Number
 from nag.numerics.coincidence import coincident
 from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.zero_values import ON
+from nag.text.json_text import pairs
 from nag.tracking.homotopy import Homotopy, norms
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.run import Run
@@ -66,6 +68,20 @@ class Fibre:
             and np.array_equal(self.points, other.points)
             and self.fine == other.fine
         )
+
+    def document(self, equations: int) -> dict[str, Any]:
+        """How the points are cut, as a JSON object.
+
+        Args:
+            equations: the index of the cut among all that a document has.
+        """
+        found = {
+            "equations": equations,
+            "points": len(self),
+            "unknowns": pairs(self.points[:, self.cut.n :]),
+        }
+        close = [{"point": i, **self.fine[i].document()} for i in sorted(self.fine)]
+        return found | ({"close": close} if close else {})
 
     @property
     def dimension(self) -> int:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +14,7 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.numerics.read_only import equal_values, fixed_array
+from nag.text.json_text import pairs, real_or_null
 from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
 
 # Decimal digits of doubles.
 DOUBLE = 16
+
+# Of exported decompositions.
+FORMAT, VERSION = "nag-decomposition", 2
 
 
 def even_radii(points: np.ndarray, accuracy: float) -> np.ndarray:
@@ -73,6 +77,10 @@ class Slice:
                 f"A, b: arrays of shapes {self.A.shape} and {self.b.shape} are given; give (d, n) "
                 "and (d,)"
             )
+
+    def document(self) -> dict[str, Any]:
+        """The slice as a JSON object."""
+        return {"A": pairs(self.A), "b": pairs(self.b)}
 
     @property
     def dimension(self) -> int:
@@ -187,6 +195,29 @@ class WitnessSet:
         from nag.witness.shown import witness_set_html
 
         return witness_set_html(self)
+
+    def document(self, variables: Sequence[str]) -> dict[str, Any]:
+        """The component as a JSON object, without what cuts it."""
+        orbit: dict[str, Any] = {"size": self.orbit}
+        if self.images:
+            orbit["images"] = [g.text(variables) for g in self.images]
+        document: dict[str, Any] = {"dimension": self.dimension, "degree": self.degree}
+        if self.multidegree is not None:
+            document["multidegree"] = self.multidegree.tolist()
+        return document | {
+            "multiplicity": self.multiplicity,
+            "status": str(self.status),
+            "note": self.note,
+            "orbit": orbit,
+            "residual": real_or_null(self.residual),
+            "accuracy": real_or_null(self.accuracy),
+            "precision": f"{self.precision} digits",
+            "corank": self.corank,
+            "slice": self.slice.document(),
+            "points": pairs(self.points),
+            "radii": [[real_or_null(r) for r in row] for row in self.radii.tolist()],
+            "digits": self.digits.tolist(),
+        }
 
     def _known_system(self) -> PolynomialSystem:
         if self.system is None:
@@ -432,6 +463,48 @@ class Decomposition:
     def dimension(self) -> int:
         """Largest dimension of a component; -1 for the empty set."""
         return max((c.dimension for c in self.components), default=-1)
+
+    def rows(self) -> list[list[str]]:
+        """Headings, and one row for components that are alike."""
+        from nag.witness.shown import component_rows
+
+        return component_rows(self)
+
+    def document(
+        self,
+        case: Mapping[str, str] | None = None,
+        formulation: str | None = None,
+        reason: str | None = None,
+    ) -> dict[str, Any]:
+        """The export as a JSON object of the format `FORMAT` (dicts, lists, strings, numbers).
+
+        Args:
+            case: title and file of the case, and the kind of what was decomposed.
+            formulation, reason: of a mechanism's model, and why that one.
+        """
+        cuts = list(dict.fromkeys(f.cut for c in self.components for f in c.fibres))
+        place = {cut: i for i, cut in enumerate(cuts)}
+        variables = self.system.variables
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            "case": None if case is None else dict(case),
+            "formulation": formulation,
+            "reason": reason,
+            "seed": self.seed,
+            "settings": self.settings,
+            "complete": self.complete,
+            "notes": list(self.notes),
+            "paths": asdict(self.paths),
+            "method": self.method,
+            "order": [int(i) for i in self.order],
+            "system": self.system.document(),
+            "equations": [cut.document(variables) for cut in cuts],
+            "components": [
+                c.document(variables) | {"cut_by": [f.document(place[f.cut]) for f in c.fibres]}
+                for c in self.components
+            ],
+        }
 
     __repr__ = one_line
 
