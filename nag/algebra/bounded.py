@@ -8,7 +8,7 @@ from fractions import Fraction
 from math import log10
 from typing import NoReturn
 
-from nag.algebra.number import Irrational, Number, is_zero
+from nag.algebra.number import Irrational, Number, Surd, binary, is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.tokens import ExpressionError, quote
 
@@ -165,11 +165,9 @@ def check_size(value: Number) -> Number:
 
 def representable(value: Number) -> Number:
     """``value``, if a double can hold it."""
-    if isinstance(value, Irrational):
-        import mpmath
-
-        near = abs(value.evaluate(15))
-        size = int(mpmath.log(near, 2)) if near else 0
+    if isinstance(value, Surd | Irrational):
+        mantissa, exponent = binary(value, 15)
+        size = mantissa.bit_length() + exponent if mantissa else 0
     else:
         size = value.numerator.bit_length() - value.denominator.bit_length()
     if abs(size) > MAX_LOG2 and value != 0:
@@ -185,6 +183,8 @@ def _bits(value: Value) -> int:
         return max((_bits(c) for c in value.terms.values()), default=1)
     if isinstance(value, Irrational):
         return max((_bits(a) for a in value.arguments), default=1)
+    if isinstance(value, Surd):
+        return value.bits
     return max(value.numerator.bit_length(), value.denominator.bit_length())
 
 
@@ -192,7 +192,7 @@ def _operations(value: Value) -> int:
     """Size of the largest irrational number in ``value``."""
     if isinstance(value, Polynomial):
         return max((_operations(c) for c in value.terms.values()), default=0)
-    return value.size if isinstance(value, Irrational) else 0
+    return value.size if isinstance(value, Surd | Irrational) else 0
 
 
 def _too_long(bits: int) -> NoReturn:

@@ -10,7 +10,15 @@ from operator import itemgetter
 from typing import Any
 
 from nag.algebra.factoring import factor_into_irreducibles
-from nag.algebra.polynomial import Exponents, Polynomial, multiply_terms, occurring_variables
+from nag.algebra.polynomial import (
+    Exponents,
+    Parts,
+    Polynomial,
+    add_terms,
+    multiply_parts,
+    multiply_terms,
+    occurring_variables,
+)
 from nag.algebra.system import PolynomialSystem
 
 
@@ -181,6 +189,8 @@ def substitute(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
         return f
     if f.whole and image.whole:
         return _substitute_in_integers(f, index, image)
+    if f.parts and image.parts:
+        return _substitute_in_parts(f, index, image)
     by_power = _by_power(f.terms, index)
     top = max(by_power)
     result = Polynomial(f.n, by_power[top])
@@ -206,6 +216,25 @@ def _substitute_in_integers(f: Polynomial, index: int, image: Polynomial) -> Pol
     if common == 1:
         return Polynomial(f.n, {e: Fraction(c) for e, c in result.items() if c})
     return Polynomial(f.n, {e: Fraction(c, common) for e, c in result.items() if c})
+
+
+def _substitute_in_parts(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
+    """The same where coefficients are sums of square roots."""
+    assert f.parts
+    assert image.parts
+    (parts, common), (of_image, b) = f.parts, image.parts
+    by_power: dict[int, Parts] = {}
+    for r, terms in parts.items():
+        for power, own in _by_power(terms, index).items():
+            by_power.setdefault(power, {})[r] = own
+    top = max(by_power)
+    result, factor = by_power[top], 1
+    for power in range(top - 1, -1, -1):
+        result = multiply_parts(result, of_image)
+        factor *= b
+        for r, terms in by_power.get(power, {}).items():
+            add_terms(result.setdefault(r, {}), terms, factor)
+    return Polynomial.of_parts(f.n, result, common * factor)
 
 
 def _by_power(terms: Mapping[Exponents, Any], index: int) -> dict[int, dict[Exponents, Any]]:

@@ -11,16 +11,17 @@ Nothing here has a tolerance.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import flint
 
 from nag.algebra.flint_numbers import to_fraction, to_rational
-from nag.algebra.number import Irrational, Number, is_zero
+from nag.algebra.number import Exact, Irrational, Number, Surd, is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.errors import NagError
 
@@ -50,15 +51,29 @@ class PrimeField:
 
     modulus: int
 
-    def of(self, c: Fraction | int) -> int:
-        """The image of a rational number.
+    def of(self, c: Exact | int) -> int:
+        """The image of an exact number; conjugate numbers may have each other's.
 
         Raises:
             ZeroDivisionError: if the prime divides its denominator.
+            ArithmeticError: if a square root in it does not exist, see `fields_with_roots`.
         """
+        if isinstance(c, Surd):
+            return c.modulo(self.modulus, self.root)
         if c.denominator % self.modulus == 0:
             raise ZeroDivisionError(f"{self.modulus} divides a denominator")
         return c.numerator * pow(c.denominator, -1, self.modulus) % self.modulus
+
+    def root(self, a: int) -> int:
+        """One of the two square roots, the same each time.
+
+        Raises:
+            ArithmeticError: if there is none.
+        """
+        root = _root_modulo(a % self.modulus, self.modulus)
+        if root is None:
+            raise ArithmeticError(f"{a} is no square modulo {self.modulus}")
+        return root
 
     def is_zero(self, a: int) -> bool:
         return a % self.modulus == 0
@@ -92,11 +107,43 @@ class PrimeField:
         return [[int(basis[i, j]) for i in range(columns)] for j in range(nullity)]
 
 
+@lru_cache(maxsize=1024)
+def _root_modulo(a: int, p: int) -> int | None:
+    root = pow(a, (p + 1) // 4, p)
+    return root if root * root % p == a else None
+
+
 # Residues and sums of two are integers of NumPy's too; what is not zero vanishes modulo so large a
 # prime by no accident. Two fields where one may be the exception.
 LARGEST_PRIME = 2**62
 FIELDS = tuple(map(PrimeField, islice(primes_below(LARGEST_PRIME), 2)))
 LARGE = FIELDS[0]
+# How many primes are tried; half of them lack any one square root.
+MOST_PRIMES = 4000
+
+
+@lru_cache(maxsize=64)
+def fields_with_roots(primes: frozenset[int], count: int = 2) -> tuple[PrimeField, ...]:
+    """So many fields in which prime numbers are squares: `FIELDS` if there are none.
+
+    Fewer where they are not found among the `MOST_PRIMES` largest.
+    """
+    found = (p for p in islice(primes_below(LARGEST_PRIME), MOST_PRIMES))
+    fields = (p for p in found if all(_root_modulo(q, p) is not None for q in primes))
+    return tuple(map(PrimeField, islice(fields, count)))
+
+
+def field_of(polynomials: Iterable[Polynomial]) -> PrimeField | None:
+    """The field of a large prime with images of all coefficients, but for their denominators.
+
+    None where coefficients are not algebraic, or need too many roots.
+    """
+    primes: set[int] = set()
+    for f in polynomials:
+        if not f.algebraic:
+            return None
+        primes |= f.primes
+    return next(iter(fields_with_roots(frozenset(primes))), None)
 
 
 def rational_matrix(rows: Sequence[Sequence[Fraction | int]]) -> flint.fmpq_mat:
@@ -115,7 +162,7 @@ def row_echelon(rows: Sequence[Sequence[Number]]) -> tuple[list[Row], list[int]]
     """Reduced row echelon form without its zero rows, and the columns of its pivots."""
     if not rows or not rows[0]:
         return [], []
-    if any(isinstance(c, Irrational) for row in rows for c in row):
+    if any(isinstance(c, Surd | Irrational) for row in rows for c in row):
         return _irrational_echelon(rows)
     table, pivots = reduce_matrix(rational_matrix(rows))
     return [tuple(map(to_fraction, row)) for row in table], pivots
@@ -143,7 +190,7 @@ def _irrational_echelon(rows: Sequence[Sequence[Number]]) -> tuple[list[Row], li
 
 def rank(rows: Sequence[Sequence[Number]]) -> int:
     """The rank of a matrix that may be empty."""
-    if any(isinstance(c, Irrational) for row in rows for c in row):
+    if any(isinstance(c, Surd | Irrational) for row in rows for c in row):
         return len(_irrational_echelon(rows)[1])
     return int(rational_matrix(rows).rank()) if rows else 0
 
@@ -242,13 +289,15 @@ def is_dependent(polynomials: Sequence[Polynomial], rng: np.random.Generator) ->
     """Whether the Jacobian of as many polynomials as variables is singular everywhere.
 
     Then there are no isolated zeros. Said by its rank at a random point modulo a prime, which is
-    smaller than elsewhere with a probability below 1e-15; never said of irrational coefficients.
+    smaller than elsewhere with a probability below 1e-15; never said of coefficients that are not
+    algebraic.
     """
-    n, p = len(polynomials), LARGE.modulus
-    if not all(f.exact for f in polynomials):
+    field = field_of(polynomials)
+    if field is None:
         return False
+    n, p = len(polynomials), field.modulus
     try:
-        residues = [[(e, LARGE.of(c)) for e, c in f.terms.items()] for f in polynomials]
+        residues = [[(e, field.of(c)) for e, c in f.terms.items()] for f in polynomials]
     except ZeroDivisionError:
         return False
     point = [int(x) for x in rng.integers(1, p, n)]
@@ -264,4 +313,4 @@ def is_dependent(polynomials: Sequence[Polynomial], rng: np.random.Generator) ->
                 if k:
                     row[i] += value * k * inverse[i]
         rows.append(row)
-    return LARGE.rank(rows) < n
+    return field.rank(rows) < n

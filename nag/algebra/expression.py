@@ -28,7 +28,7 @@ from nag.algebra.bounded import (
     check_size,
     representable,
 )
-from nag.algebra.number import PI, Irrational, Number, cosine, sine, square_root
+from nag.algebra.number import PI, Irrational, Number, Surd, cosine, sine, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.tokens import (
     IMAGINARY_UNITS,
@@ -66,7 +66,7 @@ def parse_number(
     """
     if isinstance(value, str):
         return _Parser(value, (), parameters or {}, budget or Budget()).number()
-    if isinstance(value, Irrational):
+    if isinstance(value, Surd | Irrational):
         return value
     if not isinstance(value, Real | Decimal) and isinstance(value, Complex):
         raise ExpressionError(f"{value} is complex; {ONLY_REAL}")

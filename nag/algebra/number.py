@@ -1,24 +1,21 @@
-"""Exact real numbers: fractions, and expressions that can be evaluated to any precision."""
+"""Real numbers: fractions and sums of square roots, exact, and expressions in other functions."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import isqrt
 from typing import Any
 
+from nag.algebra.surd import Surd, root_of_fraction, root_of_surd
 from nag.errors import NagError
 
-# Two expressions are taken to be equal when they agree to this many digits; a rational identity
-# between square roots of case-file numbers that holds so far and then fails is not to be expected.
+# Two expressions are taken to be equal when they agree to this many digits; an identity between
+# case-file numbers that holds so far and then fails is not to be expected.
 EQUALITY_DIGITS = 60
 
 # Digits that a sum may lose to cancellation before it counts as zero. Each is tried in turn.
 _GUARDS = (10, 40, 40 + EQUALITY_DIGITS)
-
-# Square factors of radicands are looked for below this bound: sqrt(12) is 2*sqrt(3).
-_SQUARE_BOUND = 200
 
 
 def _mpmath() -> Any:
@@ -44,12 +41,11 @@ _CANCELLING = ("+", "sin", "cos")
 
 @dataclass(frozen=True, eq=False)
 class Irrational:
-    """A real number given by an expression in ``sqrt``, ``sin``, ``cos``, ``pi`` and fractions.
+    """A real number given by an expression in ``sqrt``, ``sin``, ``cos``, ``pi`` and exact numbers.
 
-    Rational factors are kept in front and equal radicands are multiplied out, so products, powers
-    and inverses of ``q*sqrt(r)`` are exact, and rational where they should be. Otherwise equality
-    means agreement to `EQUALITY_DIGITS` digits, so results that rest on it are marked inexact in
-    the output.
+    Sums of square roots of fractions are no such expressions: `Surd` has them. Exact factors are
+    kept in front, and equal radicands are multiplied out. Equality means agreement to
+    `EQUALITY_DIGITS` digits, so results that rest on it are marked inexact in the output.
     """
 
     operation: str
@@ -80,7 +76,7 @@ class Irrational:
     def size(self) -> int:
         """Number of operations written out, shared parts counted each time."""
         if -1 not in self._cache:
-            inner = (a.size for a in self.arguments if isinstance(a, Irrational))
+            inner = (a.size for a in self.arguments if not isinstance(a, Fraction))
             self._cache[-1] = 1 + sum(inner)
         return self._cache[-1]
 
@@ -88,12 +84,12 @@ class Irrational:
         return Irrational, (self.operation, self.arguments)
 
     def __add__(self, other: Number | int) -> Number:
-        if not isinstance(other, int | Fraction | Irrational):
+        if not isinstance(other, int | Number):
             return NotImplemented
-        if not isinstance(other, Irrational):
+        if isinstance(other, int | Fraction):
             return self if other == 0 else Irrational("+", (self, Fraction(other)))
         (p, core), (q, other_core) = _split(self), _split(other)
-        if _same(core, other_core):
+        if core is not None and other_core is not None and _same(core, other_core):
             return _times(p + q, core)
         total = Irrational("+", (self, other))
         return Fraction(0) if is_zero(total) else total
@@ -111,7 +107,7 @@ class Irrational:
         return -self if self < 0 else self
 
     def __sub__(self, other: Number | int) -> Number:
-        if not isinstance(other, int | Fraction | Irrational):
+        if not isinstance(other, int | Number):
             return NotImplemented
         return self + (-other)
 
@@ -119,7 +115,7 @@ class Irrational:
         return (-self) + other
 
     def __mul__(self, other: Number | int) -> Number:
-        if not isinstance(other, int | Fraction | Irrational):
+        if not isinstance(other, int | Number):
             return NotImplemented
         (p, core), (q, other_core) = _split(self), _split(_number(other))
         if other_core is None:
@@ -131,12 +127,12 @@ class Irrational:
     __rmul__ = __mul__
 
     def __truediv__(self, other: Number | int) -> Number:
-        if not isinstance(other, int | Fraction | Irrational):
+        if not isinstance(other, int | Number):
             return NotImplemented
         return self * _inverse(_number(other))
 
     def __rtruediv__(self, other: Number | int) -> Number:
-        if not isinstance(other, int | Fraction):
+        if not isinstance(other, int | Fraction | Surd):
             return NotImplemented
         return _inverse(self) * other
 
@@ -160,12 +156,12 @@ class Irrational:
         return not is_zero(self)
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, int | Fraction | Irrational):
+        if not isinstance(other, int | Number):
             return NotImplemented
         return self is other or is_zero(self - other)
 
     def __hash__(self) -> int:
-        # A number that equals a fraction must hash like it.
+        # A number that equals a fraction or a sum of roots must hash like it.
         with _mpmath().workdps(EQUALITY_DIGITS):
             value = self.evaluate(EQUALITY_DIGITS)
             if abs(value) < 10**15:
@@ -173,13 +169,10 @@ class Irrational:
                 near = Fraction(digits, 10**40).limit_denominator(10**15)
                 if self == near:
                     return hash(near)
-            return hash(_mpmath().nstr(value, 20))
+            return hash(float(value))
 
     def _sign_of_difference(self, other: Number | int) -> int:
-        difference = self - other
-        if isinstance(difference, Irrational):
-            return int(_mpmath().sign(difference.evaluate(EQUALITY_DIGITS)))
-        return (difference > 0) - (difference < 0)
+        return sign(self - other)
 
     def __lt__(self, other: Number | int) -> bool:
         return self._sign_of_difference(other) < 0
@@ -197,7 +190,9 @@ class Irrational:
         return number_text(self)
 
 
-Number = Fraction | Irrational
+# Numbers that are known exactly, and numbers.
+Exact = Fraction | Surd
+Number = Fraction | Surd | Irrational
 
 PI = Irrational("pi")
 
@@ -206,21 +201,21 @@ def _number(value: Number | int) -> Number:
     return Fraction(value) if isinstance(value, int) else value
 
 
-def _split(value: Number) -> tuple[Fraction, Irrational | None]:
-    """``value`` as a rational factor and what it multiplies (nothing, for a fraction)."""
-    if isinstance(value, Fraction):
+def _split(value: Number) -> tuple[Exact, Irrational | None]:
+    """``value`` as an exact factor and what it multiplies (nothing, for an exact number)."""
+    if not isinstance(value, Irrational):
         return value, None
     if value.operation == "neg":
         factor, core = _split(value.arguments[0])
         return -factor, core
-    if value.operation == "*" and isinstance(value.arguments[0], Fraction):
+    if value.operation == "*" and not isinstance(value.arguments[0], Irrational):
         return value.arguments[0], value.arguments[1]
     return Fraction(1), value
 
 
-def _times(factor: Fraction, core: Irrational) -> Number:
-    if factor == 0:
-        return Fraction(0)
+def _times(factor: Exact, core: Irrational | None) -> Number:
+    if core is None or factor == 0:
+        return factor
     if factor == 1:
         return core
     if factor == -1:
@@ -228,20 +223,15 @@ def _times(factor: Fraction, core: Irrational) -> Number:
     return Irrational("*", (factor, core))
 
 
-def _same(left: Irrational | None, right: Irrational | None) -> bool:
+def _same(left: Number, right: Number) -> bool:
     """Whether two expressions are written the same way."""
     if left is right:
         return True
-    if left is None or right is None or left.operation != right.operation:
+    if not isinstance(left, Irrational):
+        return not isinstance(right, Irrational) and left == right
+    if not isinstance(right, Irrational):
         return False
-    return all(
-        _same(a, b)
-        if isinstance(a, Irrational) and isinstance(b, Irrational)
-        else a is b
-        if isinstance(a, Irrational) or isinstance(b, Irrational)
-        else a == b
-        for a, b in zip(left.arguments, right.arguments, strict=True)
-    )
+    return left.operation == right.operation and all(map(_same, left.arguments, right.arguments))
 
 
 def _inverse(value: Number) -> Number:
@@ -262,19 +252,31 @@ def to_mpf(value: Number | int, digits: int) -> Any:
     if isinstance(value, Irrational):
         return value.evaluate(digits)
     with _mpmath().workdps(digits + 10):
+        if isinstance(value, Surd):
+            mantissa, exponent = value.binary(_mpmath().mp.prec)
+            return _mpmath().ldexp(mantissa, exponent)
         value = Fraction(value)
         return _mpmath().mpf(value.numerator) / value.denominator
 
 
 def is_zero(value: Number | int) -> bool:
-    """Whether ``value`` is zero: exactly for fractions, to `EQUALITY_DIGITS` otherwise."""
-    if not isinstance(value, Irrational):
-        return value == 0
-    return value.evaluate(EQUALITY_DIGITS) == 0
+    """Whether ``value`` is zero: exactly, of an expression to `EQUALITY_DIGITS`."""
+    if isinstance(value, Irrational):
+        return value.evaluate(EQUALITY_DIGITS) == 0
+    return not value
+
+
+def sign(value: Number | int) -> int:
+    """1, 0 or -1."""
+    if isinstance(value, Surd):
+        return value.sign()
+    if isinstance(value, Irrational):
+        return int(_mpmath().sign(value.evaluate(EQUALITY_DIGITS)))
+    return (value > 0) - (value < 0)
 
 
 def square_root(value: Number | int) -> Number:
-    """The non-negative square root, a fraction where ``value`` is the square of one.
+    """The non-negative square root, exact where it is a sum of rational multiples of roots.
 
     Raises:
         ValueError: if ``value`` is negative.
@@ -282,17 +284,12 @@ def square_root(value: Number | int) -> Number:
     value = _number(value)
     if value < 0:
         raise NagError("square root of a negative number")
-    if isinstance(value, Irrational):
-        return Irrational("sqrt", (value,))
-    root, radicand = 1, value.numerator * value.denominator
-    for k in range(2, _SQUARE_BOUND):
-        while radicand and radicand % (k * k) == 0:
-            root, radicand = root * k, radicand // (k * k)
-    exact = isqrt(radicand)
-    if exact * exact == radicand:
-        return Fraction(root * exact, value.denominator)
-    core = Irrational("sqrt", (Fraction(radicand),))
-    return _times(Fraction(root, value.denominator), core)
+    root: Number | None = None
+    if isinstance(value, Fraction):
+        root = root_of_fraction(value)
+    elif isinstance(value, Surd):
+        root = root_of_surd(value)
+    return Irrational("sqrt", (value,)) if root is None else root
 
 
 def pi_multiple(value: Number) -> Fraction | None:
@@ -300,7 +297,7 @@ def pi_multiple(value: Number) -> Fraction | None:
     factor, core = _split(value)
     if factor == 0:
         return Fraction(0)
-    if core is None:
+    if core is None or not isinstance(factor, Fraction):
         return None
     if core.operation == "pi":
         return factor
@@ -318,7 +315,7 @@ def _bounded_angle(value: Number) -> Number:
 
 
 def sine(value: Number | int) -> Number:
-    """The sine, in square roots at the multiples of pi/6 and pi/4."""
+    """The sine, in square roots at the multiples of pi/6, pi/4 and pi/12, and at those of pi/10."""
     value = _number(value)
     turns = pi_multiple(value)
     if turns is None:
@@ -327,20 +324,26 @@ def sine(value: Number | int) -> Number:
     if turns >= 1:
         return -sine(_times_pi(turns - 1))
     acute = min(turns, 1 - turns)
-    squared = {
-        Fraction(0): Fraction(0),
-        Fraction(1, 6): Fraction(1, 4),
-        Fraction(1, 4): Fraction(1, 2),
-        Fraction(1, 3): Fraction(3, 4),
-        Fraction(1, 2): Fraction(1),
+    # As (a, b, p, q): (a sqrt(p) + b sqrt(q)) / 4.
+    roots = {
+        Fraction(0): (0, 0, 1, 1),
+        Fraction(1, 12): (1, -1, 6, 2),
+        Fraction(1, 10): (1, -1, 5, 1),
+        Fraction(1, 6): (2, 0, 1, 1),
+        Fraction(1, 4): (2, 0, 2, 1),
+        Fraction(3, 10): (1, 1, 5, 1),
+        Fraction(1, 3): (2, 0, 3, 1),
+        Fraction(5, 12): (1, 1, 6, 2),
+        Fraction(1, 2): (4, 0, 1, 1),
     }
-    if acute in squared:
-        return square_root(squared[acute])
+    if acute in roots:
+        a, b, p, q = roots[acute]
+        return (a * square_root(p) + b * square_root(q)) / 4
     return Irrational("sin", (_times_pi(acute),))
 
 
 def cosine(value: Number | int) -> Number:
-    """The cosine, in square roots at the multiples of pi/6 and pi/4."""
+    """The cosine, in square roots where `sine` is."""
     value = _number(value)
     turns = pi_multiple(value)
     if turns is None:
@@ -354,7 +357,7 @@ def _times_pi(factor: Fraction) -> Number:
 
 def number_text(value: Number) -> str:
     """``value`` as text in the grammar of `nag.algebra.expression`."""
-    if isinstance(value, Fraction):
+    if not isinstance(value, Irrational):
         return str(value)
     if value.operation == "pi":
         return "pi"
@@ -382,6 +385,13 @@ def rounded_fraction(value: Number, digits: int) -> Fraction:
     """A number as a fraction, an irrational one rounded to so many digits."""
     if isinstance(value, Fraction):
         return value
-    sign, mantissa, exponent, _ = to_mpf(value, digits)._mpf_
-    whole = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-    return -whole if sign else whole
+    mantissa, exponent = binary(value, digits)
+    return mantissa * Fraction(2) ** exponent
+
+
+def binary(value: Surd | Irrational, digits: int) -> tuple[int, int]:
+    """Integers m and k, for which ``m 2^k`` has at least so many digits in common with it."""
+    if isinstance(value, Surd):
+        return value.binary(int(digits * 3.33) + 4)
+    negative, mantissa, exponent, _ = to_mpf(value, digits)._mpf_
+    return int(-mantissa if negative else mantissa), int(exponent)

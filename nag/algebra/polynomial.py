@@ -11,7 +11,11 @@ from operator import add, le
 from types import MappingProxyType
 from typing import Any
 
-from nag.algebra.number import Irrational, Number, is_zero, number_text
+import flint
+
+from nag.algebra.flint_numbers import to_rational
+from nag.algebra.number import Exact, Irrational, Number, Surd, is_zero, number_text
+from nag.algebra.surd import multiply_roots, normal_sum, primes_of
 from nag.errors import NagError
 
 Exponents = tuple[int, ...]
@@ -26,6 +30,9 @@ def occurring_variables(monomials: Iterable[Exponents]) -> set[int]:
     """Indices of the variables that occur in monomials."""
     return {i for i, powers in enumerate(zip(*monomials, strict=True)) if any(powers)}
 
+
+# Terms with whole coefficients, by the square-free integers whose roots multiply them.
+Parts = dict[int, dict[Exponents, int]]
 
 # Products of terms beyond which coefficients are multiplied as integers.
 FEW_PRODUCTS = 8
@@ -62,12 +69,28 @@ def sum_terms(
     return total
 
 
+def multiply_parts(first: Parts, second: Parts) -> Parts:
+    """The product of polynomials in square roots; what cancels stays as zero."""
+    parts: Parts = {}
+    for r, f in first.items():
+        for s, g in second.items():
+            t, factor = multiply_roots(r, s)
+            add_terms(parts.setdefault(t, {}), multiply_terms(f, g), factor)
+    return parts
+
+
+def add_terms(sums: dict[Exponents, int], terms: Mapping[Exponents, int], factor: int) -> None:
+    """Add a multiple of terms to others, in place."""
+    for e, c in terms.items():
+        sums[e] = sums[e] + factor * c if e in sums else factor * c
+
+
 @dataclass(frozen=True, eq=False)
 class Polynomial:
     """A polynomial in ``n`` variables, as a read-only map from exponents to non-zero coefficients.
 
-    Coefficients are `fractions.Fraction`, or `Irrational` where the input was not rational. The
-    variables have no names here; `PolynomialSystem` names them.
+    Coefficients are `fractions.Fraction`, `Surd` where the input has square roots, or `Irrational`
+    where it has other functions. The variables have no names here; `PolynomialSystem` names them.
     """
 
     n: int
@@ -84,9 +107,12 @@ class Polynomial:
                     if coefficient.numerator:
                         kept[exponents] = coefficient
                     continue
+                if isinstance(coefficient, Surd):
+                    kept[exponents] = coefficient
+                    continue
                 if isinstance(coefficient, int):
                     coefficient = Fraction(coefficient)
-                elif not isinstance(coefficient, Fraction | Irrational):
+                elif not isinstance(coefficient, Number):
                     raise TypeError
                 if not is_zero(coefficient):
                     kept[exponents] = coefficient
@@ -96,6 +122,18 @@ class Polynomial:
                 "polynomials as text"
             ) from None
         object.__setattr__(self, "terms", MappingProxyType(kept))
+
+    @classmethod
+    def of_parts(cls, n: int, parts: Parts, common: int = 1) -> Polynomial:
+        """The polynomial whose coefficients are those of its parts over a common denominator."""
+        if parts.keys() <= {1}:
+            return cls(n, {e: Fraction(c, common) for e, c in parts.get(1, {}).items() if c})
+        sums: dict[Exponents, dict[int, flint.fmpq]] = {}
+        for r, terms in parts.items():
+            for e, c in terms.items():
+                if c:
+                    sums.setdefault(e, {})[r] = flint.fmpq(c, common)
+        return cls(n, {e: normal_sum(roots) for e, roots in sums.items()})
 
     @classmethod
     def of_doubles(cls, n: int, terms: Mapping[Exponents, complex]) -> Polynomial:
@@ -124,7 +162,7 @@ class Polynomial:
             if other.n != self.n:
                 raise NagError(f"polynomials in {self.n} and in {other.n} variables do not mix")
             return other
-        if isinstance(other, int | Fraction | Irrational):
+        if isinstance(other, int | Number):
             return Polynomial.constant(self.n, other)
         return None
 
@@ -150,7 +188,7 @@ class Polynomial:
         return (-self) + other
 
     def __mul__(self, other: Polynomial | Number | int) -> Polynomial:
-        if isinstance(other, int | Fraction):
+        if isinstance(other, int | Exact):
             return Polynomial(self.n, {e: c * other for e, c in self.terms.items()})
         other = self._coerce(other)
         if other is None:
@@ -160,6 +198,9 @@ class Polynomial:
             (first, a), (second, b) = self.whole, other.whole
             sums = multiply_terms(first, second)
             return Polynomial(self.n, {e: Fraction(c, a * b) for e, c in sums.items()})
+        if len(self.terms) * len(other.terms) > FEW_PRODUCTS and self.parts and other.parts:
+            (roots, a), (others, b) = self.parts, other.parts
+            return Polynomial.of_parts(self.n, multiply_parts(roots, others), a * b)
         return Polynomial(self.n, multiply_terms(self.terms, other.terms))
 
     __rmul__ = __mul__
@@ -172,6 +213,27 @@ class Polynomial:
         ratios = [c.as_integer_ratio() for c in self.terms.values()]
         common = lcm(*[q for _, q in ratios])
         return dict(zip(self.terms, [p * (common // q) for p, q in ratios], strict=True)), common
+
+    @cached_property
+    def parts(self) -> tuple[Parts, int] | None:
+        """The polynomial in square roots, and its denominator; None where other numbers are in it.
+
+        It is the sum of the parts, each times the root of its integer, over the denominator.
+        """
+        if self.whole:
+            return {1: self.whole[0]}, self.whole[1]
+        if not self.algebraic:
+            return None
+        sums = {
+            e: c.terms if isinstance(c, Surd) else {1: to_rational(c)}
+            for e, c in self.terms.items()
+        }
+        common = lcm(*(int(c.q) for roots in sums.values() for c in roots.values()))
+        parts: Parts = {}
+        for e, roots in sums.items():
+            for r, c in roots.items():
+                parts.setdefault(r, {})[e] = int(c.p) * (common // int(c.q))
+        return parts, common
 
     def __truediv__(self, other: Number | int) -> Polynomial:
         if is_zero(other):
@@ -231,6 +293,17 @@ class Polynomial:
         """Whether every coefficient is rational."""
         return all(isinstance(c, Fraction) for c in self.terms.values())
 
+    @cached_property
+    def algebraic(self) -> bool:
+        """Whether every coefficient is known exactly: rational, or a sum of square roots."""
+        return not any(isinstance(c, Irrational) for c in self.terms.values())
+
+    @cached_property
+    def primes(self) -> frozenset[int]:
+        """The primes of whose square roots coefficients that are known exactly are made."""
+        roots = {r for c in self.terms.values() if isinstance(c, Surd) for r in c.terms}
+        return frozenset(p for r in roots for p in primes_of(r))
+
     @property
     def doubles(self) -> list[float]:
         """The coefficients, rounded, in the order of the terms."""
@@ -260,7 +333,7 @@ class Polynomial:
         they are when the entries are exact, and as floats otherwise.
         """
         if convert is None:
-            exact = all(isinstance(x, int | Fraction | Irrational) for x in point)
+            exact = all(isinstance(x, int | Number) for x in point)
             convert = (lambda c: c) if exact else float
         converted = ((e, convert(c)) for e, c in self.terms.items())
         return sum_terms(converted, point, convert(Fraction(0)))
@@ -314,8 +387,9 @@ class Polynomial:
             monomial = "*".join(
                 v if k == 1 else f"{v}^{k}" for v, k in zip(variables, e, strict=True) if k
             )
-            negative = isinstance(c, Fraction) and c < 0
-            size = number_text(-c if negative else c)
+            size = number_text(c)
+            negative = size.startswith("-")
+            size = size.removeprefix("-")
             if not monomial:
                 body = size
             elif size == "1":

@@ -12,7 +12,7 @@ from typing import Any
 
 import flint
 
-from nag.algebra.number import Irrational, Number, square_root, to_mpf
+from nag.algebra.number import Number, square_root, to_mpf
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import conjugate, multiply, rotate
 from nag.numerics.digits import to_ball
@@ -66,7 +66,7 @@ def arithmetic_of(point: Sequence[Any]) -> Arithmetic:
     """The arithmetic in which a point is lifted: exact, balls, `mpmath` or complex doubles."""
     if any(isinstance(x, flint.acb) for x in point):
         return Arithmetic(to_ball, flint.acb.sqrt)
-    if all(isinstance(x, int | Fraction | Irrational) for x in point):
+    if all(isinstance(x, int | Number) for x in point):
         return Arithmetic(lambda c: c, square_root)
     if any(_is_multiprecision(x) for x in point):
         import mpmath
@@ -88,7 +88,7 @@ def as_entries(point: Sequence[Any]) -> tuple[Any, ...]:
     for x in point:
         if isinstance(x, int):
             x = Fraction(x)
-        elif not isinstance(x, Fraction | Irrational | flint.acb) and not _is_multiprecision(x):
+        elif not isinstance(x, Number | flint.acb) and not _is_multiprecision(x):
             x = complex(x)
         entries.append(x)
     return tuple(entries)

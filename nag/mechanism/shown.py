@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import fields
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from nag.algebra.number import Irrational, Number, number_text
+from nag.algebra.number import Number, number_text
 from nag.algebra.system import system_line, values_text
 from nag.mechanism.graph import Joint
 from nag.text.table import align, count_text, html_table, lines_of, printable, shorten_text
@@ -63,7 +62,7 @@ def mechanism_html(mechanism: Mechanism) -> str:
 
 def _entry(value: Any) -> str:
     """A coordinate: a short exact number as it is, others to six digits."""
-    if isinstance(value, int | Fraction | Irrational):
+    if isinstance(value, int | Number):
         text = number_text(value)
         return text if len(text) <= LONGEST else rounded_text(float(value))
     return rounded_text(complex(value))

@@ -7,22 +7,15 @@ rank there is one over the numbers, and what vanishes over the numbers vanishes 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from fractions import Fraction
 from itertools import islice
-from typing import Any
 
-import flint
-
-from nag.algebra.exact_ranks import LARGEST_PRIME, PrimeField, primes_below
+from nag.algebra.exact_ranks import LARGEST_PRIME, MOST_PRIMES, PrimeField, primes_below
 from nag.algebra.number import Irrational, Number
 from nag.algebra.polynomial import sum_terms
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.power_series import Terms
-
-# How many primes are tried; half of them lack any one square root.
-MOST_PRIMES = 4000
-# Radicands are taken apart into primes, so that sqrt(2) sqrt(3) = sqrt(6); larger ones are not.
-LARGEST_RADICAND = 10**24
 
 
 class _NoImage(Exception):
@@ -51,14 +44,13 @@ class PrimeImage:
 @dataclass(frozen=True, eq=False)
 class _Images:
     modulus: int
-    roots: dict[Any, int] = field(default_factory=dict)
 
     def of(self, c: Number | int) -> int:
         p = self.modulus
         if not isinstance(c, Irrational):
             try:
                 return PrimeField(p).of(c)
-            except ZeroDivisionError as error:
+            except ArithmeticError as error:
                 raise _OtherPrime(str(error)) from None
         if c.operation == "sqrt":
             return self._root(c.arguments[0])
@@ -74,25 +66,12 @@ class _Images:
         return (values[0] + values[1] if c.operation == "+" else values[0] * values[1]) % p
 
     def _root(self, radicand: Number) -> int:
-        p = self.modulus
-        if isinstance(radicand, Irrational):
-            return self._of_square(self.of(radicand))
-        whole = radicand.numerator * radicand.denominator
-        if abs(whole) > LARGEST_RADICAND:
-            raise _NoImage("a radicand is too large")
-        root = pow(radicand.denominator, -1, p)
-        for q, k in flint.fmpz(whole).factor() if whole else ():
-            root = root * pow(self._of_square(int(q)), int(k), p) % p
-        return root if whole else 0
-
-    def _of_square(self, a: int) -> int:
-        if a not in self.roots:
-            # The primes are 3 modulo 4.
-            root = pow(a, (self.modulus + 1) // 4, self.modulus)
-            if root * root % self.modulus != a % self.modulus:
-                raise _OtherPrime("a square root does not exist")
-            self.roots[a] = root
-        return self.roots[a]
+        if isinstance(radicand, Fraction):
+            raise _NoImage("a radicand has too large factors")
+        try:
+            return PrimeField(self.modulus).root(self.of(radicand))
+        except ArithmeticError as error:
+            raise _OtherPrime(str(error)) from None
 
 
 def prime_images(system: ExactSystem, point: Sequence[Number], count: int) -> list[PrimeImage]:

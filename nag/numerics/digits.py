@@ -11,7 +11,7 @@ import flint
 import numpy as np
 
 from nag.algebra.flint_numbers import to_rational
-from nag.algebra.number import Number, to_mpf
+from nag.algebra.number import Number, Surd, binary
 
 LOG10_2 = 0.30102999566398120
 # Absolute values between these are doubles to full precision.
@@ -53,9 +53,10 @@ def to_ball(c: Number | complex | int | flint.acb) -> flint.acb:
         return flint.acb(to_rational(c))
     if isinstance(c, int | float | complex | np.number):
         return flint.acb(complex(c)) if not isinstance(c, int) else flint.acb(c)
-    sign, mantissa, exponent, _ = to_mpf(c, flint.ctx.dps + 5)._mpf_
-    value = flint.arb(int(-mantissa if sign else mantissa))
-    return flint.acb(value * flint.arb(2) ** int(exponent))
+    if isinstance(c, Surd):
+        return flint.acb(c.ball(flint.ctx.prec))
+    mantissa, exponent = binary(c, flint.ctx.dps + 5)
+    return flint.acb(flint.arb(mantissa) * flint.arb(2) ** exponent)
 
 
 def to_point(x: Iterable[complex | flint.acb]) -> list[flint.acb]:

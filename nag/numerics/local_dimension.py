@@ -25,7 +25,7 @@ from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.from_python import coordinates
 from nag.algebra.given import check_error, check_type, check_whole
-from nag.algebra.number import Irrational, Number, is_zero
+from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.read_only import equal_values, fixed_array
@@ -203,6 +203,6 @@ def exact_numbers(point: Sequence[Any] | np.ndarray) -> tuple[Number, ...] | Non
     """The coordinates as exact numbers, if all of them are."""
     from fractions import Fraction
 
-    if not all(isinstance(x, int | Fraction | Irrational) for x in point):
+    if not all(isinstance(x, int | Number) for x in point):
         return None
     return tuple(Fraction(x) if isinstance(x, int) else x for x in point)

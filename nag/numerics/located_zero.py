@@ -11,7 +11,7 @@ from typing import Any
 import flint
 import numpy as np
 
-from nag.algebra.number import Irrational, Number
+from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.curves import is_exact_zero
 from nag.numerics.deflation import DeflatedPoint, NotDeflated, SeriesTooLong, certain_round, deflate
@@ -78,7 +78,7 @@ def exact_zero(
 
 def is_exact(c: Any) -> bool:
     """Whether a number is an exact one."""
-    return isinstance(c, int | Fraction | Irrational)
+    return isinstance(c, int | Number)
 
 
 def locate_zero(

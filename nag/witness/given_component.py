@@ -9,7 +9,7 @@ import numpy as np
 
 from nag.algebra.from_python import coordinates
 from nag.algebra.given import check_type, check_whole
-from nag.algebra.number import Irrational
+from nag.algebra.number import Irrational, Surd
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.witness.witness import Decomposition, WitnessSet
@@ -72,5 +72,5 @@ def in_doubles(point: Any, variables: Sequence[str]) -> np.ndarray:
 def round_point(entries: Sequence[Any]) -> np.ndarray:
     """Exact or complex numbers as complex doubles, shape ``(n,)``."""
     return np.array(
-        [complex(float(x)) if isinstance(x, Irrational) else complex(x) for x in entries]
+        [complex(float(x)) if isinstance(x, Surd | Irrational) else complex(x) for x in entries]
     )

@@ -14,7 +14,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.from_python import coordinates
 from nag.algebra.given import check_error
-from nag.algebra.number import Irrational, Number, is_zero
+from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
@@ -590,7 +590,7 @@ def is_on_component(
 ) -> bool:
     """Whether a point lies on a component, see `WitnessSet.contains`."""
     entries = coordinates(point, system.variables)
-    exact = all(isinstance(e, Fraction | Irrational) for e in entries)
+    exact = all(isinstance(e, Number) for e in entries)
     at = round_point(entries)
     if exact:
         if not all(is_zero(value) for value in system(entries)):

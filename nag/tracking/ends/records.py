@@ -9,7 +9,7 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from nag.algebra.number import Irrational, Number, rounded_fraction
+from nag.algebra.number import Number, rounded_fraction
 from nag.machine_code.lanes import scratch
 from nag.machine_code.records import Reals, Wholes
 from nag.tracking.ends.lane_scalars import SCALARS
@@ -151,8 +151,7 @@ def words(value: Number | complex, count: int, factor: Fraction = Fraction(1)) -
         z = complex(value)
         ratios = z.real.as_integer_ratio(), z.imag.as_integer_ratio()
         return [part for p, q in ratios for part in _split(p * over, q * under, count)]
-    if isinstance(value, Irrational):
-        value = rounded_fraction(value, 20 * count)
+    value = rounded_fraction(value, 20 * count)
     # A common factor does no harm.
     real = _split(value.numerator * over, value.denominator * under, count)
     return [*real, *[0.0] * count]
