@@ -7,11 +7,14 @@ from fractions import Fraction
 import flint
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from nag.algebra.exact_ranks import (
     FIELDS,
     LARGE,
     are_independent_over,
+    fields_with_roots,
     first_independent_rows,
     independent_polynomials,
     null_space,
@@ -72,3 +75,36 @@ def test_all_primes_are_chosen_in_one_way() -> None:
     assert LARGE.modulus == first > second > 2**61
     assert next(primes_below(12)) == 11
     assert list(primes_below(11)) == [7, 3]
+
+
+@given(seed=st.integers(0, 2**32 - 1), roots=st.sampled_from([(3,), (2, 3), (6, 10), (2, 3, 5, 7)]))
+def test_a_matrix_of_roots_has_the_rank_that_it_is_made_with(
+    seed: int, roots: tuple[int, ...]
+) -> None:
+    rng = np.random.default_rng(seed)
+
+    def entry() -> Number:
+        weights = [Fraction(int(c), 3) for c in rng.integers(-3, 4, 1 + len(roots))]
+        parts = (w * square_root(r) for w, r in zip(weights, (1, *roots), strict=True))
+        return sum(parts, Fraction(0))
+
+    left, right = ([[entry() for _ in range(n)] for _ in range(m)] for m, n in ((3, 2), (2, 4)))
+    rows = [
+        [
+            sum((a * b for a, b in zip(row, column, strict=True)), Fraction(0))
+            for column in zip(*right, strict=True)
+        ]
+        for row in left
+    ]
+    echelon, pivots = row_echelon(rows)
+    assert rank(rows) == len(echelon) == len(pivots) <= 2
+    for k, row in enumerate(echelon):
+        assert [row[p] for p in pivots] == [int(k == i) for i in range(len(pivots))]
+        assert not any(row[: pivots[k]])
+    # Each row is the combination of the echelon's rows that its entries at the pivots are.
+    for row in rows:
+        weights = [row[p] for p in pivots]
+        for j, c in enumerate(row):
+            assert c == sum((w * e[j] for w, e in zip(weights, echelon, strict=True)), Fraction(0))
+    field = fields_with_roots(frozenset({2, 3, 5, 7}))[0]
+    assert field.rank([[field.of(c) for c in row] for row in rows]) == len(pivots)

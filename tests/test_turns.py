@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.expression import parse_polynomial
+from nag.algebra.number import square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import turns_of
@@ -88,12 +89,26 @@ def _value(f: Polynomial, point: np.ndarray) -> complex:
         ["c^2 + s^2 - 1", "c - 2*s + 1", "3*c + s - 1"],
         ["c^2 + s^2 - 1", "c*s - 1"],
         ["c^2 + s^2 - 1", "c^2 + s^2 - 2"],
-        ["c^2 + s^2 - sqrt(2)"],
+        ["c^2 + s^2 - pi"],
         ["c - s", "c + s"],
     ],
 )
 def test_other_equations_are_none_of_turns(equations: list[str]) -> None:
     assert turns_of(system("c s", *equations)) is None
+
+
+def test_circles_and_loops_with_square_roots_are_turns() -> None:
+    found = turns_of(
+        system(
+            "c s x y",
+            *("c^2 + s^2 - sqrt(2)", "x^2 + y^2 - 1"),
+            *("sqrt(3)*c + s + x - 2", "sqrt(3)*s - c + y"),
+        )
+    )
+    assert found is not None
+    assert found.squares == (square_root(2), 1)
+    # (sqrt(3) - i) (c + i s) + (x + i y) - 2.
+    assert found.loops == pytest.approx(np.array([[3**0.5 - 1j, 1, -2]]), abs=1e-15)
 
 
 def test_circles_of_different_kinds_are_none_of_turns() -> None:

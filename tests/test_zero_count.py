@@ -3,7 +3,10 @@
 import pytest
 
 import nag
-from nag.algebra.zero_count import PRIMES, most_zeros
+from nag.algebra.exact_ranks import fields_with_roots
+from nag.algebra.zero_count import LARGEST, most_zeros
+
+PRIMES = [field.modulus for field in fields_with_roots(frozenset(), LARGEST)]
 
 
 @pytest.mark.parametrize("prime", PRIMES)
@@ -28,4 +31,16 @@ def test_a_curve_that_a_prime_takes_away_is_no_finite_set() -> None:
     ],
 )
 def test_zeros_are_counted_with_multiplicity(equations: list[str], count: int) -> None:
+    assert most_zeros(nag.system(equations).polynomials) == (count, True)
+
+
+@pytest.mark.parametrize(
+    ("equations", "count"),
+    [
+        (["x^2 + sqrt(3)*y^2 - 1", "x*y - sqrt(2)/7"], 4),
+        # Above one root of x^2 - 3 there are two zeros, above the other one.
+        (["x^2 - 3", "(x - sqrt(3))*y", "y^2 - y"], 3),
+    ],
+)
+def test_zeros_of_equations_with_square_roots_are_counted(equations: list[str], count: int) -> None:
     assert most_zeros(nag.system(equations).polynomials) == (count, True)

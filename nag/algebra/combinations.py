@@ -19,7 +19,7 @@ from typing import Any
 
 import flint
 
-from nag.algebra.exact_ranks import LARGE, coefficient_rows, reduce_matrix
+from nag.algebra.exact_ranks import coefficient_rows, field_of, reduce_matrix, residues
 from nag.algebra.flint_numbers import to_fraction, to_rational
 from nag.algebra.polynomial import Exponents, Polynomial
 
@@ -95,12 +95,11 @@ def of_fewest_terms(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]
 
 def _surely_lowest(polynomials: Sequence[Polynomial], monomials: Sequence[Exponents]) -> bool:
     """Whether no combination has a lower degree: none has modulo a prime."""
-    try:
-        residues = [{e: LARGE.of(c) for e, c in f.terms.items()} for f in polynomials]
-    except ZeroDivisionError:
+    field = field_of(polynomials)
+    if field is None:
         return False
-    rows = coefficient_rows(residues, monomials)
-    _, pivots = LARGE.reduced(rows, len(monomials))
+    rows = coefficient_rows([residues(f, field) for f in polynomials], monomials)
+    _, pivots = field.reduced(rows, len(monomials))
     degrees = [sum(monomials[k]) for k in pivots]
     return len(degrees) == len(rows) and prod(degrees) == prod(f.degree for f in polynomials)
 

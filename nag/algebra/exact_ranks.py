@@ -3,8 +3,9 @@
 One of three ways to tell a rank; `nag.numerics.ball_ranks` has that of numbers with radii, and
 `nag.numerics.double_ranks` that of doubles. What decides is worked out over the rationals, or over
 the number field of a zero. Where a bound is enough, one prime gives it: a rank is no larger modulo
-a prime than it is, and smaller with a probability of some 1e-18 for random numbers. Irrational
-entries, which are zero where they are to many digits, take an elimination of our own.
+a prime than it is, and smaller with a probability of some 1e-18 for random numbers. A matrix of
+sums of square roots is one of rational blocks; modulo a prime roots are residues. Entries with
+other functions, which are zero where they are to many digits, take an elimination of our own.
 
 Nothing here has a tolerance.
 """
@@ -16,6 +17,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import islice
+from math import prod
 from typing import TYPE_CHECKING, Any
 
 import flint
@@ -23,6 +25,7 @@ import flint
 from nag.algebra.flint_numbers import to_fraction, to_rational
 from nag.algebra.number import Exact, Irrational, Number, Surd, is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
+from nag.algebra.surd import multiply_roots, normal_sum, primes_of
 from nag.errors import NagError
 
 if TYPE_CHECKING:
@@ -120,17 +123,36 @@ FIELDS = tuple(map(PrimeField, islice(primes_below(LARGEST_PRIME), 2)))
 LARGE = FIELDS[0]
 # How many primes are tried; half of them lack any one square root.
 MOST_PRIMES = 4000
+# Square roots, with their products, up to which a matrix is written out over the rationals.
+MOST_ROOTS = 8
 
 
 @lru_cache(maxsize=64)
-def fields_with_roots(primes: frozenset[int], count: int = 2) -> tuple[PrimeField, ...]:
+def fields_with_roots(
+    primes: frozenset[int], bound: int = LARGEST_PRIME, count: int = 2
+) -> tuple[PrimeField, ...]:
     """So many fields in which prime numbers are squares: `FIELDS` if there are none.
 
-    Fewer where they are not found among the `MOST_PRIMES` largest.
+    Fewer where they are not found among the `MOST_PRIMES` largest below a bound.
     """
-    found = (p for p in islice(primes_below(LARGEST_PRIME), MOST_PRIMES))
+    found = islice(primes_below(bound), MOST_PRIMES)
     fields = (p for p in found if all(_root_modulo(q, p) is not None for q in primes))
     return tuple(map(PrimeField, islice(fields, count)))
+
+
+def residues(f: Polynomial, field: PrimeField) -> dict[Exponents, int]:
+    """The image of a multiple of a polynomial whose coefficients are known exactly.
+
+    Raises:
+        ArithmeticError: if a square root in it does not exist, see `fields_with_roots`.
+    """
+    assert f.parts
+    found: dict[Exponents, int] = {}
+    for r, terms in f.parts[0].items():
+        root = prod(map(field.root, primes_of(r)))
+        for e, c in terms.items():
+            found[e] = (found.get(e, 0) + c * root) % field.modulus
+    return found
 
 
 def field_of(polynomials: Iterable[Polynomial]) -> PrimeField | None:
@@ -162,10 +184,59 @@ def row_echelon(rows: Sequence[Sequence[Number]]) -> tuple[list[Row], list[int]]
     """Reduced row echelon form without its zero rows, and the columns of its pivots."""
     if not rows or not rows[0]:
         return [], []
-    if any(isinstance(c, Surd | Irrational) for row in rows for c in row):
+    kinds = {type(c) for row in rows for c in row}
+    if Irrational in kinds:
         return _irrational_echelon(rows)
+    if Surd in kinds:
+        roots = roots_of(rows)
+        if len(roots) > MOST_ROOTS:
+            return _irrational_echelon(rows)
+        return _echelon_with_roots(rows, roots)
     table, pivots = reduce_matrix(rational_matrix(rows))
     return [tuple(map(to_fraction, row)) for row in table], pivots
+
+
+def roots_of(rows: Iterable[Iterable[Exact | int]]) -> tuple[int, ...]:
+    """Square-free integers, 1 first, whose roots span the least field that exact numbers lie in."""
+    group = [1]
+    for r in sorted({r for row in rows for c in row if isinstance(c, Surd) for r in c.terms}):
+        if r not in group:
+            group += [multiply_roots(r, s)[0] for s in group]
+    return tuple(group)
+
+
+def _over_the_rationals(rows: Sequence[Sequence[Exact | int]], roots: Sequence[int]) -> Any:
+    """The matrix of the same map over the rationals: a block for each entry.
+
+    Rows are multiplied by each root, and the coordinates of entries written side by side.
+    """
+    size = len(roots)
+    found = flint.fmpq_mat(size * len(rows), size * len(rows[0]))
+    place = {r: k for k, r in enumerate(roots)}
+    for i, row in enumerate(rows):
+        for j, c in enumerate(row):
+            for r, q in c.terms.items() if isinstance(c, Surd) else ((1, to_rational(c)),):
+                for k, s in enumerate(roots) if q else ():
+                    t, factor = multiply_roots(r, s)
+                    found[size * i + k, size * j + place[t]] = q * factor
+    return found
+
+
+def _echelon_with_roots(
+    rows: Sequence[Sequence[Exact | int]], roots: Sequence[int]
+) -> tuple[list[Row], list[int]]:
+    # What it spans over the rationals is mapped to itself by multiplication with any root, so that
+    # the reduced form of that matrix is made of blocks as well: units are blocks of ones.
+    size = len(roots)
+    table, pivots = reduce_matrix(_over_the_rationals(rows, roots))
+    echelon = [
+        tuple(
+            normal_sum(dict(zip(roots, row[k : k + size], strict=True)))
+            for k in range(0, len(row), size)
+        )
+        for row in table[::size]
+    ]
+    return echelon, [p // size for p in pivots[::size]]
 
 
 def _irrational_echelon(rows: Sequence[Sequence[Number]]) -> tuple[list[Row], list[int]]:
@@ -190,9 +261,10 @@ def _irrational_echelon(rows: Sequence[Sequence[Number]]) -> tuple[list[Row], li
 
 def rank(rows: Sequence[Sequence[Number]]) -> int:
     """The rank of a matrix that may be empty."""
-    if any(isinstance(c, Surd | Irrational) for row in rows for c in row):
-        return len(_irrational_echelon(rows)[1])
-    return int(rational_matrix(rows).rank()) if rows else 0
+    kinds = {type(c) for row in rows for c in row}
+    if kinds <= {int, Fraction}:
+        return int(rational_matrix(rows).rank()) if rows else 0
+    return len(row_echelon(rows)[1])
 
 
 def null_space(rows: Sequence[Sequence[Number]], columns: int) -> list[Row]:

@@ -14,7 +14,7 @@ from typing import Any
 import flint
 
 from nag.algebra.flint_numbers import to_rational
-from nag.algebra.number import Exact, Irrational, Number, Surd, is_zero, number_text
+from nag.algebra.number import Exact, Number, Surd, is_zero, number_text
 from nag.algebra.surd import multiply_roots, normal_sum, primes_of
 from nag.errors import NagError
 
@@ -296,7 +296,7 @@ class Polynomial:
     @cached_property
     def algebraic(self) -> bool:
         """Whether every coefficient is known exactly: rational, or a sum of square roots."""
-        return not any(isinstance(c, Irrational) for c in self.terms.values())
+        return all(isinstance(c, Exact) for c in self.terms.values())
 
     @cached_property
     def primes(self) -> frozenset[int]:

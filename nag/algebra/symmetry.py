@@ -184,7 +184,7 @@ def _proportional(f: Polynomial, g: Polynomial) -> bool:
 def in_span(f: Polynomial, equations: Sequence[Polynomial]) -> bool:
     if any(_proportional(f, g) for g in equations):
         return True
-    if not f.exact:
+    if not f.algebraic:
         return False
     # Those of lower degree first: mostly the equations themselves are enough.
     spanning: list[Polynomial] = []
@@ -198,7 +198,7 @@ def in_span(f: Polynomial, equations: Sequence[Polynomial]) -> bool:
 
 def _multiples(equations: Sequence[Polynomial], degree: int) -> Iterator[list[Polynomial]]:
     """The equations, then their multiples by rising degree, none above ``degree``."""
-    exact = [g for g in equations if g and g.exact and g.degree <= degree]
+    exact = [g for g in equations if g and g.algebraic and g.degree <= degree]
     left = MOST_MULTIPLES + len(exact)
     for extra in range(degree + 1):
         chosen = (

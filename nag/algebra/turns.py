@@ -15,6 +15,7 @@ from math import sqrt
 
 import numpy as np
 
+from nag.algebra.number import Exact, Surd
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
 
@@ -24,7 +25,7 @@ FEWEST_LOOPS = 2
 # Numbers beyond this, or below its inverse, are left alone: as doubles they might vanish.
 LARGEST = 10**100
 # Coefficients of each c and each s, and the constant.
-_Linear = tuple[tuple[tuple[Fraction, Fraction], ...], Fraction]
+_Linear = tuple[tuple[tuple[Exact, Exact], ...], Exact]
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,8 +41,8 @@ class Turns:
     """
 
     pairs: tuple[Pair, ...]
-    weight: Fraction
-    squares: tuple[Fraction, ...]
+    weight: Exact
+    squares: tuple[Exact, ...]
     loops: np.ndarray
 
     @property
@@ -53,14 +54,14 @@ class Turns:
 def turns_of(system: PolynomialSystem) -> Turns | None:
     """The pairs that all equations are about, and the equations between them.
 
-    None if there is another variable or another equation, or one whose coefficients are not
-    rational or of extreme size.
+    None if there is another variable or another equation, or one whose coefficients are not exact
+    or of extreme size.
     """
-    circles: dict[Pair, Fraction] = {}
+    circles: dict[Pair, Exact] = {}
     weights = set()
     linear = []
     for f in system.polynomials:
-        if not f.exact:
+        if not f.algebraic:
             return None
         if f.degree <= 1:
             linear.append(f)
@@ -91,12 +92,14 @@ def looped_turns(system: PolynomialSystem) -> Turns | None:
     return turns
 
 
-def _is_moderate(x: Fraction) -> bool:
+def _is_moderate(x: Exact) -> bool:
+    if isinstance(x, Surd):
+        return Fraction(1, LARGEST) < abs(x) < LARGEST
     p, q = abs(x.numerator), x.denominator
     return not p or (q < LARGEST * p and p < LARGEST * q)
 
 
-def _circle(f: Polynomial) -> tuple[Pair, Fraction, Fraction] | None:
+def _circle(f: Polynomial) -> tuple[Pair, Exact, Exact] | None:
     """The pair, N and r of a multiple of c^2 + N s^2 - r; None for anything else."""
     support = sorted(f.support)
     if len(support) != 2 or len(f.terms) != 3:
@@ -118,7 +121,7 @@ def _in_pairs(f: Polynomial, pairs: Sequence[Pair]) -> _Linear:
     return tuple((c, s) for c, s in own), f.terms.get(_power(f.n, 0, 0), zero)
 
 
-def _loops(linear: Sequence[_Linear], weight: Fraction) -> list[list[complex]] | None:
+def _loops(linear: Sequence[_Linear], weight: Exact) -> list[list[complex]] | None:
     """Equations that come in twos, as complex ones; None if one has no other."""
     loops: list[list[complex]] = []
     left, root = list(linear), sqrt(weight)
@@ -137,7 +140,7 @@ def _loops(linear: Sequence[_Linear], weight: Fraction) -> list[list[complex]] |
     return loops
 
 
-def _turned(first: _Linear, second: _Linear, weight: Fraction) -> Fraction | None:
+def _turned(first: _Linear, second: _Linear, weight: Exact) -> Exact | None:
     """How many times ``second`` is ``first``, turned by a right angle; None if it is not."""
     for (a, b), (c, s) in zip(first[0], second[0], strict=True):
         if a or b:

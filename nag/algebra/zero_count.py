@@ -17,18 +17,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import Enum
-from itertools import combinations_with_replacement, islice
-from math import comb, lcm
+from itertools import combinations_with_replacement
+from math import comb
 from typing import NamedTuple
 
 import flint
 import numpy as np
 
-from nag.algebra.exact_ranks import primes_below
+from nag.algebra.exact_ranks import PrimeField, fields_with_roots, residues
 from nag.algebra.polynomial import Exponents, Polynomial
 
 # Sums of so many products of residues are whole numbers that doubles hold.
-PRIMES = tuple(islice(primes_below(2**21), 2))
+LARGEST = 2**21
 MOST_STANDARD = 2**11
 # Monomials up to degree D beyond which nothing is worked out: some 0.5 s.
 MOST_MONOMIALS = 1500
@@ -61,7 +61,7 @@ class ZeroCount(NamedTuple):
 def most_zeros(
     polynomials: Sequence[Polynomial], enough: int = -1, patient: bool = True
 ) -> ZeroCount | None:
-    """A bound of the number of common zeros of polynomials with rational coefficients.
+    """A bound of the number of common zeros of polynomials whose coefficients are known exactly.
 
     Args:
         polynomials: not all zero, in the same variables.
@@ -74,13 +74,17 @@ def most_zeros(
         None where the zeros are not seen to be finitely many within `MOST_MONOMIALS`.
     """
     given = [f for f in polynomials if f]
-    if not given or not all(f.exact for f in given):
+    if not given or not all(f.algebraic for f in given):
         return None
     if not patient and not _small(given):
         return None
     counts = []
-    for prime in PRIMES:
-        count = _modulo(prime, given, enough)
+    roots = frozenset(p for f in given for p in f.primes)
+    fields = fields_with_roots(roots, LARGEST)
+    if len(fields) < 2:
+        return None
+    for field in fields:
+        count = _modulo(field, given, enough)
         if count is None:
             return None
         counts.append(count)
@@ -88,9 +92,9 @@ def most_zeros(
     return ZeroCount(max(bounds), len(bounds) == 1 and all(count.exact for count in counts))
 
 
-def _modulo(prime: int, given: Sequence[Polynomial], enough: int) -> ZeroCount | None:
+def _modulo(field: PrimeField, given: Sequence[Polynomial], enough: int) -> ZeroCount | None:
     """What one prime says."""
-    space = _Quotient(given[0].n, prime)
+    space = _Quotient(given[0].n, field)
     found = None
     for degree in range(MOST_MONOMIALS):
         if comb(degree + space.n, space.n) > MOST_MONOMIALS:
@@ -120,14 +124,15 @@ class _Quotient:
     """Polynomials up to a degree modulo V, by the monomials that are no leading ones in V.
 
     Attributes:
-        prime: modulo which everything is.
+        field: of the prime modulo which everything is.
+        prime: that one.
         degrees: of the monomials, which ascend by degree, shape ``(C,)``.
         standard: indices of those that are no leading monomials, shape ``(s,)``.
         forms: each monomial as a combination of those, shape ``(C, s)``.
     """
 
-    def __init__(self, n: int, prime: int) -> None:
-        self.n, self.prime = n, prime
+    def __init__(self, n: int, field: PrimeField) -> None:
+        self.n, self.field, self.prime = n, field, field.modulus
         self.top = -1
         self.monomials: list[Exponents] = []
         self.place: dict[Exponents, int] = {}
@@ -194,9 +199,8 @@ class _Quotient:
         """Polynomials as combinations of the standard monomials."""
         rows = np.zeros((len(polynomials), len(self.monomials)))
         for row, f in zip(rows, polynomials, strict=True):
-            common = lcm(*(c.denominator for c in f.terms.values()))
-            for e, c in f.terms.items():
-                row[self.place[e]] = c.numerator * (common // c.denominator) % self.prime
+            for e, c in residues(f, self.field).items():
+                row[self.place[e]] = c
         return np.mod(rows @ self.forms, self.prime)
 
     def _divide_out(self, rows: np.ndarray) -> None:

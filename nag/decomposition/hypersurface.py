@@ -76,7 +76,7 @@ def intersect(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> SliceEnd
         return _intersect_close(fibre, f, gamma, run)
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
     total, after = cut.n + cut.aux, cut.extended(f)
-    if not cut.polynomials and len(fibre) == 1 and f.exact and degree <= MOST_ROOTS:
+    if not cut.polynomials and len(fibre) == 1 and f.algebraic and degree <= MOST_ROOTS:
         found = _on_line(after, fibre.rows[:-1])
         if found is not None:
             return found

@@ -41,7 +41,7 @@ def decompose_rational_curve(
         None where the equations do not give it in this way, or its degree is too high.
     """
     reduced, n = reduction.reduced, reduction.n
-    exact = all(f.exact for f in (*reduced.polynomials, *reduced.nonzero))
+    exact = all(f.algebraic for f in (*reduced.polynomials, *reduced.nonzero))
     if not exact or n < 3 or len(reduced.polynomials) != n - 1:
         return None
     if not any(map(linear_variables, reduced.polynomials)):

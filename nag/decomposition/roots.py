@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any
 
 import flint
 import numpy as np
 
+from nag.algebra.number import Exact, Surd
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.digits import in_bits
 from nag.witness.close_points import close_pairs, fine_of_balls
@@ -22,8 +22,10 @@ from nag.witness.points import Points
 BITS, TOLERANCE = 400, 300
 
 
-def ball(c: Fraction) -> Any:
-    """A rational number, in the digits of FLINT's context."""
+def ball(c: Exact) -> Any:
+    """An exact number, in the digits of FLINT's context."""
+    if isinstance(c, Surd):
+        return flint.acb(c.ball(flint.ctx.prec))
     return flint.acb(flint.arb(c.numerator) / c.denominator)
 
 
@@ -42,7 +44,7 @@ def line(rows: np.ndarray) -> list[Any]:
 
 
 def zeros_on(f: Polynomial, images: Sequence[Any]) -> list[list[Any]] | None:
-    """The zeros of f, with rational coefficients, on a line, as many as its degree.
+    """The zeros of f, with exact coefficients, on a line, as many as its degree.
 
     Args:
         images: the coordinates on the line.

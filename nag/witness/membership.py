@@ -396,7 +396,7 @@ class _Asked:
         At one in doubles they do not if they hold nowhere so near to it as ends of paths would have
         to be for a doubt.
         """
-        plain = [f for f in cut.polynomials if f.exact and max(f.support, default=0) < cut.n]
+        plain = [f for f in cut.polynomials if f.algebraic and max(f.support, default=0) < cut.n]
         if len(self.exact):
             return all(is_zero(f((*self.exact, *[Fraction(0)] * cut.aux))) for f in plain)
         if not plain:
