@@ -47,8 +47,8 @@ def test_the_factors_multiply_to_the_polynomial_up_to_a_constant(parts) -> None:
     assert all(factor_into_irreducibles(p) == ((p, 1),) for p, _ in found)
 
 
-def test_irrational_coefficients_are_left_as_they_are() -> None:
-    f = parse_polynomial("sqrt(2)*x^2*y", ("x", "y"))
+def test_coefficients_that_are_not_algebraic_are_left_as_they_are() -> None:
+    f = parse_polynomial("pi*x^2*y", ("x", "y"))
     assert factor_into_irreducibles(f) == ((f, 1),)
 
 

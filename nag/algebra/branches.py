@@ -1,16 +1,20 @@
-"""Zero sets that fall apart exactly, because equations factor over the rationals.
+"""Zero sets that fall apart exactly, because equations factor over their coefficients' field.
 
 ``V(f g, h)`` is ``V(f, h)`` and ``V(g, h)`` together. Linear factors are solved, so that what is
 left may factor again, until every equation of a branch is irreducible (`branch_search`); then what
-follows from the equations of a branch is factored as well (`consequences`).
+follows from the equations of a branch is factored as well (`consequences`): so far as equations are
+rational. Those with square roots are factored (`conjugate_factors`), and wait.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from nag.algebra.branch_search import Search, State, TooManyBranches, product_of
-from nag.algebra.factoring import ring
+from nag.algebra.conjugate_factors import make_monic
+from nag.algebra.elimination import solve_for, substitute
+from nag.algebra.factoring import factor_into_irreducibles, ring
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 
@@ -55,8 +59,9 @@ class Branches:
 
 
 def branches(system: PolynomialSystem) -> tuple[Branch, ...] | None:
-    """The branches of a system, none of them in another one; None if it is its only branch.
+    """The branches of a system; None if it is its only branch.
 
+    None of them is in another one, if equations are rational; others are not compared as sets.
     Their zero sets together are that of the system, but for what lies in the zero set of a
     polynomial of ``system.nonzero``. There is no branch where the equations contradict each other.
     """
@@ -65,7 +70,12 @@ def branches(system: PolynomialSystem) -> tuple[Branch, ...] | None:
 
 def search_branches(system: PolynomialSystem) -> Branches:
     """The branches of a system, as `branches` says, and what else was seen on the way."""
-    equations = [f for f in system.polynomials if f]
+    apart = _split_with_roots(system)
+    if apart is not None:
+        return Branches(_join([_branches_or_itself(part) for part in apart]))
+    equations = [
+        f if f.exact or not f.algebraic else make_monic(f) for f in system.polynomials if f
+    ]
     exact = [f for f in equations if f.exact and len(f.terms) <= MOST_TERMS]
     rest = tuple(dict.fromkeys(f for f in equations if not f.exact or len(f.terms) > MOST_TERMS))
     if not exact:
@@ -85,6 +95,51 @@ def search_branches(system: PolynomialSystem) -> Branches:
     leaves = [leaf for leaf in leaves if not search.contradictory(leaf)]
     found = [_branch(search, leaf, rest) for leaf in search.irredundant(leaves)]
     return Branches(tuple(sorted(found, key=lambda b: len(b.polynomials))))
+
+
+def _split_with_roots(system: PolynomialSystem) -> list[PolynomialSystem] | None:
+    """Systems with one factor each of an equation with square roots; None if none has several.
+
+    A linear factor is solved, so that what is left may factor again.
+    """
+    for i, f in enumerate(system.polynomials):
+        if f.exact or not f.algebraic or len(f.terms) > MOST_TERMS:
+            continue
+        factors = factor_into_irreducibles(f)
+        if [k for _, k in factors] in ([], [1]):
+            continue
+        others = (*system.polynomials[:i], *system.polynomials[i + 1 :])
+        return [replace(system, polynomials=(p, *_use_equation(p, others))) for p, _ in factors]
+    return None
+
+
+def _use_equation(p: Polynomial, others: Sequence[Polynomial]) -> Iterable[Polynomial]:
+    """The others, with what a linear equation says of its last variable."""
+    if p.degree > 1:
+        return others
+    index = max(p.support)
+    image = solve_for(p, index)
+    return [substitute(f, index, image) for f in others]
+
+
+def _branches_or_itself(system: PolynomialSystem) -> tuple[Branch, ...]:
+    found = branches(system)
+    if found is not None:
+        return found
+    given = [f for f in system.polynomials if f]
+    if any(f.degree == 0 for f in given):
+        return ()
+    linear, others = ([f for f in given if (f.degree == 1) == flat] for flat in (True, False))
+    return (Branch(tuple(linear), tuple(others)),)
+
+
+def _join(found: Sequence[Sequence[Branch]]) -> tuple[Branch, ...]:
+    """Branches of several systems, without those that have all equations of another one."""
+    kept: list[Branch] = []
+    for branch in sorted((b for part in found for b in part), key=lambda b: len(b.polynomials)):
+        if not any(set(other.polynomials) <= set(branch.polynomials) for other in kept):
+            kept.append(branch)
+    return tuple(kept)
 
 
 def _is_curved(leaf: State) -> bool:

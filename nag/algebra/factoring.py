@@ -1,5 +1,7 @@
 """Factors of exact polynomials: over the rationals by FLINT, and how many over the complex numbers.
 
+Over the rationals with square roots they are found by norms (`conjugate_factors`).
+
 FLINT is loaded when the first polynomial is factored, and not before.
 
 References:
@@ -17,7 +19,13 @@ from typing import Any
 import flint
 import numpy as np
 
-from nag.algebra.exact_ranks import LARGE
+from nag.algebra.conjugate_factors import (
+    Factors,
+    common_factor_with_roots,
+    factor_with_roots,
+    make_monic,
+)
+from nag.algebra.exact_ranks import LARGE, PrimeField, field_of
 from nag.algebra.flint_numbers import to_fraction, to_rational
 from nag.algebra.polynomial import Exponents, Polynomial
 
@@ -128,22 +136,33 @@ def _primitive(f: Any) -> Any:
     return f if a == b == 1 else f * a / b
 
 
-# Distinct irreducible polynomials with their exponents.
-Factors = tuple[tuple[Polynomial, int], ...]
-
-
 def factor_into_irreducibles(f: Polynomial) -> Factors:
-    """The distinct irreducible factors of ``f`` over the rationals, with their exponents.
+    """The distinct irreducible factors of ``f`` over its coefficients' field, with their exponents.
 
-    None of a constant. Factors that are equal up to a constant are equal. A polynomial with
-    irrational coefficients is left as it is.
+    The field is that of the rationals with the square roots in the coefficients, once one of them
+    is made one. None of a constant. Factors that are equal up to a constant are equal. A polynomial
+    with other coefficients is left as it is, and so is one whose norm is too large.
     """
     if f.degree < 1:
         return ()
-    if not f.exact:
-        return ((f, 1),)
+    if f.exact:
+        over = ring(f.n)
+        return tuple((over.factor_polynomial(p), k) for p, k in over.factors(over.of(f)))
+    return _factor_with_roots(f) if f.algebraic else ((f, 1),)
+
+
+@lru_cache(maxsize=256)
+def _factor_with_roots(f: Polynomial) -> Factors:
+    monic = make_monic(f)
+    if monic.exact:
+        return factor_into_irreducibles(monic)
+    found = factor_with_roots(monic, factor_into_irreducibles)
+    if found is None:
+        return ((monic, 1),)
     over = ring(f.n)
-    return tuple((over.factor_polynomial(p), k) for p, k in over.factors(over.of(f)))
+    return tuple(
+        (over.factor_polynomial(_primitive(over.of(p))) if p.exact else p, k) for p, k in found
+    )
 
 
 def product(factors: Iterable[Polynomial], n: int) -> Polynomial:
@@ -156,11 +175,15 @@ def product(factors: Iterable[Polynomial], n: int) -> Polynomial:
 def common_factor(polynomials: Sequence[Polynomial]) -> Polynomial | None:
     """The greatest common divisor of exact polynomials, not all zero; None if it is a constant.
 
-    None as well where coefficients are irrational.
+    None as well where coefficients are neither rational nor sums of few square roots.
     """
     given = sorted((f for f in polynomials if f), key=lambda f: len(f.terms))
-    if not given or not all(f.exact for f in given):
+    if not given or not all(f.algebraic for f in given):
         return None
+    given = [f if f.exact else make_monic(f) for f in given]
+    if not all(f.exact for f in given):
+        found = common_factor_with_roots(given)
+        return found if found is not None and found.degree > 0 else None
     over = ring(given[0].n)
     common = over.of(given[0])
     for f in given[1:]:
@@ -189,22 +212,23 @@ def most_absolute_factors(f: Polynomial, rng: np.random.Generator) -> int | None
     of degrees less than f's in x and y, for which ``g/f dx + h/f dy`` is closed.
 
     Args:
-        f: irreducible over the rationals.
+        f: irreducible over its coefficients' field.
         rng: chooses the plane.
 
     Returns:
         None for a polynomial in one variable, or of too high a degree.
     """
-    if not f.exact or f.n < 2 or not 1 <= f.degree <= MOST_DEGREE:
+    field = field_of([f])
+    if field is None or f.n < 2 or not 1 <= f.degree <= MOST_DEGREE:
         return None
-    if is_surely_irreducible(ring(f.n).of(f), f.n):
+    if f.exact and is_surely_irreducible(ring(f.n).of(f), f.n):
         return 1
     plane = _on_a_plane(f, rng)
     if plane.degree < f.degree:
         return None
     try:
-        return _closed_forms({e: LARGE.of(c) for e, c in plane.terms.items()})
-    except ZeroDivisionError:
+        return _closed_forms({e: field.of(c) for e, c in plane.terms.items()}, field)
+    except ArithmeticError:
         return None
 
 
@@ -217,7 +241,7 @@ def _on_a_plane(f: Polynomial, rng: np.random.Generator) -> Polynomial:
     return f.compose(images)
 
 
-def _closed_forms(terms: Mapping[Exponents, int]) -> int:
+def _closed_forms(terms: Mapping[Exponents, int], field: PrimeField) -> int:
     """As many, for coefficients modulo the prime; a rank that it lowers gives more, never 1."""
     m, n = (max(e[i] for e in terms) for i in range(2))
     # g = x^i y^j contributes f g_y - g f_y, and h = x^i y^j its mirror image.
@@ -232,4 +256,4 @@ def _closed_forms(terms: Mapping[Exponents, int]) -> int:
                 power_x, power_y = (a + i, b + j - 1) if axis else (a + i - 1, b + j)
                 row[power_x * 2 * (n + 1) + power_y] += c * weight
         rows.append(row)
-    return len(rows) - LARGE.rank(rows)
+    return len(rows) - field.rank(rows)

@@ -52,19 +52,19 @@ MOST_CHOICES = 20_000
 def is_one_equation(reduction: Reduction) -> bool:
     """Whether exact linear elimination leaves one exact equation in several unknowns."""
     equations = reduction.reduced.polynomials
-    return len(equations) == 1 and equations[0].exact and reduction.n > 1
+    return len(equations) == 1 and equations[0].algebraic and reduction.n > 1
 
 
 def decompose_one_equation(task: Task) -> Decomposition | None:
     """The components of a hypersurface; one of each orbit, which paths tell.
 
     Returns:
-        None where the equation is none, or factors over the rationals, or its degree is too high
-        for this, or where orbits are not known.
+        None where the equation is none, or factors over its coefficients' field, or its degree is
+        too high for this, or where orbits are not known.
     """
     reduction, rng, run = task.reduction, task.rng, task.run
     reduced = reduction.reduced
-    if not is_one_equation(reduction) or not all(g.exact for g in reduced.nonzero):
+    if not is_one_equation(reduction) or not all(g.algebraic for g in reduced.nonzero):
         return None
     (f,) = reduced.polynomials
     if [k for _, k in factor_into_irreducibles(f)] != [1]:
