@@ -8,26 +8,28 @@ from pathlib import Path
 import pytest
 from linkages import case
 
+from nag.bench.chains import CHAINS
 from nag.bench.decomposition import (
     Decomposed,
     PeerDecomposed,
     as_json,
+    cell_factor,
+    growth,
     growth_chart,
     growth_exponent,
     measure_decomposition,
-    rhombus_chain,
 )
 from nag.bench.models import measure_models
 from nag.bench.table import decomposition_table as table
 from nag.bench.table import models_table
-from nag.cli import main
+from nag.cli import bench_decompose, main
 from nag.files.cases import read_case
 
 CASES = Path(__file__).parent.parent / "cases"
 
 
 def row(components: int, seconds: float, paths: int = 1, right: bool = True) -> Decomposed:
-    return Decomposed(f"{components}", components, 1, paths, 0, seconds, True, right)
+    return Decomposed(f"{components}", 2, components, 1, paths, 0, seconds, True, right)
 
 
 @pytest.mark.parametrize(
@@ -41,8 +43,9 @@ def row(components: int, seconds: float, paths: int = 1, right: bool = True) -> 
 )
 def test_chains_are_those_of_the_case_files(name: str) -> None:
     case = read_case(CASES / f"{name}.toml")
-    system, truth = rhombus_chain(int(name[-1]))
-    assert system == case.system
+    rhombi, k = CHAINS["rhombi"], int(name[-1])
+    truth = rhombi.truth(k)
+    assert rhombi.make(k) == case.system
     assert [(t.dimension, t.degree, t.count) for t in truth] == [
         (t.dimension, t.degree, t.count) for t in case.truth
     ]
@@ -56,12 +59,31 @@ def test_growth_is_the_slope_in_logarithms() -> None:
         growth_exponent(rows[:1], "paths")
 
 
+def test_the_factor_of_a_cell_is_the_slope_of_the_logarithm() -> None:
+    rows = [row(1, 0.25 * 3.0**n, int(n == 1)) for n in range(1, 5)]
+    assert cell_factor(rows, "seconds") == pytest.approx(3)
+    with pytest.raises(ValueError, match="two chains"):
+        cell_factor(rows, "paths")
+
+
+@pytest.mark.parametrize("name", sorted(CHAINS))
+def test_short_chains_are_what_is_known_of_them(name: str) -> None:
+    for measured in growth(CHAINS[name], 2):
+        assert measured.right
+
+
+def test_the_command_knows_all_chains() -> None:
+    assert tuple(CHAINS) == bench_decompose.CHAINS
+    assert max(chain.most for chain in CHAINS.values()) == bench_decompose.MOST_CELLS
+
+
 def test_a_decomposition_is_measured_against_what_is_known() -> None:
-    system, truth = rhombus_chain(1)
-    measured = measure_decomposition("chain", system, truth)
+    rhombi = CHAINS["rhombi"]
+    system = rhombi.make(1)
+    measured = measure_decomposition("chain", system, rhombi.truth(1))
     assert measured.right and measured.complete
     assert (measured.components, measured.dimension, measured.failed) == (3, 1, 0)
-    wrong = measure_decomposition("chain", system, rhombus_chain(2)[1])
+    wrong = measure_decomposition("chain", system, rhombi.truth(2))
     assert wrong.complete and not wrong.right
 
 
@@ -72,8 +94,8 @@ def test_table_shows_what_the_other_program_answers() -> None:
     }
     lines = table([row(3, 0.5), row(9, 0.5, right=False)], peers)
     assert lines[1].split()[-4:] == ["0.5000", "1.500", "3.0", "right"]
-    assert lines[2].split(maxsplit=7)[5:7] == ["WRONG", "0.5000"]
-    assert lines[2].split(maxsplit=7)[7] == "-  > 400  no answer in 200 s"
+    assert lines[2].split(maxsplit=8)[6:8] == ["WRONG", "0.5000"]
+    assert lines[2].split(maxsplit=8)[8] == "-  > 400  no answer in 200 s"
     rows = json.loads(as_json([row(3, 0.5)], peers))["systems"]
     assert rows[0]["M2"]["seconds"] == 1.5
 
@@ -89,7 +111,9 @@ def test_chart_is_drawn(tmp_path) -> None:
     ("arguments", "message"),
     [
         (["--decompose", "--case", "none"], "there is no"),
-        (["--growth", "1"], "is not a number from 2 to 6"),
+        (["--growth", "1"], "is not a number from 2 to 12"),
+        (["--growth", "7"], "at most 6 are chained"),
+        (["--of", "polygons"], "ask for that as well"),
         (["--chart", "x.png"], "ask for that as well"),
         (["--decompose", "--json", "/no/such/folder/x.json"], "--json"),
     ],

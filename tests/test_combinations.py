@@ -16,8 +16,8 @@ from linkages import CASES
 from systems import system
 
 import nag
-from nag.algebra.combinations import of_fewest_terms, of_lowest_degrees
-from nag.algebra.exact_ranks import rational_matrix
+from nag.algebra.combinations import of_fewest_terms, of_fewest_variables, of_lowest_degrees
+from nag.algebra.exact_ranks import independent_polynomials, rational_matrix
 from nag.algebra.polynomial import Polynomial
 from nag.bench.atlas.families import FAMILIES
 from nag.solving.solve import solve
@@ -106,3 +106,19 @@ def test_a_mixed_equation_costs_no_paths(seed: int) -> None:
     result = nag.solve(mixed, seed=seed, start="polyhedral")
     assert (result.complete, len(result.solutions)) == (True, 70)
     assert result.paths.tracked == 70
+
+
+def test_combinations_of_fewest_variables_span_the_same_and_show_what_two_variables_share() -> None:
+    x, y, z = Polynomial.variables(3)
+    alone = [x * y - 2, y * z - 3, x * 3 - z * 2]
+    # What only their combinations show: multiples of each with the third variable.
+    mixed = [alone[0] * z + alone[1], alone[0] * z - alone[1] * 2, alone[2] + alone[0] * z]
+    found = of_fewest_variables(mixed)
+    assert [f.support for f in found] == [{0, 2}, {1, 2}, {0, 1, 2}]
+    assert len(independent_polynomials([*mixed, *found])) == len(found) == 3
+
+
+def test_combinations_of_fewest_variables_are_as_many_as_are_independent() -> None:
+    x, y = Polynomial.variables(2)
+    assert len(of_fewest_variables([x + y, x - y, x * 2])) == 2
+    assert of_fewest_variables([]) == ()

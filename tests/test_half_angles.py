@@ -2,11 +2,13 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from linkages import case, exact, four_bar, general_loop, loop, spherical_four_bar
+from linkages import case, exact, four_bar, general_loop, loop, residual, spherical_four_bar
 
+from nag.bench.chains import BENNETT, CHAINS, attach_cell, ring
 from nag.mechanism.axes import skew
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import ModelError, model
+from nag.mechanism.problem import decompose
 
 
 def test_bennett_is_one_bilinear_equation():
@@ -126,3 +128,38 @@ def test_reading_the_loop_from_another_body_changes_nothing_of_the_lift():
         lifted = m.lift(m.reference)
         assert lifted.euler[ground] == first.orientation(ground)
         assert lifted.euler["B3"] == exact(0, 0, 0, 1)
+
+
+def bennett_star() -> Mechanism:
+    """A Bennett linkage, at each of whose joints another one is."""
+    joints = list(ring(0, BENNETT, ("b0", "b1", "b2", "b3"), 0))
+    for k in range(4):
+        others = (f"b{k}", f"x{k}", f"y{k}", f"b{(k - 1) % 4}")
+        joints += ring(k + 1, attach_cell(BENNETT, BENNETT[k]), others, 1)
+    return Mechanism("b0", tuple(joints))
+
+
+@pytest.mark.parametrize("n", [2, 3, 4])
+def test_a_row_of_bennett_linkages_is_a_curve_linear_in_each_half_angle(n):
+    m = model(CHAINS["bennett-loops"].make(n))
+    assert (m.formulation, m.system.n) == ("H", 2 * n - 1)
+    (curve,) = decompose(m).components
+    assert (curve.dimension, curve.degree, curve.multiplicity) == (1, 2 * n - 1, 1)
+    assert list(curve.multidegree) == [1] * (2 * n - 1)
+
+
+def test_a_loop_whose_joints_are_all_those_of_others_eliminates_nothing():
+    m = model(bennett_star())
+    assert sorted(len(c.lost) for c in m.form.closures) == [0, 2, 2, 2, 2]
+    answer = decompose(m)
+    assert answer.complete
+    assert [(c.dimension, c.degree) for c in answer.components] == [(1, 8)]
+
+
+@pytest.mark.parametrize("mechanism", [CHAINS["bennett-loops"].make(3), bennett_star()])
+def test_loops_with_few_joints_of_their_own_lift_to_all_constraints(mechanism):
+    m = model(mechanism, "H")
+    (curve,) = decompose(m).components
+    for point in curve.points:
+        full = m.unreduced_point(m.lift(list(point)))
+        assert residual(m.unreduced, full) < 1e-12

@@ -1,4 +1,4 @@
-"""Combinations of equations, by numbers, that have the lowest degrees, or the fewest terms.
+"""Combinations of equations, by numbers, of the lowest degrees, of fewest terms or variables.
 
 Where the terms of highest degree of several equations depend on each other, a combination has a
 lower degree: as many paths as the product of the degrees then need not be tracked to infinity. As
@@ -7,6 +7,9 @@ two circles and two spheres do, equations of mechanisms often share what is high
 A multiple of one equation, added to another, hides what this one says: that a product of variables
 is constant, for example. The mixed volume, and so the number of paths of a polyhedral start system,
 grows with its terms.
+
+More equations than a set needs often say together what one of few variables says alone: the closure
+of a Bennett linkage, four equations in three half-angles, what each two of them have in common.
 """
 
 from __future__ import annotations
@@ -14,6 +17,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from itertools import combinations
 from math import lcm, prod
 from typing import Any
 
@@ -21,10 +25,12 @@ import flint
 
 from nag.algebra.exact_ranks import coefficient_rows, field_of, reduce_matrix, residues
 from nag.algebra.flint_numbers import to_fraction, to_rational
-from nag.algebra.polynomial import Exponents, Polynomial
+from nag.algebra.polynomial import Exponents, Polynomial, occurring_variables
 
 # Coefficients beyond which no combination of lower degree is looked for.
 MOST_COEFFICIENTS = 100_000
+# Variables beyond which no combination of fewer is looked for: each set of them is.
+MOST_VARIABLES = 7
 # Terms with FLINT's rational coefficients.
 Row = Mapping[Exponents, Any]
 
@@ -53,8 +59,7 @@ def of_lowest_degrees(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ..
         of_degree = [(f, row) for f, row in zip(given, rows, strict=True) if f.degree == degree]
         of_degree += [(None, row) for d, row in zip(degrees, reduced, strict=True) if d == degree]
         tops = [{e: c for e, c in row.items() if sum(e) == degree} for _, row in of_degree]
-        _, independent = reduce_matrix(flint.fmpq_mat(coefficient_rows(tops)).transpose())
-        for k in independent:
+        for k in _first_independent(tops):
             f, row = of_degree[k]
             chosen.append(_whole(given[0].n, row) if f is None else f)
     shorter = sum(len(f.terms) for f in chosen) <= sum(len(f.terms) for f in given)
@@ -91,6 +96,48 @@ def of_fewest_terms(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]
         terms = {e: to_fraction(c) for e, c in found[i].items()}
         result[places[i]] = Polynomial(result[places[i]].n, terms)
     return tuple(result)
+
+
+def of_fewest_variables(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
+    """A basis of the combinations of polynomials, of as few variables each as there can be.
+
+    Of many variables, or with coefficients that are not rational, they stay; zeros are left out.
+    """
+    given = tuple(f for f in polynomials if f.terms)
+    variables = sorted(frozenset[int]().union(*(f.support for f in given)))
+    if not all(f.exact for f in given) or len(variables) > MOST_VARIABLES:
+        return given
+    if not given:
+        return ()
+    rows = list(map(_row, given))
+    monomials = _descending(rows)
+    chosen: list[Row] = []
+    for size in range(len(variables) + 1):
+        for inside in combinations(variables, size):
+            found = [*chosen, *_combinations_in(inside, rows, monomials)]
+            chosen = [found[k] for k in _first_independent(found)]
+    return tuple(_whole(given[0].n, row) for row in chosen)
+
+
+def _combinations_in(
+    variables: Sequence[int], rows: Sequence[Row], monomials: Sequence[Exponents]
+) -> list[Row]:
+    """A basis of the combinations of rows that have no other variables than these."""
+    within = {e for e in monomials if occurring_variables([e]) <= set(variables)}
+    ordered = sorted(monomials, key=within.__contains__)
+    table, pivots = reduce_matrix(flint.fmpq_mat(coefficient_rows(rows, ordered)))
+    return [
+        {e: c for e, c in zip(ordered, row, strict=True) if c}
+        for row, pivot in zip(table, pivots, strict=True)
+        if ordered[pivot] in within
+    ]
+
+
+def _first_independent(rows: Sequence[Row]) -> list[int]:
+    """Indices of the rows that are no combinations of those before them."""
+    if not rows:
+        return []
+    return reduce_matrix(flint.fmpq_mat(coefficient_rows(rows)).transpose())[1]
 
 
 def _surely_lowest(polynomials: Sequence[Polynomial], monomials: Sequence[Exponents]) -> bool:

@@ -1,8 +1,9 @@
 """Benchmarks: systems, times, and other programs beside ours.
 
-Bottom-up: read `measure` (solving), `decomposition`, `models`, then `peers` (other programs) and
-`table`, on `timed_runs`. Speed against accuracy: `reference` (solutions, proved), `work_precision`
-(what is charted: `sharpening`, `whole_paths`), `speed_accuracy` (solutions), `component_curves`,
-and what other programs find, `peer_points` and `peer_components`; `speed_accuracy_picture` on
-`picture_file` draws it. `verdicts` says whether answers are right; `atlas` is where methods fail.
+Bottom-up: read `measure` (solving), `chains`, `decomposition`, `models`, then `peers` (other
+programs) and `table`, on `timed_runs`. Speed against accuracy: `reference` (solutions, proved),
+`work_precision` (what is charted: `sharpening`, `whole_paths`), `speed_accuracy` (solutions),
+`component_curves`, and what other programs find, `peer_points` and `peer_components`;
+`speed_accuracy_picture` on `picture_file` draws it. `verdicts` says whether answers are right;
+`atlas` is where methods fail.
 """

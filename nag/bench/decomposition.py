@@ -11,13 +11,14 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.bench.chains import Chain
 from nag.bench.peers import in_macaulay2
 from nag.decomposition.decompose import decompose
 from nag.errors import NagError
 from nag.files.cases import Truth
+from nag.mechanism.problem import problem_of
 from nag.report.agreement import AgreementKind, compare
 
 # Best of so many runs; a run that takes longer than LONG seconds is not repeated.
@@ -31,6 +32,7 @@ class Decomposed:
 
     Attributes:
         case: name of the system.
+        variables: of the system.
         components: number of components found; dimension: the largest of theirs.
         paths: paths tracked; failed: how many of them failed.
         seconds: of processor time, warm, one thread, best of a few.
@@ -38,6 +40,7 @@ class Decomposed:
     """
 
     case: str
+    variables: int
     components: int
     dimension: int
     paths: int
@@ -96,6 +99,7 @@ def measure_decomposition(
     )
     return Decomposed(
         case=name,
+        variables=system.n,
         components=sum(c.orbit for c in answer.components),
         dimension=answer.dimension,
         paths=answer.paths.tracked,
@@ -135,28 +139,39 @@ def macaulay2(system: PolynomialSystem, truth: Sequence[Truth], limit: float) ->
     return PeerDecomposed(float(result[1]), process, right, remark)
 
 
-def rhombus_chain(k: int) -> tuple[PolynomialSystem, tuple[Truth, ...]]:
-    """A chain of k rhombi, each sharing a bar with the next (PT13 eq. 8 and 9 continued).
-
-    Each rhombus pairs its bars off in 3 ways with one bar free to turn: 3^k products of k circles.
-    """
-    names = tuple(f"{x}{i}" for i in range(3 * k + 1) for x in "cs")
-    equations = ["c0 - 1", "s0"]
-    for r in range(k):
-        bars = (0, 1, 2, 3) if r == 0 else (3 * r + 1, 3 * r, 3 * r + 2, 3 * r + 3)
-        equations += ["{0}{1} - {0}{2} - {0}{3} + {0}{4}".format(x, *bars) for x in "cs"]
-    equations += [f"c{i}^2 + s{i}^2 - 1" for i in range(3 * k + 1)]
-    system = PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
-    return system, (Truth(dimension=k, degree=2**k, count=3**k),)
-
-
-def growth(longest: int, seed: int = 0) -> list[Decomposed]:
-    """Chains of 1 to ``longest`` rhombi, decomposed."""
+def growth(chain: Chain, longest: int, seed: int = 0) -> list[Decomposed]:
+    """Chains of 1 to ``longest`` cells, decomposed."""
     rows = []
-    for k in range(1, longest + 1):
-        system, truth = rhombus_chain(k)
-        rows.append(measure_decomposition(f"chain of {k}", system, truth, seed=seed))
+    for n in range(1, longest + 1):
+        problem = problem_of(chain.make(n))
+        row = measure_decomposition(
+            f"chain of {n}",
+            problem.system,
+            chain.truth(n),
+            problem.symmetries,
+            problem.formulation,
+            seed,
+        )
+        rows.append(row)
     return rows
+
+
+def cell_factor(rows: Sequence[Decomposed], quantity: str) -> float:
+    """What one cell more multiplies ``quantity`` by, by least squares of its logarithm.
+
+    Chains of which the quantity is zero are left out.
+
+    Raises:
+        ValueError: if fewer than two are left.
+    """
+    import numpy as np
+
+    known = [(n, getattr(row, quantity)) for n, row in enumerate(rows, 1)]
+    known = [(n, value) for n, value in known if value > 0]
+    if len(known) < 2:
+        raise NagError("a factor needs two chains at least")
+    cells, values = np.array(known, dtype=float).T
+    return float(np.exp(np.polyfit(cells, np.log(values), 1)[0]))
 
 
 def growth_exponent(rows: Sequence[Decomposed], quantity: str) -> float:
@@ -175,23 +190,32 @@ def growth_exponent(rows: Sequence[Decomposed], quantity: str) -> float:
 
 
 def growth_chart(rows: Sequence[Decomposed], path: str) -> None:
-    """Seconds and paths against the number of components, as an image; needs matplotlib."""
+    """Seconds and paths against the number of cells, as an image; needs matplotlib."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(7, 3.2), layout="constrained")
-    components = [row.components for row in rows]
+    cells = range(1, len(rows) + 1)
     for axes, quantity, label in zip(
         figure.subplots(1, 2), ("seconds", "paths"), ("seconds", "paths tracked"), strict=True
     ):
-        axes.loglog(components, [getattr(row, quantity) for row in rows], "o-", color="C0")
-        slope = growth_exponent(rows, quantity)
-        axes.set_title(f"{label}: components^{slope:.2f}", fontsize=10)
-        axes.set_xlabel("irreducible components")
+        axes.semilogy(cells, [getattr(row, quantity) or None for row in rows], "o-", color="C0")
+        axes.set_title(f"{label}: {growth_text(rows, quantity)}", fontsize=10)
+        axes.set_xlabel("cells")
         axes.set_ylabel(label)
-        axes.set_xticks(components, [str(c) for c in components])
-        axes.minorticks_off()
+        axes.set_xticks(cells)
         axes.grid(True, alpha=0.3)
     figure.savefig(path, dpi=150)
+
+
+def growth_text(rows: Sequence[Decomposed], quantity: str) -> str:
+    """How a quantity grows with the cells, and with the components where there are more of them."""
+    try:
+        text = f"times {cell_factor(rows, quantity):.2f} for each cell"
+    except NagError:
+        return "none for most chains"
+    if all(getattr(row, quantity) for row in rows) and len({row.components for row in rows}) > 1:
+        text += f", components^{growth_exponent(rows, quantity):.2f}"
+    return text
 
 
 def as_json(rows: Sequence[Decomposed], peers: dict[str, PeerDecomposed]) -> str:

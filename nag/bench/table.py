@@ -60,11 +60,13 @@ def table(
 
 def decomposition_table(rows: list[Decomposed], peers: dict[str, PeerDecomposed]) -> list[str]:
     """Decompositions as aligned lines, times in seconds of the processor."""
-    head = ["system", "components", "dimension", "paths", "failed", "answer", "seconds"]
+    head = ["system", "variables", "components", "dimension", "paths", "failed", "answer"]
+    head.append("seconds")
     lines = [[*head, *(["M2 seconds", "x", "M2 answer"] if peers else [])]]
     for row in rows:
         answer = "right" if row.right else "WRONG" if row.complete else "incomplete"
-        cells = [row.case, row.components, row.dimension, row.paths, row.failed, answer]
+        cells = [row.case, row.variables, row.components, row.dimension, row.paths, row.failed]
+        cells.append(answer)
         cells.append(f"{row.seconds:.4f}")
         if peers:
             peer = peers[row.case]
@@ -74,7 +76,7 @@ def decomposition_table(rows: list[Decomposed], peers: dict[str, PeerDecomposed]
                 cells += [f"{peer.seconds:.3f}", f"{peer.seconds / row.seconds:.1f}"]
                 cells.append("right" if peer.right else peer.remark)
         lines.append([str(cell) for cell in cells])
-    left = {0, 5, 9} if peers else {0, 5}
+    left = {0, 6, 10} if peers else {0, 6}
     text = [*align(lines, left), "", "seconds: processor time, warm, one thread, best of five."]
     if peers:
         text.append(
@@ -109,11 +111,10 @@ def models_table(rows: list[Formulated]) -> list[str]:
 
 
 def growth_table(rows: list[Decomposed]) -> list[str]:
-    """Chains as aligned lines, and the exponents of time and paths."""
-    from nag.bench.decomposition import growth_exponent
+    """Chains as aligned lines, and how time and paths grow."""
+    from nag.bench.decomposition import growth_text
 
     lines = decomposition_table(rows, {})[:-1]
     for quantity in ("seconds", "paths"):
-        slope = growth_exponent(rows, quantity)
-        lines.append(f"{quantity} grow as the number of components to the power {slope:.2f}")
+        lines.append(f"{quantity}: {growth_text(rows, quantity)}")
     return lines

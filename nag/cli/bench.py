@@ -95,7 +95,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         return bench_models.run(options)
     if options.folder is None:
         options.folder = str(FOLDER)
-    if options.decompose or options.growth is not None or options.chart is not None:
+    if options.decompose or any(x is not None for x in (options.growth, options.chart, options.of)):
         return bench_decompose.run(options)
 
     from nag.bench.measure import as_json, flop_rate, measure

@@ -12,12 +12,15 @@ from nag.cli.arguments import UsageError, problem_of_case, read_case_file
 from nag.cli.running import CommandAnswer
 
 if TYPE_CHECKING:
+    from nag.bench.chains import Chain
     from nag.bench.decomposition import Decomposed, PeerDecomposed
 
 CASES = Path("cases")
 # Macaulay2 is given up after so many seconds.
 PATIENCE = 200.0
-LONGEST_CHAIN = 4
+# The names of `nag.bench.chains.CHAINS`, which takes longer to load than help to be given.
+CHAINS = ("rhombi", "four-bars", "parallelograms", "bennett-loops", "polygons")
+MOST_CELLS = 12
 # Run unless names are given.
 NAMES = (
     "slider-crank",
@@ -38,21 +41,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--growth",
-        type=_chain,
+        type=_cells,
         nargs="?",
-        const=LONGEST_CHAIN,
+        const=0,
         metavar="K",
-        help="decompose chains of 1 to K rhombi, which have 3^K components "
-        f"(default: {LONGEST_CHAIN})",
+        help="decompose chains of 1 to K cells (default: as many as take seconds)",
+    )
+    parser.add_argument(
+        "--of",
+        choices=CHAINS,
+        metavar="CELLS",
+        help=f"with --growth: what is chained, one of {', '.join(CHAINS)} (default: {CHAINS[0]}, "
+        "of which K have 3^K components)",
     )
     parser.add_argument(
         "--chart", metavar="FILE", help="with --growth: draw time and paths (needs matplotlib)"
     )
 
 
-def _chain(text: str) -> int:
-    if text not in ("2", "3", "4", "5", "6"):
-        raise argparse.ArgumentTypeError(f"{text[:30]!r} is not a number from 2 to 6")
+def _cells(text: str) -> int:
+    if text not in map(str, range(2, MOST_CELLS + 1)):
+        raise argparse.ArgumentTypeError(f"{text[:30]!r} is not a number from 2 to {MOST_CELLS}")
     return int(text)
 
 
@@ -62,6 +71,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
     if options.chart is not None and options.growth is None:
         raise UsageError("--chart: is drawn with --growth; ask for that as well")
+    if options.of is not None and options.growth is None:
+        raise UsageError("--of: is chained with --growth; ask for that as well")
     if options.chart is not None and importlib.util.find_spec("matplotlib") is None:
         raise UsageError('--chart: matplotlib is missing; install it with pip install "nag[plot]"')
     if options.chart is not None:
@@ -75,7 +86,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
     peers: dict[str, PeerDecomposed] = {}
     if options.growth is not None:
-        rows = growth(options.growth)
+        rows = growth(*_chain(options))
         lines = growth_table(rows)
         if options.chart is not None:
             try:
@@ -86,6 +97,17 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         rows, peers = _cases(options)
         lines = decomposition_table(rows, peers)
     return CommandAnswer(lines, all(row.right for row in rows), lambda: as_json(rows, peers))
+
+
+def _chain(options: argparse.Namespace) -> tuple[Chain, int]:
+    """What is chained, and how many cells of it at most."""
+    from nag.bench import chains
+
+    name = options.of or CHAINS[0]
+    chain = chains.CHAINS[name]
+    if options.growth > chain.most:
+        raise UsageError(f"--growth: of {name} at most {chain.most} are chained")
+    return chain, options.growth or chain.longest
 
 
 def _cases(options: argparse.Namespace) -> tuple[list[Decomposed], dict[str, PeerDecomposed]]:

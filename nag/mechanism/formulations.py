@@ -103,7 +103,9 @@ def description(alternative: Alternative, space: Space) -> str:
     if not isinstance(form, HalfAngleModel):
         return "half-angles"
     lost = len({f.joint for c in form.closures for f in c.lost})
-    each = " of each loop" if len(form.closures) > 1 else ""
+    each = ""
+    if len(form.closures) > 1:
+        each = " of each loop" if all(c.lost for c in form.closures) else " of some loops"
     count = lost // len(form.closures) if lost % len(form.closures) == 0 else 0
     word = {1: "one joint", 2: "two joints"}.get(count, "joints")
     kinds = {f.kind for f in form.charts.factors}

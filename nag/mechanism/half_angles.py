@@ -3,17 +3,23 @@
 Every joint is a product of factors that are linear in homogeneous coordinates (`joint_factors`): a
 half-angle for a turn. Each loop eliminates one spherical or planar joint, or two neighbouring turns
 or slides, that no other loop uses (`loop_product`); what is left is four multilinear equations a
-loop. Everything is relative to the reference configuration.
+loop. A loop that shares all but single joints with others, as in rows of Bennett's linkages,
+eliminates one of them or none, and has six or seven equations. Everything is relative to the
+reference configuration.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 from typing import Any
 
+from nag.algebra.combinations import of_fewest_variables
 from nag.algebra.number import Number
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.mechanism.assembly_modes import REFERENCE, Modes
@@ -32,8 +38,10 @@ from nag.mechanism.loop_product import (
     Element,
     closures,
     displacement,
+    factors_in,
     joint_elements,
     move_place,
+    narrow_closures,
     opposite,
 )
 from nag.mechanism.loops import Loop, LoopStructure, loop_bases
@@ -41,6 +49,8 @@ from nag.mechanism.path_estimates import intersection_number
 from nag.mechanism.quaternion import conjugate, multiply, norm_squared, scale
 from nag.numerics.read_only import fixed_mapping
 
+# Dimension of what two joints, or one of three freedoms, range over.
+WIDE = 4
 # An equation has at most as many terms as the product of its factors has.
 MOST_TERMS = 2**10
 
@@ -148,7 +158,7 @@ def half_angle_model(structure: LoopStructure, modes: Modes = REFERENCE) -> Half
     if not kept:
         raise NagError(_too_short(len(structure.joints)))
     charts = Charts.of(kept)
-    equations = [f for c in chosen for f in c.polynomials(charts.values.__getitem__)]
+    equations = [f for c in chosen for f in _equations(c, charts)]
     return HalfAngleModel(
         structure,
         tuple(chosen),
@@ -160,51 +170,66 @@ def half_angle_model(structure: LoopStructure, modes: Modes = REFERENCE) -> Half
     )
 
 
+def _equations(closure: Closure, charts: Charts) -> Sequence[Polynomial]:
+    """The equations of a loop; six and more say together what one of two joints says alone."""
+    found = closure.polynomials(charts.values.__getitem__)
+    return found if len(closure.basis) == WIDE else of_fewest_variables(found)
+
+
 def _choose_closures(
     structure: LoopStructure, modes: dict[str, int]
 ) -> tuple[dict[str, tuple[Element, ...]], list[Closure]]:
     """For some basis of the loops: what each of them eliminates, with the fewest paths."""
+    single = structure.single is not None
     problem = ""
-    for loops in loop_bases(structure):
-        elements: dict[str, tuple[Element, ...]] = {}
-        products = [_loop_elements(loop, modes, elements) for loop in loops]
-        users: dict[Factor, int] = {}
-        for product in products:
-            for element in product:
-                if element.factor is not None:
-                    users[element.factor] = users.get(element.factor, 0) + 1
-        chosen = []
-        for loop, product in zip(loops, products, strict=True):
-            terms = 1
-            for element in product:
-                terms *= 1 if element.factor is None else 1 + element.factor.dimension
-            own = [c for c in closures(product) if all(users[f] == 1 for f in c.lost)]
-            if not own:
-                problem = _nothing_to_eliminate(loop, len(loops))
-                break
-            best = min(own, key=_cost)
-            if terms > MOST_TERMS * 4:
-                problem = (
-                    f"a loop of {len(loop.joints)} joints has {terms // 4} terms an equation, at "
-                    f"most {MOST_TERMS} are multiplied out"
-                )
-                break
-            chosen.append(best)
-        else:
-            return elements, chosen
+    for narrow in (False,) if single else (False, True):
+        for loops in loop_bases(structure):
+            elements: dict[str, tuple[Element, ...]] = {}
+            products = [_loop_elements(loop, modes, elements) for loop in loops]
+            users = Counter(f for product in products for f in factors_in(product))
+            chosen = []
+            for loop, product in zip(loops, products, strict=True):
+                best = _choose_closure(product, users, narrow)
+                if best is None:
+                    problem = problem or _nothing_to_eliminate(loop)
+                    break
+                terms = _terms(best)
+                if terms > MOST_TERMS:
+                    problem = (
+                        f"a loop of {len(loop.joints)} joints has {terms} terms an equation, at "
+                        f"most {MOST_TERMS} are multiplied out"
+                    )
+                    break
+                chosen.append(best)
+            else:
+                return elements, chosen
     raise NagError(problem)
 
 
-def _nothing_to_eliminate(loop: Loop, loops: int) -> str:
-    joints = ", ".join(j.name for j in loop.joints)
-    if loops == 1 and len(loop.joints) < 3:
+def _choose_closure(
+    product: Sequence[Element], users: Mapping[Factor, int], narrow: bool
+) -> Closure | None:
+    """What a loop eliminates of its own.
+
+    Args:
+        narrow: whether that may be one turn or slide, or nothing, where there is no more.
+    """
+    for ways in (closures, narrow_closures) if narrow else (closures,):
+        own = [c for c in ways(product) if all(users[f] == 1 for f in c.lost)]
+        if own:
+            return min(own, key=_cost)
+    return None
+
+
+def _terms(closure: Closure) -> int:
+    """How many terms an equation has at most."""
+    return prod(1 + e.factor.dimension for e in closure.kept if e.factor is not None)
+
+
+def _nothing_to_eliminate(loop: Loop) -> str:
+    if len(loop.joints) < 3:
         return _too_short(len(loop.joints))
-    if loops == 1:
-        return "all axes of the loop coincide, or all its joints slide: nothing can be eliminated"
-    return (
-        f"the loop of {joints} has no two neighbouring turns or slides and no spherical or planar "
-        "joint of its own"
-    )
+    return "all axes of the loop coincide, or all its joints slide: nothing can be eliminated"
 
 
 def _too_short(count: int) -> str:

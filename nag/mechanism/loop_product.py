@@ -7,10 +7,12 @@ quadric, of a linear space W:
 - two factors that are turns or slides, W = span(1, g, k, gk). If Study's form does not vanish on W,
   it is there a multiple of w00 w11 - w10 w01, so that a displacement in W is a product already;
   else this one quadric is added;
-- a spherical or planar joint, W = span of its generators: every displacement in W is one of it.
+- a spherical or planar joint, W = span of its generators: every displacement in W is one of it;
+- one turn or slide, W = span(1, g), or nothing, W = span(1), where other loops use the rest: these
+  are displacements as they are.
 
-So each loop is four linear equations in A (and the quadric), multilinear in the other factors'
-coordinates. What is eliminated follows linearly: the matrix (w_ij) has rank one.
+So each loop is four linear equations in A (and the quadric), or six or seven, multilinear in the
+other factors' coordinates. What is eliminated follows linearly: the matrix (w_ij) has rank one.
 """
 
 from __future__ import annotations
@@ -61,8 +63,8 @@ class Closure:
 
     Attributes:
         kept: the elements of A.
-        eliminated: the elements of B.
-        basis: of W, each a vector of 8 entries: 1, g, k, gk, or the generators of one joint.
+        eliminated: the elements of B, if any.
+        basis: of W, each a vector of 8 entries: 1, g, k, gk, or the generators of one factor, or 1.
         quadric: whether w00 w11 = w10 w01 is needed as well.
     """
 
@@ -106,9 +108,9 @@ class Closure:
             sum((convert(y) * x for y, x in zip(row, flat, strict=True)), zero)
             for row in self.coordinates
         ]
-        if len(self.lost) == 1:
-            return {self.lost[0]: tuple(w)}
-        return dict(zip(self.lost, split_product(w), strict=True))
+        if len(self.lost) == 2:
+            return dict(zip(self.lost, split_product(w), strict=True))
+        return {factor: tuple(w) for factor in self.lost}
 
 
 def closing_equations(
@@ -200,6 +202,18 @@ def closures(elements: Sequence[Element]) -> Iterator[Closure]:
                 break
 
 
+def narrow_closures(elements: Sequence[Element]) -> Iterator[Closure]:
+    """All ways to eliminate one turn or slide of a loop, and that to eliminate nothing."""
+    for i, element in enumerate(elements):
+        if element.factor is not None and element.factor.dimension == 1:
+            closure = closure_of([*elements[i + 1 :], *elements[:i]], [element])
+            if closure is not None:
+                yield closure
+    whole = closure_of(elements, ())
+    if whole is not None:
+        yield whole
+
+
 def closure_of(kept: Sequence[Element], piece: Sequence[Element]) -> Closure | None:
     """The closure that eliminates ``piece``; None where its products are dependent."""
     products: list[DualQuaternion] = [UNIT]
@@ -207,7 +221,7 @@ def closure_of(kept: Sequence[Element], piece: Sequence[Element]) -> Closure | N
         # The first factor's index runs fastest: 1, g, k, gk.
         products = [dual_multiply(p, g) for g in element.generators for p in products]
     basis = tuple(tuple(x for part in q for x in part) for q in products)
-    if rank(basis) < 4:
+    if rank(basis) < len(basis):
         return None
     pair = sum(e.factor is not None for e in piece) == 2
     study = (dot4(p[0], q[1]) + dot4(p[1], q[0]) for p in products for q in products)
