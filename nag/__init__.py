@@ -65,6 +65,7 @@ _HOME = {
     "gruebler_kutzbach": "nag.mechanism.loops",
     "mobility": "nag.mechanism.mobility_at",
     "model": "nag.mechanism.model",
+    "modes": "nag.mechanism.operation_modes",
     "read_case": "nag.files.cases",
     "read_decomposition": "nag.files.export",
     "read_solutions": "nag.files.solutions_export",

@@ -52,6 +52,12 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "local dimension, the components through it, and what that means.",
     ),
     (
+        "modes",
+        "find the operation modes of a parallel robot",
+        "Find the operation modes of a parallel robot, the components of its platform's poses: the "
+        "equations of each, what its poses have in common, and where modes meet.",
+    ),
+    (
         "sample",
         "find random points of a component",
         f"Find random points of a component. {FROM_COMPONENTS}",

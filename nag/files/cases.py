@@ -32,7 +32,7 @@ from nag.files.case_table import (
     read_toml,
     with_values,
 )
-from nag.mechanism import FORMULATIONS
+from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
 
 if TYPE_CHECKING:
     from nag.algebra.symmetric_family import FamilyMember
@@ -93,7 +93,8 @@ class Truth:
         count: how many there are.
         multiplicity: of each.
         multidegree: of each in the system's variable groups, nested by dimension, or None.
-        formulation: formulation of the mechanism for which this holds, or None for a system.
+        formulation: formulation of the mechanism for which this holds, "P" for the poses of its
+            platform, or None for a system.
         source: where it is known from.
     """
 
@@ -441,8 +442,8 @@ def _read_component(table: CaseTable, kind: str) -> Truth:
         if kind not in ("mechanism", "dh"):
             table.fail("formulation", "a system has no formulation; leave it out")
         formulation = table.text("formulation")
-        if formulation not in FORMULATIONS:
-            names = " or ".join(repr(name) for name in FORMULATIONS)
+        if formulation not in (*FORMULATIONS, PLATFORM_ALONE):
+            names = " or ".join(repr(name) for name in (*FORMULATIONS, PLATFORM_ALONE))
             table.fail("formulation", f"{quote(formulation)} is unknown; write {names}")
     multidegree = None
     if "multidegree" in table.values:

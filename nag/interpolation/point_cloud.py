@@ -140,6 +140,17 @@ class Cloud:
         """The same rounded, shape ``(count, n)``."""
         return np.array([[complex(x) for x in p] for p in self.balls(count, digits)])
 
+    def tangents(self, count: int) -> list[tuple[np.ndarray, np.ndarray]]:
+        """The first ``count`` points in the system's variables, and bases of their tangent spaces.
+
+        In doubles, shapes ``(n,)`` and ``(d, n)``.
+        """
+        found = []
+        for sample in self.samples(count):
+            n = len(sample.x)
+            found.append((sample.x, (_sizes(sample)[:n, None] * _tangent(sample)).T))
+        return found
+
     def image_dimension(self, coordinates: Sequence[int]) -> int:
         """Dimension of the closure of the component's image in some of the variables.
 

@@ -9,7 +9,7 @@ element of the reduced Groebner basis, and its multiples need not be looked at (
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import comb, gcd, lcm
 
@@ -240,6 +240,38 @@ def _new_generators(
             rows.append(f * Polynomial(k, {e: Fraction(1)}))
     independent = first_independent_rows(coefficient_rows([f.terms for f in (*rows, *new)]))
     return [new[i - len(rows)] for i in independent if i >= len(rows)]
+
+
+def forms_of_degree(
+    cloud: Cloud, coordinates: Sequence[int], degree: int, known: Sequence[Polynomial]
+) -> list[Polynomial]:
+    """The homogeneous polynomials of a degree that vanish on the image, beside those known.
+
+    Args:
+        coordinates: the variables that they are homogeneous in.
+        known: forms of lower degrees, whose leading monomials' multiples are left out.
+
+    Raises:
+        NotRationalError: if coefficients are not rational.
+        SourceError: if points cannot be sampled.
+    """
+    k = len(coordinates)
+    leading = [leading_monomial(f) for f in known]
+    monomials = [
+        e for e in monomials_of_degree(k, degree) if not any(divides(m, e) for m in leading)
+    ]
+    nothing = replace(start(coordinates), standard=())
+    for digits in DIGITS:
+        try:
+            standard, relations = _split(cloud, nothing, monomials, digits)
+        except TooFewDigitsError:
+            continue
+        found = []
+        for lead, coefficients in relations:
+            terms = {e: -c for e, c in zip(standard, coefficients, strict=False) if c}
+            found.append(primitive(Polynomial(k, {lead: Fraction(1), **terms})))
+        return found
+    raise _not_rational(degree)
 
 
 def hypersurface_equation(cloud: Cloud, coordinates: Sequence[int], degree: int) -> Interpolated:

@@ -10,8 +10,9 @@ and `unreduced` (all constraints, for checks). Other ways to give one are `frame
 `assembly` and `real_assemblies`. `problem` is what all of these come down to, and cases and
 equations with them, and what `nag.decompose` and `nag.solve` ask; `coordinates` carries its
 components over to Euler parameters, `other_equations` are those that must say the same.
-`mobility_at` with `mobility_report` and `bonds` says how one moves; `shown` is what is seen at the
-prompt.
+`mobility_at` with `mobility_report` and `bonds` says how one moves; `operation_modes` with
+`modes_report` how the platform of a parallel robot does, by `legs`, `leg_image`, `platform`,
+`inverse_kinematics` and `motions`; `shown` is what is seen at the prompt.
 
 To add a type of joint, write its record in `joint_types.JOINT_TYPES`, by the rules at the head of
 that file, and a row in `docs/cases.md`: all formulations, case files, graphs and tables read it
@@ -27,3 +28,5 @@ FORMULATIONS = {
     "H": "half-angles, slides and quaternions of the joints",
     "S": "rods between spherical joints as distances, free bodies in Study coordinates",
 }
+# What a robot's modes are found in, and what is known of them (`operation_modes`).
+PLATFORM_ALONE = "P"

@@ -223,13 +223,15 @@ class Charts:
             for f, group in zip(self.factors, self.groups, strict=True)
         ]
         return PolynomialSystem(
-            self._names(),
+            self.names,
             tuple(primitive(f) for f in independent_polynomials(polynomials)),
             tuple(f for f in norms if f is not None),
             self.groups,
         )
 
-    def _names(self) -> tuple[str, ...]:
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the variables: those of the joints with letters before them, where that is a name."""
         if all(f.joint.isascii() and f.joint.isidentifier() for f in self.factors):
             return tuple(f"{letter}_{f.joint}" for f in self.factors for letter in f.letters)
         return tuple(f"x{i + 1}" for i in range(self.n))

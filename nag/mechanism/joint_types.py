@@ -100,6 +100,7 @@ class JointType:
         factors: kinds of the factors whose product is its displacement, in order: keys of
             `FACTOR_KINDS`. The first of a kind is about or along ``axis``, a second one about or
             along ``second_axis``.
+        letter: by which chains of joints are abbreviated, as RPS.
 
     Raises:
         NagError: if these do not fit each other.
@@ -111,6 +112,7 @@ class JointType:
     orthogonalities: int
     gaps: int
     factors: tuple[str, ...]
+    letter: str = "?"
 
     def __post_init__(self) -> None:
         fault = self._find_fault()
@@ -195,12 +197,12 @@ class JointType:
 LINE = ("point", "axis")
 JOINT_TYPES = MappingProxyType(
     {
-        "revolute": JointType(LINE, (), 1, 2, 0, ("turn",)),
-        "prismatic": JointType(("axis",), ("point",), 0, 3, 2, ("slide",)),
-        "cylindrical": JointType(LINE, (), 0, 2, 2, ("turn", "slide")),
-        "universal": JointType((*LINE, "second_axis"), (), 1, 1, 0, ("turn", "turn")),
-        "spherical": JointType(("point",), (), 1, 0, 0, ("ball",)),
-        "planar": JointType(("axis",), ("point",), 0, 2, 1, ("plane",)),
+        "revolute": JointType(LINE, (), 1, 2, 0, ("turn",), "R"),
+        "prismatic": JointType(("axis",), ("point",), 0, 3, 2, ("slide",), "P"),
+        "cylindrical": JointType(LINE, (), 0, 2, 2, ("turn", "slide"), "C"),
+        "universal": JointType((*LINE, "second_axis"), (), 1, 1, 0, ("turn", "turn"), "U"),
+        "spherical": JointType(("point",), (), 1, 0, 0, ("ball",), "S"),
+        "planar": JointType(("axis",), ("point",), 0, 2, 1, ("plane",), "E"),
         "rigid": JointType((), LINE, 1, 3, 0, ()),
     }
 )

@@ -1,0 +1,72 @@
+"""The command ``nag modes``: the operation modes of a parallel robot."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import asdict
+
+from nag.cli.arguments import (
+    UsageError,
+    add_parameters,
+    add_running,
+    only_assembled,
+    read_case_file,
+)
+from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
+
+FORMAT = "nag-operation-modes"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments that ``nag modes`` has besides those of every command that runs a case."""
+    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    add_parameters(parser)
+    add_running(parser)
+    parser.add_argument(
+        "--platform",
+        metavar="NAME",
+        help="the body whose poses are looked at (default: the one with the most legs between "
+        "itself and the ground, three at least)",
+    )
+
+
+def run(options: argparse.Namespace) -> CommandAnswer:
+    """The operation modes of a parallel robot."""
+    from nag.errors import MechanismError
+    from nag.text.json_text import pairs
+    from nag.interpolation.vanishing import InterpolationError
+    from nag.mechanism import PLATFORM_ALONE
+    from nag.mechanism.operation_modes import modes
+    from nag.report.agreement import agreement_text, compare
+    from nag.witness.shown import paths_text
+
+    case = read_case_file(options.case, options.set)
+    if case.mechanism is None:
+        raise only_assembled(case, "nag modes")
+    try:
+        found = modes(case.mechanism, options.platform, run=chosen_run(options))
+    except (MechanismError, InterpolationError) as error:
+        raise UsageError(f"{options.case}: {error}") from None
+    decomposition = found.decomposition
+    system = decomposition.system
+    points = [
+        {
+            "slice": {"A": pairs(mode.component.slice.A), "b": pairs(mode.component.slice.b)},
+            "points": pairs(mode.component.points),
+        }
+        for mode in found.modes
+    ]
+    fields = {
+        "format": FORMAT,
+        **found.document(),
+        "paths": asdict(decomposition.paths),
+        "system": {"variables": list(system.variables), "polynomials": system.text()},
+        "witness": points,
+    }
+    blocks = found.rows(), found.table(), found.mode_rows()
+    tail = found.tail()
+    agreement = compare(decomposition, [t for t in case.truth if t.formulation], PLATFORM_ALONE)
+    if agreement is not None:
+        tail.append(("known", agreement_text(agreement)))
+    tail.append(("paths", paths_text(decomposition.paths)))
+    return answer_of(options, name_case(case), blocks, tail, fields, found.complete)

@@ -1,0 +1,163 @@
+"""Whether a serial chain reaches a pose: joint coordinates found by Newton's method.
+
+The product of the factors is to be a multiple of the pose: what stands across the pose, divided by
+what stands along it, is to vanish. A step is the shortest one in homogeneous coordinates. Starts
+are random; nothing found is no proof that there is nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from nag.mechanism.loop_product import Element
+
+STARTS = 24
+STEPS = 60
+# What stands along a pose is taken for no less.
+TINY = 1e-12
+# Relative residual of a pose that is reached.
+REACHED = 1e-10
+# A factor's norm, beside the squares that it is the sum of, from which it is a displacement.
+DISPLACEMENT = 1e-6
+
+# The product of quaternions: (a b)_k = sum of _TABLE[k, i, j] a_i b_j.
+_TABLE = np.zeros((4, 4, 4))
+for _i, _row in enumerate(
+    (
+        ((0, 1), (1, 1), (2, 1), (3, 1)),
+        ((1, 1), (0, -1), (3, 1), (2, -1)),
+        ((2, 1), (3, -1), (0, -1), (1, 1)),
+        ((3, 1), (2, 1), (1, -1), (0, -1)),
+    )
+):
+    for _j, (_k, _sign) in enumerate(_row):
+        _TABLE[_k, _i, _j] = _sign
+
+
+def multiply_poses(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Products of dual quaternions in eight entries, shapes ``(..., 8)``."""
+    real = _multiply(x[..., :4], y[..., :4])
+    dual = _multiply(x[..., :4], y[..., 4:]) + _multiply(x[..., 4:], y[..., :4])
+    return np.concatenate([real, dual], axis=-1)
+
+
+def conjugate_pose(x: np.ndarray) -> np.ndarray:
+    """The conjugates of both parts."""
+    return x * np.array([1, -1, -1, -1, 1, -1, -1, -1])
+
+
+def _multiply(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.einsum("kij,...i,...j->...k", _TABLE, a, b)
+
+
+def reach_poses(
+    elements: Sequence[Element],
+    poses: np.ndarray,
+    length: float,
+    rng: np.random.Generator,
+    real: bool = False,
+) -> np.ndarray:
+    """How near a product of factors comes to poses, by displacements of its joints.
+
+    Args:
+        poses: Study coordinates, shape ``(k, 8)``.
+        length: by which lengths are measured.
+        real: whether with real joint coordinates only.
+
+    Returns:
+        The residuals of the best starts, relative to the poses, shape ``(k,)``; below `REACHED`
+        where a pose is reached.
+    """
+    scale = np.array([1.0] * 4 + [1.0 / length] * 4)
+    generators = [
+        np.array([[float(c) for part in g for c in part] for g in e.generators]) * scale
+        for e in elements
+    ]
+    targets = np.repeat(_unit(poses * scale), STARTS, axis=0)
+    weights = [_unit(_random(rng, (len(targets), len(g)), real)) for g in generators]
+    places = np.repeat(np.arange(len(poses)), STARTS)
+    best = np.full(len(poses), np.inf)
+    for _ in range(STEPS):
+        residuals, rest, slopes = _beside(generators, weights, targets)
+        inside = _are_displacements(generators, weights)
+        np.minimum.at(best, places[inside], residuals[inside])
+        left = best[places] >= REACHED
+        if not left.any():
+            break
+        places, targets = places[left], targets[left]
+        weights = _step([w[left] for w in weights], rest[left], slopes[left])
+    return best
+
+
+def _beside(
+    generators: Sequence[np.ndarray], weights: Sequence[np.ndarray], targets: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What stands across the poses, divided by what stands along them.
+
+    Its lengths, it, and its derivatives, shapes ``(s,)``, ``(s, 8)`` and ``(s, 8, k)``.
+    """
+    value, derivative = _product(generators, weights)
+    along = np.sum(value * targets.conj(), axis=1, keepdims=True)
+    along = np.where(np.abs(along) > TINY, along, TINY)
+    rest = value / along - targets
+    slopes = derivative / along[:, :, None]
+    turned = np.sum(slopes * targets.conj()[:, :, None], axis=1, keepdims=True)
+    slopes -= (rest + targets)[:, :, None] * turned
+    return np.linalg.norm(rest, axis=1), rest, slopes
+
+
+def _random(rng: np.random.Generator, shape: tuple[int, ...], real: bool) -> np.ndarray:
+    found = rng.standard_normal(shape)
+    return found if real else found + 1j * rng.standard_normal(shape)
+
+
+def _unit(x: np.ndarray) -> np.ndarray:
+    return x / np.linalg.norm(x, axis=1, keepdims=True)
+
+
+def _product(
+    generators: Sequence[np.ndarray], weights: Sequence[np.ndarray]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Products of the factors and their derivatives, shapes ``(s, 8)`` and ``(s, 8, k)``."""
+    values = [w @ g for w, g in zip(weights, generators, strict=True)]
+    one = np.zeros_like(values[0])
+    one[:, 0] = 1
+    before, behind = [one], [one]
+    for value in values:
+        before.append(multiply_poses(before[-1], value))
+    for value in reversed(values):
+        behind.append(multiply_poses(value, behind[-1]))
+    columns = []
+    for i, own in enumerate(generators):
+        rest = behind[len(values) - 1 - i]
+        columns += [multiply_poses(multiply_poses(before[i], g), rest) for g in own]
+    return before[-1], np.stack(columns, axis=2)
+
+
+def _step(
+    weights: Sequence[np.ndarray], rest: np.ndarray, derivative: np.ndarray
+) -> list[np.ndarray]:
+    """Steps of Gauss, Newton, Levenberg and Marquardt, the less damped the nearer they are."""
+    adjoint = derivative.conj().transpose(0, 2, 1)
+    square = adjoint @ derivative
+    damping = np.minimum(np.linalg.norm(rest, axis=1), 1.0) ** 2 + 1e-14
+    square += damping[:, None, None] * np.eye(square.shape[1])
+    step = np.linalg.solve(square, (adjoint @ rest[:, :, None]))[:, :, 0]
+    ends = np.cumsum([w.shape[1] for w in weights])[:-1]
+    parts = np.split(step, ends, axis=1)
+    return [_unit(w - d) for w, d in zip(weights, parts, strict=True)]
+
+
+def _are_displacements(
+    generators: Sequence[np.ndarray], weights: Sequence[np.ndarray]
+) -> np.ndarray:
+    """Whether no factor's norm is zero, shape ``(s,)``."""
+    found = np.ones(len(weights[0]), dtype=bool)
+    for own, w in zip(generators, weights, strict=True):
+        real = (w @ own)[:, :4]
+        squares = np.sum(np.abs(real) ** 2, axis=1)
+        whole = np.sum(np.abs(w) ** 2, axis=1)
+        found &= np.abs(np.sum(real**2, axis=1)) > DISPLACEMENT * np.maximum(squares, whole * 1e-3)
+    return found

@@ -1,0 +1,140 @@
+"""The poses that a leg lets its platform have, as forms in the eight Study coordinates.
+
+A displacement p + eps d is a point (p, d) of projective space on Study's quadric p.d = 0 (Study
+1903, Husty 1996). Those of a serial chain are products of its joints', so that their closure, the
+leg's image, is irreducible; its forms are interpolated (`nag.interpolation.image_forms`). An image
+of dimension 5 is cut out of the quadric by one form exactly, as the quadric's forms have unique
+factors. Of a smaller one the forms may have other zeros besides; whether a leg reaches a pose is
+tested by its inverse kinematics.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from nag.algebra.exact_ranks import PrimeField
+from nag.algebra.polynomial import Polynomial
+from nag.interpolation.image_forms import ImageForms, find_image_forms
+from nag.mechanism.loop_product import Element
+from nag.mechanism.quaternion import DualQuaternion
+
+# Study coordinates: the real part of the quaternion first, its dual part behind.
+COORDINATES = ("x0", "x1", "x2", "x3", "y0", "y1", "y2", "y3")
+# Forms of higher degrees have too many monomials.
+MOST_DEGREE = 4
+
+
+def study_quadric() -> Polynomial:
+    """x0 y0 + x1 y1 + x2 y2 + x3 y3, which vanishes at displacements."""
+    x = Polynomial.variables(8)
+    return sum((x[i] * x[4 + i] for i in range(1, 4)), x[0] * x[4])
+
+
+def norm_form(n: int = 8) -> Polynomial:
+    """x0^2 + x1^2 + x2^2 + x3^2, which vanishes at no displacement."""
+    x = Polynomial.variables(n)
+    return sum((x[i] * x[i] for i in range(1, 4)), x[0] * x[0])
+
+
+@dataclass(frozen=True)
+class ProductOfFactors:
+    """The map from homogeneous coordinates of factors to their product.
+
+    A `nag.interpolation.image_forms.ModularMap`.
+
+    Attributes:
+        elements: the factors, and constants.
+    """
+
+    elements: tuple[Element, ...]
+
+    def value(self, field: PrimeField, rng: np.random.Generator) -> list[int]:
+        """A random product modulo a prime."""
+        product = _UNIT
+        for factor in self._factors(field, rng)[0]:
+            product = _multiply(product, factor, field.modulus)
+        return [*product[0], *product[1]]
+
+    def tangents(
+        self, field: PrimeField, rng: np.random.Generator
+    ) -> tuple[list[int], list[list[int]]]:
+        """A random product modulo a prime, and its derivatives by all homogeneous coordinates."""
+        p = field.modulus
+        factors, generators = self._factors(field, rng)
+        before, behind = [_UNIT], [_UNIT]
+        for factor in factors:
+            before.append(_multiply(before[-1], factor, p))
+        for factor in reversed(factors):
+            behind.append(_multiply(factor, behind[-1], p))
+        rows = []
+        for i, own in enumerate(generators):
+            for generator in own:
+                left = _multiply(before[i], generator, p)
+                real, dual = _multiply(left, behind[len(factors) - 1 - i], p)
+                rows.append([*real, *dual])
+        return [*before[-1][0], *before[-1][1]], rows
+
+    def _factors(
+        self, field: PrimeField, rng: np.random.Generator
+    ) -> tuple[list[DualQuaternion], list[list[DualQuaternion]]]:
+        """Random values of the factors modulo a prime, and their generators."""
+        p = field.modulus
+        values, generators = [], []
+        for element in self.elements:
+            own = [
+                tuple(tuple(field.of(c) for c in part) for part in g) for g in element.generators
+            ]
+            weights = rng.integers(1, p, len(own)).tolist() if element.factor else [1]
+            values.append(
+                tuple(
+                    tuple(
+                        sum(w * g[part][i] for w, g in zip(weights, own, strict=True)) % p
+                        for i in range(4)
+                    )
+                    for part in (0, 1)
+                )
+            )
+            generators.append(own if element.factor else [])
+        return values, generators
+
+
+_UNIT: DualQuaternion = ((1, 0, 0, 0), (0, 0, 0, 0))
+
+
+def _multiply(x: DualQuaternion, y: DualQuaternion, p: int) -> DualQuaternion:
+    """The product of two dual quaternions of residues."""
+    real = _product(x[0], y[0], p)
+    first, second = _product(x[0], y[1], p), _product(x[1], y[0], p)
+    return real, tuple((a + b) % p for a, b in zip(first, second, strict=True))
+
+
+def _product(a: Sequence[int], b: Sequence[int], p: int) -> tuple[int, int, int, int]:
+    a0, a1, a2, a3 = a
+    b0, b1, b2, b3 = b
+    return (
+        (a0 * b0 - a1 * b1 - a2 * b2 - a3 * b3) % p,
+        (a0 * b1 + a1 * b0 + a2 * b3 - a3 * b2) % p,
+        (a0 * b2 - a1 * b3 + a2 * b0 + a3 * b1) % p,
+        (a0 * b3 + a1 * b2 - a2 * b1 + a3 * b0) % p,
+    )
+
+
+def image_of_chain(
+    elements: Sequence[Element], rng: np.random.Generator, most_degree: int = MOST_DEGREE
+) -> ImageForms:
+    """The forms of a serial chain's image, besides Study's quadric.
+
+    Raises:
+        nag.interpolation.vanishing.InterpolationError: if coefficients are too long.
+    """
+    source = ProductOfFactors(tuple(elements))
+    return find_image_forms(source, 8, (study_quadric(),), most_degree, rng)
+
+
+def reference_pose() -> tuple[Fraction, ...]:
+    """The identity."""
+    return (Fraction(1), *[Fraction(0)] * 7)

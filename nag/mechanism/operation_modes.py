@@ -1,0 +1,465 @@
+"""The operation modes of a parallel robot: the components of the poses of its platform.
+
+What is found of a mode: its dimension, degree and multiplicity; its equations where they are linear
+or quadratic; whether it is real; what its poses have in common; whether every leg reaches it. And
+of pairs of modes where they meet, the transitions.
+
+References:
+    Walter, Husty & Pfurner, A complete kinematic analysis of the SNU 3-UPU parallel robot, 2009;
+    Schadlbauer, Walter & Husty, The 3-RPS parallel manipulator from an algebraic viewpoint, 2014.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.exact_ranks import null_space
+from nag.algebra.given import is_a
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.decompose import decompose
+from nag.decomposition.intersection import intersect_components, intersect_equations
+from nag.decomposition.through import through_points
+from nag.errors import ComponentError, NagError
+from nag.interpolation.image_forms import add_degree
+from nag.interpolation.point_cloud import AmbientVariables, Cloud
+from nag.interpolation.precise_samples import SourceError, source_of_component
+from nag.interpolation.vanishing import (
+    InterpolationError,
+    forms_of_degree,
+    leading_monomial,
+    primitive,
+)
+from nag.mechanism.inverse_kinematics import REACHED, reach_poses
+from nag.mechanism.leg_image import COORDINATES, MOST_DEGREE, norm_form, study_quadric
+from nag.mechanism.legs import parallel_robot
+from nag.mechanism.modes_report import (
+    OperationMode,
+    OperationModes,
+    Reality,
+    SpuriousComponent,
+    Transition,
+)
+from nag.mechanism.motions import motion_of, screw_system, twists_at
+from nag.mechanism.platform import PlatformModel, platform_model
+from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.witness.membership import UndecidedError, components_through
+from nag.witness.projection import ProjectionError, project
+from nag.witness.real_points import real_points_near
+from nag.witness.witness import Decomposition, WitnessSet
+
+# General poses at which twists are compared.
+POSES = 3
+# Real poses that are looked at, starting points for each where a mode is not linear, and how much
+# nearer to the reference each is than the one before.
+REAL_POSES, REAL_STARTS, NEARER = 4, 6, 0.3
+# A form's value at a pose that is certainly not on its zeros, beside its largest term.
+NOT_ZERO = 1e-6
+UNITS = tuple(tuple(int(i == j) for j in range(8)) for i in range(8))
+
+
+@takes_run
+def modes(mechanism: Any, platform: str | None = None, *, run: Run = DEFAULT_RUN) -> OperationModes:
+    """The operation modes of a parallel robot, from the platform's poses alone.
+
+    Each leg is replaced by the equations of the poses that it lets the platform have, in Study
+    coordinates; the components of their common zeros are the modes. Components of the joints'
+    coordinates that stand still in the pose are not seen, as a rod that turns about itself.
+
+    Args:
+        mechanism: a `nag.Mechanism`, or a `nag.Case` of one, with rational coordinates.
+        platform: name of the platform; by default the body of the most legs, three at least.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+
+    Raises:
+        nag.MechanismError: if there is no such platform, or a leg is none.
+
+    >>> import nag
+    >>> found = nag.modes(nag.read_case("cases/robots/tripteron.toml"))
+    >>> [(mode.dimension, mode.degree, str(mode.motion)) for mode in found.modes]
+    [(3, 1, 'translation')]
+    """
+    given = mechanism.described if is_a(mechanism, "nag.files.cases", "Case") else mechanism
+    run.tell("legs", 0, 4)
+    model = platform_model(parallel_robot(given, platform), run.random(41))
+    run.tell("modes", 1, 4)
+    found = decompose(model.system, run=run)
+    return describe_modes(model, found, run)
+
+
+def describe_modes(model: PlatformModel, found: Decomposition, run: Run) -> OperationModes:
+    """What is to be said of the components of a platform's poses."""
+    notes = list(found.notes)
+    if not found.complete and not notes:
+        notes.append("a component is undecided")
+    run.tell("legs' reach", 2, 4)
+    rng, length = run.random(42), robot_length(model)
+    poses = np.array([model.study(c.points)[0] for c in found.components]).reshape(-1, 8)
+    residuals = _residuals(model, poses, length, rng)
+    through, doubt = _through_reference(model, found, run)
+    notes += [doubt] if doubt else []
+    mirrored = [_conjugate(found, k, run) for k in range(len(found.components))]
+    run.tell("equations", 3, 4)
+    known: dict[int, OperationMode] = {}
+    spurious = []
+    for k, component in enumerate(found.components):
+        own = tuple(residuals[k].tolist())
+        missing = [i for i, r in enumerate(own) if not r < REACHED]
+        wrong = [i for i in missing if _misses(model, i, poses[k], length, rng)]
+        if wrong:
+            name = model.legs[wrong[0]].leg.name
+            spurious.append(SpuriousComponent(component.dimension, component.degree, name))
+            continue
+        mode = _describe(model, component, mirrored[k], k, through and through[k], length, run)
+        mode = replace(mode, residuals=own)
+        if not any(_same_poses(model, mode, other, run) for other in known.values()):
+            known[k] = mode
+    order = sorted(known, key=lambda k: _rank(known[k]))
+    place = {k: i for i, k in enumerate(order)}
+    described = tuple(
+        replace(mode, conjugate=None if mode.conjugate is None else place.get(mode.conjugate))
+        for mode in map(known.__getitem__, order)
+    )
+    notes += [
+        f"whether leg {model.legs[i].leg.name} reaches mode {number} is not known"
+        for number, mode in enumerate(described, 1)
+        for i, r in enumerate(mode.residuals)
+        if not r < REACHED
+    ]
+    transitions = _transitions(model, described, run)
+    notes += [
+        f"whether modes {t.modes[0] + 1} and {t.modes[1] + 1} meet is not known: {t.note}"
+        for t in transitions
+        if t.note
+    ]
+    return OperationModes(
+        model, found, described, tuple(spurious), tuple(transitions), tuple(notes)
+    )
+
+
+def _rank(mode: OperationMode) -> tuple[Any, ...]:
+    """By falling dimension and rising degree, those through the reference first, then simple ones.
+
+    What is alike in all that is known does not depend on random numbers.
+    """
+    texts = mode.equations
+    size = (sum(map(len, texts)), texts)
+    return -mode.dimension, mode.degree, not mode.through_reference, mode.reality, *size
+
+
+def robot_length(model: PlatformModel) -> float:
+    """The largest distance between points of joints, by which lengths are measured."""
+    joints = [j for leg in model.legs for j in leg.leg.joints if j.of_type.turns_about_point]
+    points = np.array([[float(x) for x in j.point] for j in joints]).reshape(-1, 3)
+    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+    return float(apart.max(initial=0.0)) or 1.0
+
+
+def _residuals(
+    model: PlatformModel,
+    poses: np.ndarray,
+    length: float,
+    rng: np.random.Generator,
+    real: bool = False,
+) -> np.ndarray:
+    """How near each leg comes to each pose, shape ``(poses, legs)``."""
+    rows = [reach_poses(leg.leg.elements(), poses, length, rng, real) for leg in model.legs]
+    return np.array(rows).reshape(len(model.legs), len(poses)).T
+
+
+def _misses(
+    model: PlatformModel, leg: int, pose: np.ndarray, length: float, rng: np.random.Generator
+) -> bool:
+    """Whether a form of one degree more vanishes on a leg's image and not at a pose."""
+    image = model.legs[leg].image
+    if model.legs[leg].kept or image.degree >= MOST_DEGREE:
+        return False
+    point = pose / np.linalg.norm(pose / np.repeat([1.0, length], 4))
+    for f in add_degree(image, rng).forms[len(image.forms) :]:
+        powers = point[None] ** np.array(list(f.terms))
+        terms = np.array([float(c) for c in f.terms.values()]) * powers.prod(axis=1)
+        if abs(terms.sum()) > NOT_ZERO * np.abs(terms).max():
+            return True
+    return False
+
+
+def _through_reference(
+    model: PlatformModel, found: Decomposition, run: Run
+) -> tuple[list[bool] | None, str]:
+    """Whether each component is one through the reference, or why that is not known."""
+    (through,) = through_points(found, [("the reference pose", model.reference)], run.threads)
+    if through.doubt:
+        return None, f"the reference pose: {through.doubt}"
+    return [k in through.components for k in range(len(found.components))], ""
+
+
+def _conjugate(found: Decomposition, k: int, run: Run) -> int | None:
+    """The component of the conjugate points; None if that is not known."""
+    component = found.components[k]
+    alike = [
+        i
+        for i, c in enumerate(found.components)
+        if (c.dimension, c.degree) == (component.dimension, component.degree)
+    ]
+    if len(alike) == 1:
+        return k
+    point = component.points[0].conj()
+    if not component.dimension:
+        apart = [np.abs(found.components[i].points[0] - point).max() for i in alike]
+        return alike[int(np.argmin(apart))]
+    try:
+        on = components_through(found, point, accuracy=max(1e-12, component.accuracy), run=run)
+    except UndecidedError:
+        return None
+    return on[0] if len(on) == 1 else None
+
+
+def _describe(
+    model: PlatformModel,
+    component: WitnessSet,
+    mirrored: int | None,
+    index: int,
+    through: bool | None,
+    length: float,
+    run: Run,
+) -> OperationMode:
+    """A mode, without what is asked of all of them at once."""
+    mode = OperationMode(
+        component=component,
+        dimension=component.dimension,
+        degree=component.degree,
+        linear=(),
+        quadratic=(),
+        note="",
+        reality=Reality.UNKNOWN,
+        conjugate=None if mirrored == index else mirrored,
+        real_pose=None,
+        motion=None,
+        screws=None,
+        through_reference=through,
+        residuals=(),
+        real_residuals=(),
+    )
+    if not component.dimension:
+        if mirrored != index:
+            return replace(mode, reality=Reality.CONJUGATE)
+        pose = model.study(component.points)[0].real
+        return replace(mode, reality=Reality.REAL, real_pose=_shortened(pose))
+    mode = _with_equations(model, mode, length, run)
+    if mode.is_linear:
+        mode = replace(mode, conjugate=None)
+    elif mirrored is None or mirrored != index:
+        reality = Reality.UNKNOWN if mirrored is None else Reality.CONJUGATE
+        return replace(mode, reality=reality)
+    points = np.array(list(_real_points(model, mode, run)))
+    if not len(points):
+        return mode
+    poses = _shortened(model.study(points).real)
+    residuals = _residuals(model, poses, length, run.random(43), real=True)
+    # The pose that most legs reach, the first of several.
+    best = int(np.argmin((residuals >= REACHED).sum(axis=1)))
+    twists = _twists(model, points[best], _real_tangents(model, mode, points[best]), length)
+    return replace(
+        mode,
+        reality=Reality.REAL,
+        real_pose=poses[best],
+        screws=screw_system(twists.real, length),
+        real_residuals=tuple(residuals[best].tolist()),
+    )
+
+
+def _shortened(poses: np.ndarray) -> np.ndarray:
+    """Real poses whose real parts have norm one."""
+    return poses / np.linalg.norm(poses[..., :4], axis=-1, keepdims=True)
+
+
+def _with_equations(
+    model: PlatformModel, mode: OperationMode, length: float, run: Run
+) -> OperationMode:
+    """With equations, what poses have in common, and dimension and degree of the poses."""
+    if model.charts.n:
+        try:
+            image = project(model.system, mode.component, range(7), run=run)
+            mode = replace(mode, dimension=image.dimension, degree=image.degree)
+        except ProjectionError as error:
+            mode = replace(mode, note=f"the degree of its poses is not known: {error}")
+    try:
+        cloud = _cloud(model, mode.component, run)
+        found = cloud.tangents(POSES)
+        poses = model.study(np.array([point for point, _ in found]))
+        motion = motion_of(poses, [_twists(model, *each, length) for each in found], length)
+        mode = replace(mode, motion=motion)
+        linear = tuple(forms_of_degree(cloud, range(8), 1, ()))
+        study = _reduced(study_quadric(), linear)
+        known = (*linear, *([primitive(study)] if study else []))
+        quadratic = tuple(forms_of_degree(cloud, range(8), 2, known))
+        return replace(mode, linear=linear, quadratic=quadratic)
+    except InterpolationError:
+        return replace(mode, note="its linear or quadratic equations are not rational")
+    except SourceError as error:
+        return replace(mode, note=str(error))
+
+
+def _pose(model: PlatformModel) -> tuple[Polynomial, ...]:
+    """Study coordinates as polynomials in the model's variables."""
+    variables = Polynomial.variables(model.system.n)
+    first = sum((x * c for x, c in zip(variables, model.chart, strict=False)), variables[0] * 0 + 1)
+    return (first, *variables[:7])
+
+
+def _cloud(model: PlatformModel, component: WitnessSet, run: Run) -> Cloud:
+    """Points of a component in Study coordinates, and those of joints behind them."""
+    system = model.system
+    names = (COORDINATES[0], *system.variables)
+    images = (*_pose(model), *Polynomial.variables(system.n)[7:])
+    ambient = AmbientVariables.of(system, names, range(1, len(names)), images)
+    return Cloud(source_of_component(system, component), ambient, run.random(44), run)
+
+
+def _reduced(form: Polynomial, linear: Sequence[Polynomial]) -> Polynomial:
+    """A form without the leading variables of reduced linear forms."""
+    images = list(Polynomial.variables(8))
+    for f in linear:
+        lead = leading_monomial(f)
+        images[lead.index(1)] -= f / f.terms[lead]
+    return form.compose(images)
+
+
+def _twists(
+    model: PlatformModel, point: np.ndarray, tangents: np.ndarray, length: float
+) -> np.ndarray:
+    """An orthonormal basis of the twists at a point of the model, shape ``(d, 6)``."""
+    poses = model.study(np.vstack([point, point + tangents]))
+    return _orthonormal(twists_at(poses[0], poses[1:] - poses[0], length))
+
+
+def _orthonormal(rows: np.ndarray) -> np.ndarray:
+    """A basis of what rows span."""
+    sizes = np.linalg.norm(rows, axis=1, keepdims=True)
+    rows = rows / np.where(sizes > 0, sizes, 1)
+    _, _, directions = np.linalg.svd(rows)
+    return directions[: rows.shape[1] - matrix_corank(rows, NEARLY_SINGULAR)]
+
+
+def _real_points(model: PlatformModel, mode: OperationMode, run: Run) -> Iterator[np.ndarray]:
+    """Real points at which a mode is smooth, each one nearer to the reference if that is on it."""
+    rng, n = run.random(45), model.system.n
+    reference = np.array([float(x) for x in model.reference])
+    rows = [[f.terms.get(e, 0) for e in UNITS] for f in mode.linear]
+    basis = np.array([[float(c) for c in v] for v in null_space(rows, 8)])
+    chart = np.array([1.0, *(-float(c) for c in model.chart)])
+    for k in range(REAL_POSES):
+        pose = rng.standard_normal(len(basis)) @ basis
+        pose = pose / (pose[:4] @ chart)
+        near = np.concatenate([pose[1:], rng.standard_normal(n - 7)])
+        weight = NEARER**k if mode.through_reference else 1.0
+        near = weight * near + (1 - weight) * reference
+        if mode.is_linear and not model.charts.n:
+            yield near
+            continue
+        real = real_points_near(model.system, mode.component, near, starts=REAL_STARTS, run=run)
+        for point in real.points[:1]:
+            jacobian = _jacobian(model.system, point)
+            if matrix_corank(jacobian, NEARLY_SINGULAR) == mode.component.corank:
+                yield point
+
+
+def _jacobian(system: PolynomialSystem, point: np.ndarray) -> np.ndarray:
+    """The Jacobian at a point, its rows of length one."""
+    jacobian = Evaluator.of(system.polynomials, system.n).jacobian(point + 0j)
+    sizes = np.linalg.norm(jacobian, axis=1, keepdims=True)
+    return jacobian / np.where(sizes > 0, sizes, 1)
+
+
+def _real_tangents(model: PlatformModel, mode: OperationMode, point: np.ndarray) -> np.ndarray:
+    """An orthonormal basis of the tangent space at a real point of a reduced mode."""
+    _, _, directions = np.linalg.svd(_jacobian(model.system, point).real)
+    return directions[model.system.n - mode.component.dimension :]
+
+
+def _same_poses(model: PlatformModel, mode: OperationMode, other: OperationMode, run: Run) -> bool:
+    """Whether two components have the same poses, with different joint coordinates."""
+    if not model.charts.n or (mode.dimension, mode.degree) != (other.dimension, other.degree):
+        return False
+    if mode.linear != other.linear or mode.quadratic != other.quadratic:
+        return False
+    if mode.is_linear:
+        return True
+    pose = mode.component.points[0][:7]
+    n = model.system.n
+    held = tuple(
+        Polynomial.of_doubles(n, {UNITS[i][:7] + (0,) * (n - 7): 1.0, (0,) * n: -x})
+        for i, x in enumerate(pose)
+    )
+    try:
+        met = intersect_equations(
+            model.system, other.component, PolynomialSystem(model.system.variables, held), run=run
+        )
+    except NagError:
+        return False
+    return bool(met.components)
+
+
+def _transitions(
+    model: PlatformModel, modes: Sequence[OperationMode], run: Run
+) -> list[Transition]:
+    """Where modes of positive dimension meet."""
+    pairs = list(combinations([i for i, mode in enumerate(modes) if mode.dimension], 2))
+    found = []
+    for count, (i, j) in enumerate(pairs):
+        run.tell("transitions", count, len(pairs))
+        transition = _transition(model, (i, j), (modes[i], modes[j]), run)
+        if transition.kinds or transition.note:
+            found.append(transition)
+    return found
+
+
+def _transition(
+    model: PlatformModel,
+    indices: tuple[int, int],
+    pair: tuple[OperationMode, OperationMode],
+    run: Run,
+) -> Transition:
+    if all(mode.is_linear for mode in pair):
+        return Transition(indices, _linear_transition(*pair))
+    try:
+        met = intersect_components(model.system, pair[0].component, pair[1].component, run=run)
+        kinds = tuple(_pose_kind(model, c, run) for c in met.components)
+    except (ComponentError, NagError) as error:
+        return Transition(indices, (), str(error))
+    if met.complete or (not kinds and _are_apart(model, pair, run)):
+        return Transition(indices, kinds)
+    return Transition(indices, kinds, "; ".join(met.notes) or "a component is undecided")
+
+
+def _pose_kind(model: PlatformModel, component: WitnessSet, run: Run) -> tuple[int, int]:
+    """Dimension and degree of the poses of a component."""
+    if not model.charts.n:
+        return component.dimension, component.degree
+    image = project(model.system, component, range(7), run=run)
+    return image.dimension, image.degree
+
+
+def _linear_transition(first: OperationMode, second: OperationMode) -> tuple[tuple[int, int], ...]:
+    """The linear space that two linear modes have in common; none without displacements."""
+    rows = [[f.terms.get(e, 0) for e in UNITS] for f in (*first.linear, *second.linear)]
+    basis = null_space(rows, 8)
+    weights, zero = Polynomial.variables(len(basis)), Polynomial(len(basis), {})
+    point = [sum((w * v[i] for w, v in zip(weights, basis, strict=True)), zero) for i in range(8)]
+    return ((len(basis) - 1, 1),) if basis and norm_form().compose(point) else ()
+
+
+def _are_apart(model: PlatformModel, pair: tuple[OperationMode, OperationMode], run: Run) -> bool:
+    """Whether equations that both modes satisfy together have no displacement in common."""
+    pose = _pose(model)
+    more = [f.compose(pose) for mode in pair for f in (*mode.linear, *mode.quadratic)]
+    system = replace(model.system, polynomials=(*more, *model.system.polynomials))
+    found = decompose(system, run=run)
+    return found.complete and not found.components

@@ -1,0 +1,214 @@
+"""The platform alone: the system of a parallel robot in the coordinates of its platform's pose.
+
+Each leg is its image's forms (`leg_image`); with Study's quadric these are all equations that there
+are. A leg whose image takes forms of too high a degree keeps some of its joints, those next to the
+ground or the platform: what is left of it between them has an image of low degree, and the pose
+relative to the kept joints lies on that. One affine chart covers all poses but those of a random
+plane, and none where x0 to x3 vanish, which are no displacements.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import factorial, prod
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.errors import MechanismError
+from nag.interpolation.image_forms import ImageForms
+from nag.mechanism.joint_factors import Charts, primitive
+from nag.mechanism.leg_image import (
+    COORDINATES,
+    MOST_DEGREE,
+    image_of_chain,
+    norm_form,
+    study_quadric,
+)
+from nag.mechanism.legs import Leg, ParallelRobot
+from nag.mechanism.loop_product import Element, displacement, factors_in
+from nag.mechanism.quaternion import dual_conjugate, dual_multiply
+
+# Forms of what is left of a leg that keeps joints.
+MOST_DEGREE_BESIDE_JOINTS = 2
+# Coefficients of the chart are dyadic fractions with this denominator, of size up to one.
+CHART_STEPS = 2**12
+
+
+@dataclass(frozen=True, eq=False)
+class LegEquations:
+    """What a leg says of the pose.
+
+    Attributes:
+        leg: the leg.
+        before, behind: the factors that it keeps, next to the ground and next to the platform.
+        image: of what is between them.
+        dimension: of the image of the whole leg.
+    """
+
+    leg: Leg
+    before: tuple[Element, ...]
+    behind: tuple[Element, ...]
+    image: ImageForms
+    dimension: int
+
+    @property
+    def kept(self) -> tuple[Element, ...]:
+        """The factors that it keeps."""
+        return self.before + self.behind
+
+    @property
+    def idle(self) -> int:
+        """How many freedoms of the leg leave the platform where it is."""
+        return self.leg.freedoms - self.dimension
+
+    @property
+    def path_factor(self) -> int:
+        """By how much its forms multiply Bezout's number of the pose.
+
+        The coefficient of the least power of the pose's class in the product of theirs, where every
+        kept factor has a class of its own.
+        """
+        count = self.image.codimension - len(self.image.known)
+        own = sum(e.factor.dimension for e in self.kept if e.factor is not None)
+        degrees = sorted(f.degree for f in self.image.forms)[:count]
+        return prod(degrees) * factorial(count) // factorial(count - own) if count >= own else 0
+
+
+@dataclass(frozen=True, eq=False)
+class PlatformModel:
+    """The system of a platform's pose.
+
+    Attributes:
+        robot: the mechanism.
+        legs: what each leg says.
+        chart: c1, c2, c3 of the affine chart x0 = 1 + c1 x1 + c2 x2 + c3 x3.
+        charts: of the factors that legs keep.
+        system: the equations: in x1, x2, x3 and y0 to y3, and in coordinates of kept factors.
+    """
+
+    robot: ParallelRobot
+    legs: tuple[LegEquations, ...]
+    chart: tuple[Fraction, Fraction, Fraction]
+    charts: Charts
+    system: PolynomialSystem
+
+    @property
+    def reference(self) -> tuple[Number, ...]:
+        """The reference configuration, a solution."""
+        return (Fraction(0),) * 7 + self.charts.reference
+
+    def study(self, points: np.ndarray) -> np.ndarray:
+        """Study coordinates at solutions, from shape ``(k, n)`` to ``(k, 8)``."""
+        first = 1 + points[:, :3] @ np.array([float(c) for c in self.chart])
+        return np.hstack([first[:, None], points[:, :7]])
+
+    @property
+    def forms(self) -> tuple[Polynomial, ...]:
+        """Study's quadric and the forms of the legs that keep no joints."""
+        own = (f for leg in self.legs if not leg.kept for f in leg.image.forms)
+        return tuple(dict.fromkeys((study_quadric(), *own)))
+
+
+def platform_model(robot: ParallelRobot, rng: np.random.Generator) -> PlatformModel:
+    """The system of a platform's pose.
+
+    Raises:
+        MechanismError: if a leg has loops of its own, or a joint is not given rationally.
+        nag.interpolation.vanishing.InterpolationError: if forms have too long coefficients.
+    """
+    for leg in robot.legs:
+        _check_leg(leg)
+    legs = tuple(_leg_equations(leg, rng) for leg in robot.legs)
+    steps = rng.integers(-CHART_STEPS, CHART_STEPS + 1, 3).tolist()
+    chart = tuple(Fraction(c, CHART_STEPS) for c in steps)
+    charts = Charts.of(factors_in([e for leg in legs for e in leg.kept]))
+    return PlatformModel(robot, legs, chart, charts, _system(legs, chart, charts))
+
+
+def _check_leg(leg: Leg) -> None:
+    if not leg.is_serial:
+        raise MechanismError(f"leg {leg.name} has loops of its own; only serial chains are legs")
+    for joint in leg.joints:
+        vectors = (joint.point, joint.axis, joint.second_axis)
+        if not all(isinstance(x, Fraction) for v in vectors if v is not None for x in v):
+            raise MechanismError(
+                f"joint {joint.name!r} has irrational coordinates; operation modes are found of "
+                "rational ones: legs at 120 degrees have them about the axis (1, 1, 1)"
+            )
+
+
+def _leg_equations(leg: Leg, rng: np.random.Generator) -> LegEquations:
+    """The whole image where its forms are of low degree, else that beside the fewest joints."""
+    elements = leg.elements()
+    whole = image_of_chain(elements, rng)
+    found = LegEquations(leg, (), (), whole, whole.dimension)
+    if whole.cuts:
+        return found
+    best: LegEquations | None = None
+    for count in range(1, len(elements)):
+        for first in range(count + 1):
+            last = len(elements) - count + first
+            part = image_of_chain(elements[first:last], rng, MOST_DEGREE_BESIDE_JOINTS)
+            split = replace(found, before=elements[:first], behind=elements[last:], image=part)
+            if part.cuts and split.path_factor:
+                best = split if best is None else min(best, split, key=lambda s: s.path_factor)
+        if best is not None:
+            return best
+    raise MechanismError(
+        f"leg {leg.name}: no forms up to degree {MOST_DEGREE} cut out the poses that it reaches"
+    )
+
+
+def _system(
+    legs: Sequence[LegEquations], chart: Sequence[Fraction], charts: Charts
+) -> PolynomialSystem:
+    n = 7 + charts.n
+    variables = Polynomial.variables(n)
+    zero = Polynomial(n, {})
+    first = sum((x * c for x, c in zip(variables, chart, strict=False)), zero + 1)
+    pose = (first, *variables[:7])
+    places = range(7, n)
+    values = {
+        factor: tuple(f.with_variables(n, places) for f in own)
+        for factor, own in charts.values.items()
+    }
+    equations = [study_quadric().compose(pose)]
+    for leg in legs:
+        beside = _beside_joints(leg, pose, values, zero)
+        equations += [primitive(f.compose(beside)) for f in leg.image.forms]
+    norms = [norm_form().compose(pose)]
+    for factor, group in zip(charts.factors, charts.groups, strict=True):
+        norm = factor.norm([variables[7 + i] for i in group])
+        norms += [] if norm is None else [norm]
+    names = charts.names
+    if not set(names).isdisjoint(COORDINATES):
+        names = tuple(f"k{i + 1}" for i in range(charts.n))
+    groups = (tuple(range(7)), *(tuple(7 + i for i in group) for group in charts.groups))
+    return PolynomialSystem(
+        (*COORDINATES[1:], *names),
+        tuple(dict.fromkeys(f for f in equations if f)),
+        tuple(norms),
+        groups if charts.n else (),
+    )
+
+
+def _beside_joints(
+    leg: LegEquations, pose: Sequence[Polynomial], values: dict[Any, Any], zero: Polynomial
+) -> list[Polynomial]:
+    """The displacement of what is between the kept joints of a leg, up to a factor."""
+    motion = tuple(pose[:4]), tuple(pose[4:])
+    if leg.before:
+        motion = dual_multiply(dual_conjugate(displacement(leg.before, values, _same)), motion)
+    if leg.behind:
+        motion = dual_multiply(motion, dual_conjugate(displacement(leg.behind, values, _same)))
+    return [zero + c for part in motion for c in part]
+
+
+def _same(c: Number) -> Number:
+    return c
