@@ -389,7 +389,8 @@ FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, ARRIVED, NEARLY; witness.real_
 SHORTEST, STILL; decomposition.curve_genus: NEAR, OUTSIDE,
 SHRINK, LEAST_RADIUS; decomposition.discovery: ROUNDED, DEEP, MULTIPLE; decomposition.given_points:
 ROUGH; decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROUNDED;
-decomposition.ends: ROUNDED; decomposition.superset: REGULAR; decomposition.power_sums:
+decomposition.ends: ROUNDED; decomposition.growth: PATH, FACTOR, ENTRY, STEP;
+decomposition.superset: REGULAR; decomposition.power_sums:
 EQUATIONS, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
 interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
 mechanism.framework_decomposition: ROUNDED; files.export: ROUNDED; files.json_values: AGREES;

@@ -245,26 +245,83 @@ def lost_paths(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_the_component_through_a_smooth_point_is_reached_from_there(lost_paths: None) -> None:
     for name, degree in (("Bennett", 2), ("spherical", 4), ("five axes", 1)):
-        report = nag.mobility(REPORTS[name][0])
-        assert report.components == ((report.local_dimension, degree),) and not report.open
+        for detail in ("through", "components"):
+            report = nag.mobility(REPORTS[name][0], detail=detail)
+            assert report.components == ((report.local_dimension, degree),) and not report.open
 
 
 def test_what_is_certain_of_a_smooth_point_is_said_where_the_degree_is_not(
-    lost_paths: None, monkeypatch: pytest.MonkeyPatch
+    lost_paths: None,
 ) -> None:
-    through = mobility_at.components_through_points
-    monkeypatch.setattr(
-        mobility_at,
-        "components_through_points",
-        lambda *given, **options: replace(through(*given, **options), complete=False),
-    )
-    report = nag.mobility(REPORTS["Bennett"][0])
-    assert report.components is None and report.status == "overconstrained"
-    assert (
-        "1 through the configuration: dimension 1, reduced, as it is a smooth point; not known: "
-        "its degree, 2 at least; the decomposition is incomplete: 3 paths failed"
-    ) in str(report)
+    report = nag.mobility(REPORTS["Bennett"][0], detail="components", budget=0)
+    assert report.components == ((1, None),) and report.status == "overconstrained"
+    assert "1 through the configuration: dimension 1, reduced, degree 1 at least" in str(report)
+    assert "the decomposition is incomplete: 3 paths failed" in report.open
     # Two components cross there, whatever is known of them.
     crossing = nag.mobility(REPORTS["flat parallelogram"][0])
     assert "not known: the decomposition is incomplete: 3 paths failed" in str(crossing)
     assert "smooth" not in str(crossing)
+
+
+@pytest.fixture
+def no_decomposition(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whoever decomposes fails."""
+
+    def refuse(problem: Problem, **options: Any) -> nag.Decomposition:
+        raise AssertionError("nothing is to be decomposed")
+
+    monkeypatch.setattr(Problem, "decompose", refuse)
+
+
+@pytest.mark.parametrize("name", ["Bennett", "Bricard", "Sarrus", "parallelogram", "spherical"])
+def test_at_a_smooth_point_nothing_else_is_decomposed(name: str, no_decomposition: None) -> None:
+    mechanism, *_, status = REPORTS[name]
+    report = nag.mobility(mechanism)
+    assert report.status == status and report.least_degree is None and not report.open
+    assert report.rests_on.startswith("one component passes through a smooth point")
+    short = nag.mobility(mechanism, budget=0)
+    assert short.components == ((1, None),) and short.least_degree == 1 and not short.open
+    assert (short.status, short.sentence) == (report.status, report.sentence)
+
+
+@pytest.mark.parametrize("name", ["Bennett", "parallelogram", "spherical"])
+def test_the_degree_from_the_point_is_that_of_a_decomposition(name: str) -> None:
+    by_loops, whole = (nag.mobility(REPORTS[name][0], detail=d) for d in ("through", "components"))
+    assert by_loops.components == whole.components
+    assert whole.rests_on == "a decomposition of all configurations"
+
+
+def test_a_bounded_degree_is_a_complete_answer_and_the_same_on_any_machine(
+    tmp_path, capsys, no_decomposition: None
+) -> None:
+    file = tmp_path / "mobility.json"
+    asked = ["mobility", str(CASES / "bennett.toml"), "--budget", "0", "--quiet"]
+    answers = []
+    for threads in ("1", "2"):
+        assert main([*asked, "--json", str(file), "--threads", threads]) == 0
+        document = json.loads(file.read_text())
+        jsonschema.validate(document, schema("nag-mobility"))
+        answers.append(document)
+    assert answers[0] == answers[1] and answers[0]["complete"] and answers[0]["budget"] == 0
+    assert answers[0]["components"] == [{"dimension": 1, "degree": None}]
+    assert answers[0]["degree_at_least"] == 1
+    assert "degree 1 at least" in capsys.readouterr().out
+
+
+def test_what_is_known_first_is_printed_first_and_once(
+    capsys, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    grow, before = mobility_at.grow_component, []
+
+    def look(*given: Any, **options: Any) -> Any:
+        before.append(capsys.readouterr().out)
+        return grow(*given, **options)
+
+    monkeypatch.setattr(mobility_at, "grow_component", look)
+    assert main(["mobility", str(CASES / "bennett.toml"), "--quiet"]) == 0
+    lines = before[0].splitlines()
+    labels = [line.split("  ")[0] for line in lines[2:]]
+    assert lines[1] == "" and labels == ["counted", "model", "local"]
+    after = capsys.readouterr().out.splitlines()
+    assert [line.split("  ")[0] for line in after] == ["components", "mobility", "run"]
+    assert {line[12] == " " for line in lines[2:] + after} == {False}

@@ -66,8 +66,18 @@ def check_error(value: Any, place: str) -> None:
     Raises:
         ValueError: if it is not.
     """
+    if value is not None:
+        check_size(value, place)
+
+
+def check_size(value: Any, place: str) -> None:
+    """Make sure that an argument is a finite real number from 0 up.
+
+    Raises:
+        ValueError: if it is not.
+    """
     number = isinstance(value, Real) and not isinstance(value, bool)
-    if value is not None and not (number and isfinite(value) and value >= 0):
+    if not (number and isfinite(value) and value >= 0):
         raise NagError(f"{place}: {value_text(value)} is given; give a number from 0 up")
 
 

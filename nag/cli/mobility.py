@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
@@ -11,18 +12,24 @@ from nag.cli.arguments import (
     add_running,
     read_case_file,
     read_problem,
+    whole,
 )
-from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
+from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case, say_first
 from nag.cli.witness_input import point_at
+from nag.mechanism import BUDGET
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
     from nag.files.cases import Case
+    from nag.mechanism.mobility_at import Detail
     from nag.mechanism.mobility_report import Alike, MobilityReport
     from nag.mechanism.other_equations import OtherEquations
     from nag.mechanism.problem import Problem
 
 FORMAT = "nag-mobility"
+# Labels are as wide as the widest from the first line on.
+WIDTH = len("components")
+MOST_SECONDS = 3600
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,10 +44,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "(default: the reference configuration; of parts that are not assembled a general one); of "
         "a framework in the plane the points' x_P and y_P, the first bar from (0, 0) to (1, 0)",
     )
-    parser.add_argument(
+    how_far = parser.add_mutually_exclusive_group()
+    how_far.add_argument(
         "--local",
         action="store_true",
-        help="do not decompose: counting, tangent and local dimension only",
+        help="counting, tangent and local dimension only, and no component",
+    )
+    how_far.add_argument(
+        "--components",
+        action="store_true",
+        help="decompose all configurations, whatever passes through this one",
+    )
+    parser.add_argument(
+        "--budget",
+        type=lambda text: whole(text, 0, MOST_SECONDS),
+        default=BUDGET,
+        metavar="SECONDS",
+        help="how long the degree of the component through a smooth configuration may take, as "
+        "counted by what a common processor does in that time: the same seed gives the same answer "
+        f"(default: {BUDGET}); what is not known then is bounded from below",
     )
     parser.add_argument(
         "--curves",
@@ -59,38 +81,58 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     """How a mechanism moves at a configuration."""
     case, problem = _read_moving(options)
     at = None if options.at is None else point_at(options.at, problem.system.variables)
-    other, comparable = None, problem is not None
-    if options.check and problem is not None:
-        from nag.mechanism.other_equations import other_equations
-
-        other = next(other_equations(problem, at), None)
-        comparable = other is not None or (problem.mechanism is not None and at is None)
-    if options.check and not comparable:
-        raise UsageError(
-            "--check: there is no second formulation: that is for mechanisms with loops at their "
-            "reference configuration, for tables in half-angles, linkages and frameworks; one in "
-            "space needs other bars to pin, and no --at"
-        )
+    others = iter(()) if problem is None or not options.check else _other_equations(problem, at)
     from nag.algebra.number import number_text
     from nag.mechanism.mobility_report import MobilityStatus
 
-    report = _report(options, problem or case, at)
+    for report in _reports(options, problem or case, at):
+        say_first(options, name_case(case), report.local_rows(), WIDTH)
     rows = report.rows()
     complete = report.status is not MobilityStatus.UNDECIDED and not report.open
     complete &= not any(curve.note for curve in report.curves)
     compared: dict[str, Any] | None = None
     if options.check:
-        text, agree, compared = _compare(options, report, other)
+        text, agree, compared = _compare(options, report, next(others, None))
         rows.append(("check", text))
         complete &= agree
     here = at or (None if problem is None else problem.reference)
     fields = {
         "format": FORMAT,
+        "budget": options.budget if _is_limited(options, report) else None,
         "configuration": [number_text(x) for x in here or ()],
         **report.document(),
         "check": compared,
     }
-    return answer_of(options, name_case(case), (), rows, fields, complete)
+    said = f"budget {options.budget} s" if _is_limited(options, report) else ""
+    return answer_of(options, name_case(case), (), rows, fields, complete, said=said, width=WIDTH)
+
+
+def _other_equations(problem: Problem, at: tuple[Number, ...] | None) -> Iterator[OtherEquations]:
+    """Equations to compare with, those of a mechanism only made when they are asked for.
+
+    Raises:
+        UsageError: if there are none.
+    """
+    from nag.mechanism.other_equations import other_equations
+
+    found = other_equations(problem, at)
+    if problem.mechanism is not None and at is None:
+        return found
+    first = next(found, None)
+    if first is None:
+        raise UsageError(
+            "--check: there is no second formulation: that is for mechanisms with loops at their "
+            "reference configuration, for tables in half-angles, linkages and frameworks; one in "
+            "space needs other bars to pin, and no --at"
+        )
+    return iter([first])
+
+
+def _is_limited(options: argparse.Namespace, report: MobilityReport) -> bool:
+    """Whether the answer may depend on the budget."""
+    if options.local or options.components or options.curves or report.local is None:
+        return report.least_degree is not None
+    return report.local.smooth and report.local.lower > 0
 
 
 def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
@@ -107,6 +149,14 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
         if options.at is not None:
             raise UsageError(f"--at: {options.case} has no loop, so that it has no equations")
         return case, None
+    if case.kind == "mechanism" and options.at is None and options.formulation is None:
+        from nag.mechanism.axes import space_of
+        from nag.mechanism.loops import gruebler_kutzbach
+        from nag.mechanism.mobility_report import counted_row
+
+        mechanism = case.mechanism
+        counted = counted_row(gruebler_kutzbach(mechanism), space_of(mechanism.joints))
+        say_first(options, name_case(case), [counted], WIDTH)
     case, problem = read_problem(options)
     if problem.model is None:
         raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
@@ -125,15 +175,24 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
     return case, problem
 
 
-def _report(
-    options: argparse.Namespace, given: Case | Problem, at: tuple[Number, ...] | None
-) -> MobilityReport:
-    from nag.mechanism.mobility_at import NoAssembly, mobility
+def _reports(
+    options: argparse.Namespace,
+    given: Case | Problem,
+    at: tuple[Number, ...] | None,
+    budget: int | None = None,
+) -> Iterator[MobilityReport]:
+    """What is known of a configuration, and then what is known more."""
+    from nag.mechanism.mobility_at import NoAssembly, mobility_in_steps
     from nag.numerics.local_dimension import NoSolution
 
-    detail = "curves" if options.curves else "local" if options.local else "components"
+    detail: Detail = "local" if options.local else "through"
+    if options.components or options.curves:
+        detail = "curves" if options.curves else "components"
+    budget = options.budget if budget is None else budget
     try:
-        return mobility(given, at, detail=detail, run=chosen_run(options))
+        yield from mobility_in_steps(
+            given, at, detail=detail, budget=budget, run=chosen_run(options)
+        )
     except NoAssembly as reason:
         raise UsageError(f"{options.case}: {reason}") from None
     except NoSolution as reason:
@@ -146,7 +205,9 @@ def _compare(
     """What other equations say, whether it agrees, and that as a JSON object."""
     if equations is None:
         return "no other formulation covers this mechanism", True, None
-    other = _report(options, equations.problem, equations.at)
+    # Degrees depend on the coordinates, unless these depend linearly on each other.
+    budget = None if equations.alike == "degrees" else 0
+    *_, other = _reports(options, equations.problem, equations.at, budget)
     agree = other.same_motion(report, equations.alike)
     text = (
         f"{equations.name}, {other.equations} equations in {other.variables} "

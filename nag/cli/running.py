@@ -74,7 +74,25 @@ def answer_of(
     head = {"format": fields["format"], "version": 1, "case": {"title": case[0], "file": case[1]}}
     document = head | chosen | {"complete": complete} | fields
     lines = sheet(case[0], *blocks, [*tail, run_row(options, rests_on, said)], width=width)
-    return CommandAnswer(lines, complete, lambda: document)
+    return CommandAnswer(lines[options.said :], complete, lambda: document)
+
+
+def say_first(
+    options: argparse.Namespace, case: tuple[str, str], rows: Sequence[Row], width: int
+) -> None:
+    """Print the first lines of an answer as soon as they are known; they are not printed again.
+
+    Args:
+        rows: all that are known, of an answer of labelled texts without blocks.
+        width: of labels, the same as of the whole answer.
+    """
+    from nag.text.table import sheet
+
+    lines = sheet(case[0], list(rows), width=width)
+    if options.progress is not None:
+        options.progress.erase()
+    options.write(lines[options.said :])
+    options.said = len(lines)
 
 
 def name_case(case: Case) -> tuple[str, str]:
@@ -99,6 +117,7 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
         nag.NagError: as the command does.
     """
     begin(options)
+    options.write, options.said = write, 0
     with show_progress(options) as options.progress:
         answer = options.module.run(options)
     try:

@@ -8,10 +8,10 @@ paths: `several_equations` on `isolated` (finite sets, solved at once), `toric_s
 cut by a slice at once) and `superset` (equation by equation) on `hypersurface` (one step) and
 `ends` (sorted out). Then `splitting` on `trace` (by `zero_sums`), `power_sums` and `monodromy`,
 `orbits` (the same up to symmetry); `final_checks` and `assembly`, which put the answer together.
-`discovery`, `given_points` and `intersection` (on `diagonal` and `factor`) begin elsewhere and end
-alike. `through` says which components a case's points are on, `singular_points` (on `rank_drop` and
-`linear_hull`) where a component is singular, `singular_members` and `sweep` what parameters change,
-`curve_genus` by `branch_points` the genus.
+`discovery`, `given_points`, `growth` (from one regular point) and `intersection` (on `diagonal` and
+`factor`) begin elsewhere and end alike. `through` says which components a case's points are on,
+`singular_points` (on `rank_drop` and `linear_hull`) where a component is singular,
+`singular_members` and `sweep` what parameters change, `curve_genus` by `branch_points` the genus.
 
 To add a method of decomposition, write a file that makes a `nag.Decomposition` of a `method.Task`,
 or None where it does not apply; in `decompose` a function of the task, and of `method.Others`

@@ -128,6 +128,28 @@ def split_points(points: Points, evidence: int, rng: np.random.Generator, run: R
         if not len(open_points) or state.lost:
             break
         idle = 0 if _run_loop(state, open_points, run, idle >= IDLE_LOOPS) else idle + 1
+    return _split_of(state)
+
+
+def split_joined_points(
+    points: Points,
+    trace: Trace,
+    loops: Sequence[np.ndarray],
+    rng: np.random.Generator,
+    run: Run,
+) -> Split:
+    """Split points that loops have joined, without any more of them.
+
+    Args:
+        trace: of all the points.
+        loops: for each the pairs of points that it joins, shape ``(m, 2)``.
+    """
+    state = _Splitting(points, rng, trace, loops=list(loops))
+    _find_components(state, run)
+    return _split_of(state)
+
+
+def _split_of(state: _Splitting) -> Split:
     known = state.points if state.trace is None else state.trace.sharper(state.points)
     pairs = [*state.loops, *(np.column_stack([np.full(len(w), w[0]), w]) for w in state.whole)]
     labels = join_labels(len(known), pairs)

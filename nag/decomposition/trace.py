@@ -158,13 +158,27 @@ class Trace:
         """
         trace = self
         for digits in DIGITS:
-            poor = [i for i in indices if trace.known[i].digits < digits]
+            poor = trace._least_known(indices, digits)
             if poor:
                 trace = trace._found(points, poor, digits)
             answer = trace._decided(indices)
             if answer is not None:
                 return answer, trace
         return None, trace
+
+    def _least_known(self, indices: Sequence[int], digits: int) -> list[int]:
+        """Points of fewer digits whose errors keep a sum from being seen to be linear.
+
+        The errors of the others add up to half of what they may be.
+        """
+        known = [(self.known[i].radius, i) for i in indices]
+        most = 0.5 * 10.0**-self.evidence * max(self.known[i].motion for i in indices)
+        total, poor = 0.0, []
+        for radius, i in sorted(known):
+            total += radius
+            if not total <= most and self.known[i].digits < digits:
+                poor.append(i)
+        return poor
 
     def finer(self, indices: Sequence[int]) -> Trace:
         """The trace with evidence by which points are not linear that bend no less than these.

@@ -22,7 +22,9 @@ of a joint, as a pitch, is a field of `graph.Joint` (where `networkx_graph` and 
 in `joint_types.VECTORS`, and `nag.files.mechanism_case` reads it.
 """
 
-# Names of the formulations, for whoever must not load them.
+# For whoever must not load them: seconds that the degree of a component may take, and names of the
+# formulations.
+BUDGET = 10
 FORMULATIONS = {
     "E": "Euler parameters, in the plane a cosine and a sine for each body",
     "H": "half-angles, slides and quaternions of the joints",

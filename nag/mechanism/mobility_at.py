@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Literal, get_args
 
 from nag.algebra.from_python import coordinates
-from nag.algebra.given import check_choice, is_a
+from nag.algebra.given import check_choice, check_size, is_a
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.curve_genus import GenusError, genus
-from nag.decomposition.given_points import components_through_points
+from nag.decomposition.growth import grow_component
 from nag.decomposition.through import through_points, zero_at
 from nag.errors import MechanismError, NagError
+from nag.mechanism import BUDGET
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
@@ -22,14 +24,22 @@ from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.real_assemblies import real_doubt
-from nag.numerics.local_dimension import LocalDimension, local_dimension_near
+from nag.numerics.local_dimension import local_dimension_near
+from nag.text.table import count_text
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition, WitnessSet
 
+# What components are known by.
+SMOOTH = "one component passes through a smooth point, and is reduced there"
+ALL_COMPONENTS = "a decomposition of all configurations"
+
 
 class NoAssembly(MechanismError):
     """Parts that cannot be assembled, with the reason."""
+
+
+Detail = Literal["local", "through", "components", "curves"]
 
 
 @takes_run
@@ -38,7 +48,8 @@ def mobility(
     point: Sequence[Any] | Mapping[str, Any] | None = None,
     *,
     formulation: str = "auto",
-    detail: Literal["local", "components", "curves"] = "components",
+    detail: Detail = "through",
+    budget: float = BUDGET,
     run: Run = DEFAULT_RUN,
 ) -> MobilityReport:
     """The mobility of a mechanism at its reference configuration, or at another one.
@@ -46,7 +57,9 @@ def mobility(
     That of parts which are not assembled is that of a general configuration, if no point is given.
 
     What counting predicts, the tangent and the local dimension (Wampler, Hauenstein & Sommese
-    2011), and the components through the configuration.
+    2011), and the components through the configuration. Where both dimensions agree, the
+    configuration is a smooth point of exactly one component, which is reduced there; its degree is
+    found from there.
 
     Args:
         mechanism: assembled, or parts that may be assembled (`nag.Case.assembly`), or a case or a
@@ -54,8 +67,12 @@ def mobility(
         point: in the model's variables (``nag.model(mechanism).system.variables``), in order or by
             name; exact numbers as `nag.Joint` takes them, or doubles.
         formulation: of a mechanism's model, as for `nag.model`.
-        detail: ``"local"`` for what needs no decomposition, ``"components"`` for the components
-            through the configuration as well, ``"curves"`` for genus and bonds of curves, too.
+        detail: ``"local"`` for what needs no component, ``"through"`` for those through the
+            configuration as well, ``"components"`` to find these by a decomposition of all that
+            there are, ``"curves"`` for genus and bonds of curves, too.
+        budget: seconds that the degree may take at a smooth configuration, counted by what a common
+            processor does in them, so that the answer does not depend on the time that is taken;
+            what is not known then is bounded from below.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
@@ -74,10 +91,29 @@ def mobility(
     components  1 through the configuration: dimension 1, degree 2
     mobility    overconstrained: it moves with 1 freedom, though counting predicts -2
     """
-    check_choice(detail, "detail", ("local", "components", "curves"))
+    *_, report = mobility_in_steps(
+        mechanism, point, formulation=formulation, detail=detail, budget=budget, run=run
+    )
+    return report
+
+
+@takes_run
+def mobility_in_steps(
+    mechanism: Any,
+    point: Sequence[Any] | Mapping[str, Any] | None = None,
+    *,
+    formulation: str = "auto",
+    detail: Detail = "through",
+    budget: float = BUDGET,
+    run: Run = DEFAULT_RUN,
+) -> Iterator[MobilityReport]:
+    """The same, as far as it is known: what needs no component first, then the whole."""
+    check_choice(detail, "detail", get_args(Detail))
+    check_size(budget, "budget")
     tree = tree_of(mechanism)
     if tree is not None:
-        return _without_loops(tree)
+        yield _without_loops(tree)
+        return
     problem = problem_of(mechanism, formulation=formulation)
     if problem.model is None:
         check_mechanism(problem.system, "the parts of a case, case.assembly")
@@ -85,8 +121,12 @@ def mobility(
     if point is not None:
         at = coordinates(point, problem.system.variables)
     if at is None:
-        return _in_general(problem, detail, run)
-    return _report(problem, at, detail, run)
+        yield _in_general(problem, detail, run)
+        return
+    first = _local_report(problem, at, run)
+    yield first
+    if detail != "local":
+        yield _with_components(first, problem, at, detail, budget, run)
 
 
 def tree_of(given: Any) -> Mechanism | None:
@@ -102,26 +142,72 @@ def tree_of(given: Any) -> Mechanism | None:
     return None
 
 
-def _report(problem: Problem, at: Sequence[Number], detail: str, run: Run) -> MobilityReport:
+def _local_report(problem: Problem, at: Sequence[Number], run: Run) -> MobilityReport:
     found = local_dimension_near(problem.system, at, seed=run.seed)
     free, tangent = problem.free, found.tangent_dimension
-    at = zero_at(problem.system, at, found)
-    through, doubt = None, ""
-    if detail != "local":
-        through, doubt = _components(problem, at, found, run)
-    motions = []
-    if detail == "curves" and through is not None:
-        motions = [_curve(problem, c, run) for c in through if c.dimension == 1]
-    known = None if through is None else tuple((c.dimension + free, c.degree) for c in through)
     return MobilityReport(
         **_count_freedoms(problem),
         tangent_dimension=None if tangent is None else tangent + free,
         lower=found.lower + free,
         upper=found.upper + free,
+        components=None,
+        open="",
+        local=found,
+    )
+
+
+def _with_components(
+    first: MobilityReport,
+    problem: Problem,
+    at: Sequence[Number],
+    detail: Detail,
+    budget: float,
+    run: Run,
+) -> MobilityReport:
+    """A report, and the components through the configuration."""
+    if detail == "through" and first.local.smooth:
+        return _with_only_component(first, problem, budget, run)
+    through, doubt = _components(problem, zero_at(problem.system, at, first.local), run)
+    if through is None and first.local.smooth:
+        only = _with_only_component(first, problem, budget, run)
+        return replace(only, open=doubt if only.least_degree is not None else "")
+    free = problem.free
+    known = None if through is None else tuple((c.dimension + free, c.degree) for c in through)
+    curves = [c for c in through or () if c.dimension == 1] if detail == "curves" else []
+    return replace(
+        first,
         components=known,
         open=doubt,
-        local=found,
-        curves=tuple(motions),
+        curves=tuple(_curve(problem, c, run) for c in curves),
+        rests_on="" if known is None else ALL_COMPONENTS,
+    )
+
+
+def _with_only_component(
+    first: MobilityReport, problem: Problem, budget: float, run: Run
+) -> MobilityReport:
+    """A report of a smooth configuration, and the degree of the component through it.
+
+    Exactly one passes through a smooth point, of the local dimension, and it is reduced.
+    """
+    local = first.local
+    whole = (local.lower + problem.free,)
+    if not local.lower:
+        return replace(first, components=((*whole, 1),), rests_on=SMOOTH)
+    # Multidegrees are not asked for.
+    system = replace(problem.system, groups=())
+    grown = grow_component(system, local.point, local.lower, seconds=budget, run=run)
+    paths = f"by loops of {count_text(grown.paths.tracked, 'path')} from there"
+    if grown.degree is not None:
+        return replace(
+            first, components=((*whole, grown.degree),), rests_on=f"{SMOOTH}; its degree {paths}"
+        )
+    why = f"its degree {paths} within a budget of {budget:g} s: {grown.reason}"
+    return replace(
+        first,
+        components=((*whole, None),),
+        least_degree=grown.least,
+        rests_on=f"{SMOOTH}; {why}",
     )
 
 
@@ -153,6 +239,7 @@ def _in_general(problem: Problem, detail: str, run: Run) -> MobilityReport:
         curves=tuple(_curve(problem, c, run) for c in curves),
         general=known,
         doubt=doubt,
+        rests_on=ALL_COMPONENTS if found.complete else "",
     )
 
 
@@ -164,15 +251,10 @@ def _without_loops(mechanism: Mechanism) -> MobilityReport:
 
 
 def _components(
-    problem: Problem,
-    at: Sequence[Number],
-    local: LocalDimension,
-    run: Run,
+    problem: Problem, at: Sequence[Number], run: Run
 ) -> tuple[list[WitnessSet] | None, str]:
     """The components through a point, or why they are not known."""
     found = problem.decompose(run=run)
-    if not found.complete and local.smooth:
-        return _only_component(problem, local, _incomplete(found), run)
     if not found.complete:
         return None, _incomplete(found)
     through = through_points(found, [("the configuration", tuple(at))], run.threads)[0]
@@ -180,25 +262,6 @@ def _components(
         return None, through.doubt or "the configuration is a rounded one"
     everything = expand_orbits(found).components
     return [everything[i] for i in through.components], ""
-
-
-def _only_component(
-    problem: Problem,
-    local: LocalDimension,
-    doubt: str,
-    run: Run,
-) -> tuple[list[WitnessSet] | None, str]:
-    """The component through a smooth point, reached from there by loops; or what is not known.
-
-    Exactly one passes through a smooth point, of the local dimension, and it is reduced: where it
-    is found, nothing else matters of what a decomposition left open.
-    """
-    found = components_through_points(problem.system, [(local.lower, local.point)], run=run)
-    if found.complete and len(found.components) == 1:
-        return list(found.components), ""
-    degrees = [c.degree for c in found.components]
-    least = f", {degrees[0]} at least" if len(degrees) == 1 else ""
-    return None, f"its degree{least}; {doubt}"
 
 
 def _count_freedoms(problem: Problem) -> dict[str, Any]:

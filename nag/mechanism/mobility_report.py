@@ -85,8 +85,8 @@ class MobilityReport:
         tangent_dimension: of the configuration space's tangent space, the first-order mobility;
             None if it is not decided.
         lower, upper: bounds of the local dimension, the true mobility.
-        components: dimension and degree of each component through the configuration; None if they
-            were not looked for or are not known.
+        components: dimension and degree of each component through the configuration, a degree of
+            None where it is not known; None if they were not looked for or are not known.
         open: why the components are not known; empty if they are.
         local: the local dimension in the model, and what it rests on; None without loops.
         curves: the curves through the configuration, where they were asked for.
@@ -96,6 +96,9 @@ class MobilityReport:
             is of a general configuration on it, and ``components`` are all that there are.
         doubt: of such parts that move, why it is not known that they do with real coordinates;
             empty where it is.
+        least_degree: what the degree of the one component through a smooth configuration is at
+            least, where it is not known.
+        rests_on: what ``components`` are known by, and why a degree is not; empty where nothing is.
     """
 
     space: str
@@ -107,7 +110,7 @@ class MobilityReport:
     tangent_dimension: int | None
     lower: int
     upper: int
-    components: tuple[tuple[int, int], ...] | None
+    components: tuple[tuple[int, int | None], ...] | None
     open: str
     local: LocalDimension | None
     curves: tuple[CurveOfMotion, ...] = ()
@@ -115,6 +118,8 @@ class MobilityReport:
     zero_links: tuple[str, ...] = ()
     general: WitnessSet | None = None
     doubt: str = ""
+    least_degree: int | None = None
+    rests_on: str = ""
 
     @property
     def local_dimension(self) -> int | None:
@@ -142,9 +147,10 @@ class MobilityReport:
             alike: what of the components must be the same: which dimensions there are, how many
                 components of each, or of each dimension and degree.
         """
-        dimensions = [
-            None if r.components is None else _kinds(r.components, alike) for r in (self, other)
-        ]
+        found = [r.components for r in (self, other)]
+        if any(degree is None for known in found for _, degree in known or ()):
+            alike = "dimensions" if alike == "dimensions" else "counts"
+        dimensions = [None if known is None else _kinds(known, alike) for known in found]
         known = self.local_dimension is not None
         same = self.local_dimension == other.local_dimension
         same &= self.tangent_dimension == other.tangent_dimension
@@ -184,7 +190,15 @@ class MobilityReport:
 
     def rows(self) -> list[tuple[str, str]]:
         """Labelled lines, one of them for each curve."""
-        counts = f"{self.gruebler_kutzbach} by Gruebler-Kutzbach ({self.space})"
+        return [
+            *self.local_rows(),
+            ("components", _components_text(self)),
+            ("mobility", f"{self.status}: {self.sentence}"),
+            *(("curve", str(curve)) for curve in self.curves),
+        ]
+
+    def local_rows(self) -> list[tuple[str, str]]:
+        """The first of these lines, which no component is needed for."""
         model_text = "no loop, no equations"
         if self.formulation:
             unknowns = count_text(self.variables, "unknown")
@@ -192,14 +206,11 @@ class MobilityReport:
                 f"{count_text(self.equations, 'equation')} in {unknowns}, {self.formulation}"
             )
         return [
-            ("counted", counts),
+            counted_row(self.gruebler_kutzbach, self.space),
             ("model", model_text),
             *(("besides", text) for text in self.zero_links),
             ("local", _local_text(self)),
             *([("besides", f"{self.free_of}, counted in all dimensions")] if self.free_of else []),
-            ("components", _components_text(self)),
-            ("mobility", f"{self.status}: {self.sentence}"),
-            *(("curve", str(curve)) for curve in self.curves),
         ]
 
     def document(self) -> dict[str, Any]:
@@ -223,13 +234,20 @@ class MobilityReport:
             "components": None
             if components is None
             else [{"dimension": d, "degree": degree} for d, degree in components],
+            "degree_at_least": self.least_degree,
+            "rests_on": self.rests_on,
             "open": self.open,
             "curves": [curve.document() for curve in self.curves],
             "local": None if self.local is None else self.local.document(),
         }
 
 
-def _kinds(components: Iterable[tuple[int, int]], alike: Alike) -> object:
+def counted_row(counted: int, space: str) -> tuple[str, str]:
+    """The labelled line of what counting predicts."""
+    return "counted", f"{counted} by Gruebler-Kutzbach ({space})"
+
+
+def _kinds(components: Iterable[tuple[int, int | None]], alike: Alike) -> object:
     if alike == "degrees":
         return Counter(components)
     dimensions = Counter(d for d, _ in components)
@@ -250,9 +268,6 @@ def _components_text(report: MobilityReport) -> str:
     if report.components is None:
         if not report.open:
             return "not looked for"
-        if report.local is not None and report.local.smooth:
-            kind = f"dimension {report.local_dimension}, reduced, as it is a smooth point"
-            return f"1 through the configuration: {kind}; not known: {report.open}"
         return f"not known: {report.open}"
     if not report.components:
         return "none through the configuration"
@@ -260,6 +275,12 @@ def _components_text(report: MobilityReport) -> str:
         return "in all " + "; ".join(
             f"{count} of dimension {d}, degree {degree}"
             for (d, degree), count in Counter(report.components).items()
+        )
+    if report.least_degree is not None:
+        ((dimension, _),) = report.components
+        return (
+            f"1 through the configuration: dimension {dimension}, reduced, degree "
+            f"{report.least_degree} at least; {report.rests_on}"
         )
     listed = "; ".join(f"dimension {d}, degree {degree}" for d, degree in report.components)
     return f"{len(report.components)} through the configuration: {listed}"

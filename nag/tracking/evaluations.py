@@ -11,12 +11,24 @@ from collections.abc import Iterator
 from contextvars import ContextVar
 from dataclasses import dataclass
 
+# What an evaluation in so many doubles to a number takes, beside one in doubles, of which eight are
+# made at once.
+WEIGHTS = {1: 1, 2: 25, 4: 150, 8: 800}
+# The same of a proof, in balls, that a path's end is a regular zero.
+PROOF = 20_000
+
 
 @dataclass
 class Evaluations:
-    """How many there were."""
+    """How many there were.
+
+    Attributes:
+        work: the same, those in more digits counted as so many in doubles as they take the time of,
+            and proofs of ends as well.
+    """
 
     number: int = 0
+    work: int = 0
 
 
 _counting: ContextVar[Evaluations | None] = ContextVar("counting", default=None)
@@ -24,17 +36,36 @@ _counting: ContextVar[Evaluations | None] = ContextVar("counting", default=None)
 
 @contextlib.contextmanager
 def count_evaluations() -> Iterator[Evaluations]:
-    """Count the evaluations of all paths that are tracked inside the block."""
+    """Count the evaluations of all paths that are tracked inside the block.
+
+    Whoever counts outside of it counts them as well.
+    """
     found = Evaluations()
     token = _counting.set(found)
     try:
         yield found
     finally:
         _counting.reset(token)
+        outer = _counting.get()
+        if outer is not None:
+            outer.number += found.number
+            outer.work += found.work
 
 
-def count(number: int) -> None:
-    """Add to the number, if someone counts."""
+def count(number: int, words: int = 1) -> None:
+    """Add to the number, if someone counts.
+
+    Args:
+        words: how many doubles the numbers were sums of.
+    """
     found = _counting.get()
     if found is not None:
         found.number += int(number)
+        found.work += int(number) * WEIGHTS[words]
+
+
+def count_proof() -> None:
+    """Add the work of a proof that an end is a regular zero, if someone counts."""
+    found = _counting.get()
+    if found is not None:
+        found.work += PROOF

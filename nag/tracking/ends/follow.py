@@ -12,6 +12,7 @@ from nag.tracking.ends.inclusion import prove_end
 from nag.tracking.ends.limits import BEYOND, LEAST_EVIDENCE, Limit, Limits, digits_of_evidence
 from nag.tracking.ends.runs import CLOSE_ORDER, LAST_STEPS, MAX_STEPS, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
+from nag.tracking.evaluations import count_proof
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
 from nag.tracking.paths import Ball, PathBranch, Paths, PathStatus, Reason
@@ -288,6 +289,7 @@ def _confirmed(states: States, path: int, terms: Terms) -> bool:
     """Whether a path's end is a regular zero: as it is known to be, or by a proof, in a box."""
     if states.regular[path] and states.steps[path] == 1:
         return True
+    count_proof()
     box = prove_end(terms, states.found[path], states.errors[path])
     if box is not None:
         states.errors[path] = np.minimum(states.errors[path], box)

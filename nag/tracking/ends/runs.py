@@ -83,7 +83,7 @@ def run(
     for place in np.flatnonzero(apart).tolist():
         own = scale_equations(system, homotopy, powers[place])
         spent += part(np.array([place]), own, powers[place])
-    evaluations.count(spent)
+    evaluations.count(spent, words)
     return limits
 
 

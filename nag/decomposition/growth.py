@@ -1,0 +1,263 @@
+"""The component through a regular point, grown from there: loops find its other points.
+
+Nothing else of the zero set is looked at. Loops are tracked in doubles as long as these find
+points, and paths that ask for more digits are dropped: others lead to the same points. A linear
+trace says that all are found (Sommese, Verschelde & Wampler 2002); else there are at least as many
+as were found. How much is done is limited by evaluations of the equations and not by a clock: the
+same seed, the same answer.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.final_checks import Examined, check_class
+from nag.decomposition.given_points import CommonSlices, GivenPoint
+from nag.decomposition.monodromy import run_loop
+from nag.decomposition.reduction import Reduction
+from nag.decomposition.splitting import split_joined_points
+from nag.decomposition.trace import Trace, digits_of_evidence
+from nag.numerics.zero_values import LEAST, ON
+from nag.tracking.evaluations import count_evaluations
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.settings import find_settings
+from nag.witness.cutting import Cut
+from nag.witness.gauss_newton import polish
+from nag.witness.points import Points
+from nag.witness.witness import PathCounts, Status, WitnessSet
+
+# Digits of loops as long as they find points, and of what is tracked from then on.
+DOUBLE, DOUBLE_DOUBLE = 16, 32
+# Slices that the first point is carried to, at most; loops, and such in turn that find nothing; and
+# from how many of those on slices lie near the origin.
+MOST_SLICES, MOST_LOOPS, MOST_QUIET, QUIET = 4, 200, 12, 4
+# Paths that are tracked before it is known what they take, and at most at once.
+FEW, MOST_AT_ONCE = 64, 1024
+# Seconds that a path takes besides its evaluations, that an evaluation takes for each variable of a
+# term of the equations, for each entry of the Jacobian and for each step of its elimination, on a
+# processor as is common; and how many paths are evaluated at once.
+PATH, FACTOR, ENTRY, STEP, LANES = 6e-5, 1.5e-10, 5e-10, 1.5e-11, 8
+
+BUDGET = "its budget was used up"
+NO_SLICE = "no path led from it to a generic slice"
+NOT_ALL = "loops found no more points, and these are not all, or no path of their trace arrived"
+
+
+@dataclass(frozen=True, eq=False)
+class Growth:
+    """What is known of the component through a point.
+
+    Attributes:
+        dimension: of the component.
+        least: its degree is this at least.
+        component: all of it; None where that is not confirmed.
+        reason: why it is not; empty where it is.
+        paths: that were tracked.
+    """
+
+    dimension: int
+    least: int
+    component: WitnessSet | None
+    reason: str
+    paths: PathCounts
+
+    @property
+    def degree(self) -> int | None:
+        """The component's degree; None where it is not known."""
+        return None if self.component is None else self.least
+
+
+@dataclass(eq=False)
+class _Allowance:
+    """What may be tracked yet.
+
+    Attributes:
+        seconds: that are left of a common processor.
+        each: that an evaluation takes there.
+        per_path: that one of the last paths took, by the digits in which paths were followed.
+    """
+
+    seconds: float
+    each: float = 0.0
+    per_path: dict[int, float] = field(default_factory=dict)
+    paths: PathCounts = field(default_factory=PathCounts)
+
+    def pay(self, digits: int, work: int, paths: PathCounts) -> None:
+        """Take off what paths took."""
+        lanes = LANES / max(paths.tracked, 1) if digits == DOUBLE else 1.0
+        cost = work * self.each * max(lanes, 1.0) + paths.tracked * PATH
+        self.seconds -= cost
+        self.paths += paths
+        if paths.tracked:
+            self.per_path[digits] = cost / paths.tracked
+
+    def most(self, digits: int) -> int:
+        """How many paths may be tracked: a few where it is not known what they take."""
+        if self.seconds <= 0:
+            return 0
+        cost = self.per_path.get(digits)
+        return FEW if cost is None else int(self.seconds / cost)
+
+
+@takes_run
+@np.errstate(over="ignore", invalid="ignore")
+def grow_component(
+    system: PolynomialSystem,
+    point: np.ndarray,
+    dimension: int,
+    *,
+    seconds: float,
+    run: Run = DEFAULT_RUN,
+) -> Growth:
+    """The component through a solution where the equations' rank is its codimension.
+
+    Args:
+        point: the solution, to doubles' accuracy.
+        dimension: of the component, 1 or more.
+        seconds: how long loops and traces may take, counted by the evaluations that a common
+            processor makes in that time; what would take longer is not begun.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+    """
+    rng = run.random(12)
+    reduction = Reduction.of(system, scaled=True)
+    allowance = _Allowance(seconds)
+    points = _first_point(reduction, point, dimension, allowance, rng, run)
+    if points is None:
+        return Growth(dimension, 1, None, NO_SLICE, allowance.paths)
+    growing = _Growing(points, reduction, allowance, rng, run)
+    reason = growing.find_all()
+    component = None if reason else growing.confirmed()
+    if not reason and component.status is Status.UNDECIDED:
+        component, reason = None, component.note
+    return Growth(dimension, len(growing.points), component, reason, allowance.paths)
+
+
+def _first_point(
+    reduction: Reduction,
+    point: np.ndarray,
+    dimension: int,
+    allowance: _Allowance,
+    rng: np.random.Generator,
+    run: Run,
+) -> Points | None:
+    """The point of a generic slice that a solution is carried to."""
+    near = reduction.frame.coordinates(np.asarray(point, dtype=complex))
+    zero = polish(reduction.equations.evaluator, near, dimension)
+    start = GivenPoint(zero.x, LEAST, [dimension], False)
+    attempts = [DOUBLE] * MOST_SLICES + [DOUBLE_DOUBLE]
+    for digits in attempts if allowance.seconds > 0 else ():
+        slices = CommonSlices.random(reduction.equations, rng)
+        slices, place, spent = slices.with_start(start, rng, _in_digits(run, digits))
+        allowance.paths += spent
+        if place is not None:
+            return slices.points[dimension]
+    return None
+
+
+def _in_digits(run: Run, digits: int) -> Run:
+    """The same with paths followed in so many digits at most."""
+    return replace(run, settings=replace(find_settings(run.settings), digits=digits))
+
+
+def _evaluation_seconds(cut: Cut) -> float:
+    """Seconds that a common processor takes for an evaluation of a square system."""
+    factors = sum(1 + sum(e > 0 for e in term) for f in cut.polynomials for term in f.terms)
+    total = 1 + cut.n + cut.aux
+    return FACTOR * factors + ENTRY * total**2 + STEP * total**3
+
+
+@dataclass(eq=False)
+class _Growing:
+    """Points of one component on a slice, and the loops that joined them.
+
+    Attributes:
+        loops: for each the pairs of points that it joins, shape ``(m, 2)``.
+        trace: of all the points; None before there is one, or where a path of it failed.
+    """
+
+    points: Points
+    reduction: Reduction
+    allowance: _Allowance
+    rng: np.random.Generator
+    run: Run
+    loops: list[np.ndarray] = field(default_factory=list)
+    trace: Trace | None = None
+
+    @cached_property
+    def evidence(self) -> int:
+        """Digits to which a trace must be linear."""
+        natural = self.reduction.natural.system(self.reduction.system)
+        return digits_of_evidence(natural.polynomials)
+
+    def find_all(self) -> str:
+        """Run loops until the trace of all points is linear; why it did not become so."""
+        self.allowance.each = _evaluation_seconds(self.points.cuts[0])
+        quiet, digits = 0, DOUBLE
+        for _ in range(MOST_LOOPS):
+            if quiet and self._has_linear_trace():
+                return ""
+            if quiet == MOST_QUIET:
+                return NOT_ALL
+            self.run.tell("points of the component", len(self.points), 0)
+            known = self.allowance.per_path.get(digits)
+            some = min(len(self.points), self.allowance.most(digits) // 2)
+            if not some or (known is not None and some < len(self.points)):
+                return BUDGET
+            found = self._run_loop(digits, some, quiet >= QUIET)
+            quiet = 0 if found else quiet + (some == len(self.points))
+            digits = DOUBLE if found and digits == DOUBLE else DOUBLE_DOUBLE
+        return NOT_ALL
+
+    def _run_loop(self, digits: int, some: int, scaled: bool) -> bool:
+        """Track a loop from some of the points, the first ones; whether it found any."""
+        run = _in_digits(self.run, digits)
+        with count_evaluations() as spent:
+            found, paths = run_loop(self.points, range(some), self.rng, run, scaled)
+        self.allowance.pay(digits, spent.work, paths)
+        if found.places is None:
+            return False
+        new = found.places < 0
+        residuals = self.reduction.equations.evaluator.residuals(found.ends.x)
+        good = ~new | (residuals.max(axis=1, initial=0.0) < ON)
+        new &= good
+        places = np.where(new, len(self.points) + np.cumsum(new) - 1, found.places)
+        for k in np.flatnonzero(new).tolist():
+            cut = self.points.cuts[self.points.which[found.origins[k]]]
+            self.points = self.points.with_point(cut, found.ends.z[k], found.ends.fine.get(k))
+        self.loops.append(np.column_stack([found.origins, places])[good])
+        return bool(new.any())
+
+    def _has_linear_trace(self) -> bool:
+        """Whether the trace of all points is linear, as far as it can be afforded."""
+        run, everything = _in_digits(self.run, DOUBLE_DOUBLE), range(len(self.points))
+        trace = self.trace or Trace.of(self.points, self.evidence, self.rng)
+        while True:
+            rest = [i for i in everything if i not in trace.ends]
+            some = self.allowance.most(DOUBLE_DOUBLE) // 2
+            if not rest:
+                break
+            if not some:
+                return False
+            with count_evaluations() as spent:
+                trace, paths = trace.carry(self.points, rest[: min(some, MOST_AT_ONCE)], run)
+            self.allowance.pay(DOUBLE_DOUBLE, spent.work, paths)
+            self.trace = trace
+            if trace is None:
+                return False
+        linear, self.trace = trace.linear(self.points, everything)
+        return bool(linear)
+
+    def confirmed(self) -> WitnessSet:
+        """The component of the first point, whose trace is linear and that of no part of it."""
+        run = _in_digits(self.run, DOUBLE_DOUBLE)
+        found = split_joined_points(self.points, self.trace, self.loops, self.rng, run)
+        self.points = found.points
+        own = next(each for each in found.classes if 0 in each.indices)
+        examined = Examined.of(self.points, [own], self.reduction, self.rng)
+        component, paths = check_class(own, examined, self.rng, run)
+        self.allowance.paths += found.counts + paths
+        return component

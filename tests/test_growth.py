@@ -1,0 +1,49 @@
+"""The component through a regular point, grown from there."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import nag
+from nag.decomposition.growth import grow_component
+from nag.tracking.evaluations import count, count_evaluations
+
+# Equations, a regular point, the dimension there, and the degree of the component through it.
+COMPONENTS = {
+    "a line beside a circle": (["(x^2 + y^2 - 1)*(x - 2*y)"], (2, 1), 1, 1),
+    "a circle beside a line": (["(x^2 + y^2 - 1)*(x - 2*y)"], (0.6, 0.8), 1, 2),
+    "a twisted cubic, overdetermined": (["x*z - y^2", "y - x^2", "z - x*y"], (2, 4, 8), 1, 3),
+    "a surface": (["x*y*z - 1", "w - x^2 - y"], (1, 1, 1, 2), 2, 5),
+    "a curve beside a plane": (["x*(x^3 + y^3 - 9*z)", "x*(x^2 - z^2)"], (1, 2, 1), 1, 3),
+}
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("name", sorted(COMPONENTS))
+def test_all_points_are_found_from_one(name: str, seed: int) -> None:
+    equations, point, dimension, degree = COMPONENTS[name]
+    system = nag.system(equations)
+    grown = grow_component(system, np.array(point), dimension, seconds=10.0, seed=seed)
+    assert (grown.degree, grown.least, grown.reason) == (degree, degree, "")
+    assert (grown.component.dimension, grown.component.degree) == (dimension, degree)
+
+
+def test_what_is_not_afforded_is_bounded_from_below() -> None:
+    system = nag.system(["x^4 + y^4 + z^4 - 18", "x*y + y*z + z*x - 5"])
+    at = np.array([1, 1, 2])
+    found = [grow_component(system, at, 1, seconds=s) for s in (0.0, 0.001, 10.0)]
+    assert [growth.least for growth in found] == sorted(growth.least for growth in found)
+    assert found[0].least == 1 and found[-1].degree == 8
+    part = found[0]
+    assert part.degree is None and part.component is None and part.reason
+
+
+def test_work_in_more_digits_counts_for_more_and_inside_counts_outside() -> None:
+    with count_evaluations() as outer:
+        with count_evaluations() as inner:
+            count(2)
+            count(3, words=2)
+        count(1)
+    assert (inner.number, outer.number) == (5, 6)
+    assert outer.work - inner.work == 1 and inner.work > 5
