@@ -369,12 +369,12 @@ ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME
 tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE; tracking.ends.branch:
 LONGEST, TINY; tracking.ends.corrector: DOUBLES, NOISY; tracking.ends.inclusion: TINY;
 tracking.ends.initial_forms: GAIN; tracking.ends.kept_points: RESIDUAL, SECOND;
-tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
+tracking.ends.records: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
 tracking.ends.linear_algebra: LEAST, LARGEST; tracking.ends.runs: ACCURACY, CONTRACTION;
-tracking.linear_algebra: PIVOT, PHASE; tracking.taylor: EPSILON; tracking.numbers.complex_numbers:
+tracking.linear_algebra: PHASE; tracking.taylor: EPSILON; tracking.numbers.complex_numbers:
 HALVED, SMALL_SQUARE, LARGER;
 tracking.predictor: PREDICT, CORRECT, TINY, FAR; tracking.projective: ROUNDING; tracking.track:
-LEAST, BASIN, FINEST; tracking.ends.end_run: TRIAL, SMALLER, SHORTEST, MOST_REJECTED, LAST_T;
+LEAST, BASIN, FINEST; tracking.ends.end_run: TRIAL, SMALLER, SHORTEST, LAST_T;
 tracking.ends.follow: FURTHER, FURTHEST; tracking.jumps: NEIGHBOURS; tracking.settings: TIGHTER,
 SHARPER; tracking.straight_run: LEAST, SHORTEST, OVERFLOW, ROUNDING, FARTHEST;
 solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING, WIDEST, TINY;

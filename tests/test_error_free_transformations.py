@@ -14,7 +14,7 @@ from nag.algebra.number import square_root
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import aligned_zeros, load, store
 from nag.machine_code.records import Reals
-from nag.tracking.ends.records import words
+from nag.tracking.kernel_arrays import words
 from nag.tracking.numbers.complex_numbers import ARITHMETICS
 from nag.tracking.numbers.error_free import two_product, two_sum
 

@@ -58,8 +58,9 @@ def test_each_row_is_over_the_power_of_its_largest_term(powers: list[int]) -> No
     homotopy = Homotopy(
         compile_rows([X**3 - 5 * Y * Z, 7 * X * Y * Z - 2, Y**2 + 3 * X]), None, None
     )
-    plain = records.equations(homotopy, 2, 3)
-    found = scale_equations(plain, homotopy, np.array(powers))
+    equations = records.equations(homotopy, 2, 3)
+    plain = equations.record
+    found = scale_equations(equations, homotopy, np.array(powers)).record
     place = 0
     for row in homotopy.rows.parts:
         shifts = [int(np.dot(e, powers)) for _, terms in row for e in sorted(terms, reverse=True)]

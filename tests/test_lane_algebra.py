@@ -8,43 +8,42 @@ from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import aligned_zeros
 from nag.machine_code.records import Reals
 from nag.tracking.linear_algebra import factorize, substitute, substitute_adjoint
+from nag.tracking.numbers.doubles import DOUBLES, ComplexDoubles
 
 
 class Equations(NamedTuple):
     n: int
-    ar: Reals
-    ai: Reals
+    matrix: Reals
     pivots: Reals
-    br: Reals
-    bi: Reals
+    right: Reals
     adjoint: bool
 
 
-def solve(e: Equations) -> None:
-    factorize(e.n, e.ar, e.ai, e.pivots)
+def solve(z: ComplexDoubles, e: Equations) -> None:
+    factorize(z, e.n, e.matrix, e.pivots)
     if e.adjoint:
-        substitute_adjoint(e.n, e.ar, e.ai, e.pivots, e.br, e.bi)
+        substitute_adjoint(z, e.n, e.matrix, e.pivots, e.right)
     else:
-        substitute(e.n, e.ar, e.ai, e.pivots, e.br, e.bi)
+        substitute(z, e.n, e.matrix, e.pivots, e.right)
 
 
-_solve = Kernel(solve, keep=False)
+_solve = Kernel(solve, DOUBLES, keep=False)
 
 
 def _in_lanes(array):
-    """Real and imaginary parts of eight arrays, the lane last."""
-    re, im = aligned_zeros(array[0].size), aligned_zeros(array[0].size)
+    """Eight complex arrays, real and imaginary parts in turn, the lane last."""
+    vectors = aligned_zeros(2 * array[0].size)
     flat = array.reshape(8, -1).T
-    re[:], im[:] = flat.real.ravel(), flat.imag.ravel()
-    return re, im
+    vectors.reshape(-1, 2, 8)[:] = np.stack([flat.real, flat.imag], axis=1)
+    return vectors
 
 
 def _solutions(matrices, right, adjoint):
     n = right.shape[1]
-    ar, ai = _in_lanes(matrices)
-    br, bi = _in_lanes(right)
-    _solve(Equations(n, ar, ai, aligned_zeros(n), br, bi, adjoint))
-    return (br + 1j * bi).reshape(n, 8).T
+    vector = _in_lanes(right)
+    _solve(Equations(n, _in_lanes(matrices), aligned_zeros(n), vector, adjoint))
+    parts = vector.reshape(n, 2, 8)
+    return (parts[:, 0] + 1j * parts[:, 1]).T
 
 
 def _random(seed, n):

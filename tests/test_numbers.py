@@ -14,7 +14,8 @@ from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import aligned_zeros, store
 from nag.machine_code.processor import processor
 from nag.machine_code.records import Reals
-from nag.tracking.ends.records import _constants, words
+from nag.tracking.ends.records import weights
+from nag.tracking.kernel_arrays import words
 from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
 
 
@@ -58,7 +59,7 @@ def computed(count: int, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     for place, values in zip(memory, (a, b), strict=True):
         place[:] = values.ravel()
     results = aligned_zeros(10 * count)
-    KERNELS[count](Operands(*memory, _constants(14, count)[-1], results))
+    KERNELS[count](Operands(*memory, weights(14, count)["inverses"], results))
     return results.reshape(5, 2 * count, 8)
 
 
@@ -116,7 +117,7 @@ def test_plain_python_makes_the_same_words(count: int) -> None:
     for place, values in zip(memory, (a, b), strict=True):
         place[:] = values.ravel()
     results = aligned_zeros(10 * count)
-    operands = Operands(*memory, _constants(14, count)[-1], results)
+    operands = Operands(*memory, weights(14, count)["inverses"], results)
     plain.run(operations, operands, constants=(ARITHMETICS[count],))
     if "fma" in processor()[2] or processor()[0].startswith(("aarch64", "arm64")):
         assert np.array_equal(results.reshape(5, 2 * count, 8), computed(count, a, b))

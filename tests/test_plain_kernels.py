@@ -65,14 +65,14 @@ def compared(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
 def test_paths_to_regular_ends_are_the_same(compared: Counter[str]) -> None:
     result = solve(system("x y", "x^2 + y^2 - 5", "x*y - 2"), start="total")
     assert len(result.solutions) == 4
-    assert {"track_batch", "newton_batch.2_words"} <= set(compared)
+    assert {"track_batch.doubles", "newton_batch.doubles.2_words"} <= set(compared)
 
 
 def test_paths_whose_corrections_are_rounding_errors_are_the_same(compared: Counter[str]) -> None:
     settings = Settings(newton_end=1e-20)
     result = solve(system("x y", "x^2 + y^2 - 5", "x*y - 2"), start="total", settings=settings)
     assert len(result.solutions) == 4
-    assert "track_batch" in compared
+    assert "track_batch.doubles" in compared
 
 
 @pytest.mark.slow
@@ -88,15 +88,19 @@ def test_paths_to_singular_ends_are_the_same(compared: Counter[str]) -> None:
 class Shaped(NamedTuple):
     point: Annotated[Reals, "2 variables"]
     matrix: Annotated[Reals, "variables variables"]
-    accepted: Annotated[Reals, "1"]
+    accepted: Annotated[Reals, "variables+2"]
+    paths: Annotated[Wholes, "1"]
 
 
 def test_scratch_is_as_large_as_its_fields_say_and_apart() -> None:
-    made = scratch(Shaped, variables=3)
-    for k, (field, count) in enumerate(zip(made, (6, 9, 1), strict=True)):
+    table = scratch(Shaped, variables=3)
+    made = table.record
+    for k, (field, count) in enumerate(zip(made, (6, 9, 5, 1), strict=True)):
         assert len(field) == LANES * count and not field.any()
-        store(field, count - 1, load(field, count - 1) + k + 1.0)
-    assert [field[-1] for field in made] == [1.0, 2.0, 3.0] and made.matrix[0] == 0.0
+        field[-1] = k + 1
+    assert [field[-1] for field in made] == [1, 2, 3, 4] and made.matrix[0] == 0.0
+    assert made.paths.dtype == np.int64
+    assert table.words.tolist() == [field.ctypes.data for field in made]
     with pytest.raises(KeyError, match="variables"):
         scratch(Shaped)
 

@@ -10,22 +10,8 @@ import pytest
 from nag.machine_code import plain
 from nag.machine_code.lanes import LANES, aligned_zeros
 from nag.machine_code.records import Reals
-from nag.tracking.kernel_arrays import SCALARS
-from nag.tracking.predictor import (
-    CORRECT,
-    GOAL,
-    GROWTH,
-    H_USED,
-    PREDICT,
-    SEEN_RADIUS,
-    SEEN_T,
-    H,
-    T,
-    estimate_radius,
-    next_step,
-    next_t,
-    predict,
-)
+from nag.tracking.numbers.doubles import DOUBLES, ComplexDoubles
+from nag.tracking.predictor import CORRECT, PREDICT, estimate_radius, next_step, next_t, predict
 
 ORDER = 4
 LANE = 3
@@ -36,10 +22,14 @@ class Point(NamedTuple):
 
     N: int
     base: Reals
-    zr: Reals
+    ahead: Reals
     mode: Reals
-    vr: Reals
-    vi: Reals
+    slots: Reals
+
+    @property
+    def point(self) -> np.ndarray:
+        """The coordinate in each lane."""
+        return self.slots[:LANES] + 1j * self.slots[LANES:]
 
 
 def series(radius: complex) -> Point:
@@ -49,35 +39,36 @@ def series(radius: complex) -> Point:
         coefficient = radius ** -float(k)
         base[LANES * 2 * k : LANES * (2 * k + 1)] = coefficient.real
         base[LANES * (2 * k + 1) : LANES * (2 * k + 2)] = coefficient.imag
-    return Point(1, base, aligned_zeros(1), aligned_zeros(1), aligned_zeros(1), aligned_zeros(1))
+    return Point(1, base, aligned_zeros(1), aligned_zeros(1), aligned_zeros(2))
 
 
-def predicts(p: Point) -> None:
-    predict(p, p, 4)
+def predicts(z: ComplexDoubles, p: Point) -> None:
+    predict(z, p, p, 4)
 
 
 @pytest.mark.parametrize("radius", [2.0 + 0.0j, -3.0 + 0.0j, 1.0 - 2.0j, 1.5j])
 def test_a_path_with_one_pole_is_predicted_exactly_half_way_to_it(radius: complex) -> None:
     point, steps = series(radius), 0.5 * abs(radius) * np.linspace(-1, 1, LANES)
-    point.zr[:] = steps
-    plain.run(predicts, point)
-    assert np.abs(point.vr + 1j * point.vi - 1 / (1 - steps / radius)).max() < 1e-14
+    point.ahead[:] = steps
+    plain.run(predicts, point, constants=(DOUBLES,))
+    assert np.abs(point.point - 1 / (1 - steps / radius)).max() < 1e-14
 
 
 def test_close_to_the_pole_the_taylor_polynomial_is_taken() -> None:
     point = series(1.0 + 0.0j)
-    point.zr[:] = 0.9
-    plain.run(predicts, point)
+    point.ahead[:] = 0.9
+    plain.run(predicts, point, constants=(DOUBLES,))
     expected = sum(0.9**k for k in range(ORDER + 1))
-    assert np.abs(point.vr - expected).max() < 1e-14 and not point.vi.any()
+    assert np.abs(point.point - expected).max() < 1e-14 and not point.point.imag.any()
 
 
 def test_lanes_that_do_not_predict_stay_where_they_are() -> None:
     point = series(2.0 + 0.0j)
     point.mode[:] = [CORRECT, PREDICT] * 4
-    point.vr[:], point.zr[:] = 7.0, 1.0
-    plain.run(predicts, point)
-    assert (point.vr[::2] == 7.0).all() and np.abs(point.vr[1::2] - 2.0).max() < 1e-14
+    point.slots[:LANES], point.ahead[:] = 7.0, 1.0
+    plain.run(predicts, point, constants=(DOUBLES,))
+    found = point.point
+    assert (found[::2] == 7.0).all() and np.abs(found[1::2] - 2.0).max() < 1e-14
 
 
 def norms(radius: float, order: int) -> np.ndarray:
@@ -91,26 +82,24 @@ def norms(radius: float, order: int) -> np.ndarray:
 class Steps(NamedTuple):
     """What the kernel keeps of the lanes."""
 
-    scalars: Reals
     norms: Reals
     radius: Reals
-    tr: Reals
-    zr: Reals
+    t: Reals
+    ahead: Reals
+    here: Reals
+    goal: Reals
+    h: Reals
+    taken_h: Reals
+    growth: Reals
+    seen_t: Reals
+    seen_radius: Reals
 
 
-def steps(radius: float = 1.0, **scalars: float) -> Steps:
-    rows = {"t": T, "goal": GOAL, "h": H, "used": H_USED, "growth": GROWTH}
-    rows |= {"seen_t": SEEN_T, "seen_radius": SEEN_RADIUS}
-    made = Steps(
-        aligned_zeros(SCALARS),
-        norms(radius, ORDER),
-        aligned_zeros(1),
-        aligned_zeros(1),
-        aligned_zeros(1),
-    )
+def steps(radius: float = 1.0, **lane: float) -> Steps:
+    made = Steps(norms(radius, ORDER), *(aligned_zeros(1) for _ in Steps._fields[1:]))
     made.radius[:] = radius
-    for name, value in scalars.items():
-        made.scalars[LANES * rows[name] + LANE] = value
+    for name, value in lane.items():
+        getattr(made, name)[LANE] = value
     return made
 
 
@@ -137,25 +126,25 @@ def test_a_step_is_as_long_as_the_next_term_allows() -> None:
     # The term of order 5 is (h / 2)^5.
     made = steps(radius=2.0)
     next_step(made, ORDER, LANE, 1e-5, 0.9)
-    assert made.scalars[LANES * H + LANE] == pytest.approx(0.2, rel=1e-12)
+    assert made.h[LANE] == pytest.approx(0.2, rel=1e-12)
 
 
 def test_a_step_stays_inside_the_radius_and_grows_by_what_was_found() -> None:
     made = steps(radius=2.0)
     next_step(made, ORDER, LANE, 1.0, 0.5)
-    assert made.scalars[LANES * H + LANE] == pytest.approx(1.0, rel=1e-12)
-    made = steps(radius=2.0, used=0.1, growth=3.0)
+    assert made.h[LANE] == pytest.approx(1.0, rel=1e-12)
+    made = steps(radius=2.0, taken_h=0.1, growth=3.0)
     next_step(made, ORDER, LANE, 1e-5, 0.9)
-    assert made.scalars[LANES * H + LANE] == pytest.approx(0.3, rel=1e-12)
+    assert made.h[LANE] == pytest.approx(0.3, rel=1e-12)
 
 
 def test_branch_points_that_are_seen_from_further_on_bound_a_step_until_they_are_passed() -> None:
-    made = steps(radius=2.0, t=0.75, seen_t=0.5, seen_radius=0.05, used=0.1, growth=4.0)
+    made = steps(radius=2.0, here=0.75, seen_t=0.5, seen_radius=0.05, taken_h=0.1, growth=4.0)
     next_step(made, ORDER, LANE, 1e-5, 0.5)
-    assert made.scalars[LANES * H + LANE] == pytest.approx(0.15, rel=1e-12)
-    made = steps(radius=2.0, t=0.5, seen_t=0.5, seen_radius=0.05, used=0.1, growth=4.0)
+    assert made.h[LANE] == pytest.approx(0.15, rel=1e-12)
+    made = steps(radius=2.0, here=0.5, seen_t=0.5, seen_radius=0.05, taken_h=0.1, growth=4.0)
     next_step(made, ORDER, LANE, 1e-5, 0.5)
-    assert made.scalars[LANES * H + LANE] == pytest.approx(0.4, rel=1e-12)
+    assert made.h[LANE] == pytest.approx(0.4, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -163,7 +152,7 @@ def test_branch_points_that_are_seen_from_further_on_bound_a_step_until_they_are
     [(0.1, 0.9), (0.5, 0.5), (0.55, 0.625), (0.74, 0.625), (0.75, 0.25), (2.0, 0.25)],
 )
 def test_a_step_ends_at_the_goal_or_well_before_it(h: float, t: float) -> None:
-    made = steps(t=1.0, goal=0.25, h=h)
+    made = steps(here=1.0, goal=0.25, h=h)
     next_t(made, LANE)
-    assert made.tr[LANE] == pytest.approx(t, rel=1e-12)
-    assert made.zr[LANE] == pytest.approx(t - 1.0, rel=1e-12)
+    assert made.t[LANE] == pytest.approx(t, rel=1e-12)
+    assert made.ahead[LANE] == pytest.approx(t - 1.0, rel=1e-12)

@@ -9,7 +9,7 @@ from evaluated import values
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy, straight_line
-from nag.tracking.kernel_arrays import scratch_table, system
+from nag.tracking.kernel_arrays import equations, scratch_table
 from nag.tracking.straight_run import Batch, track_lanes
 
 ORDER = 5
@@ -21,17 +21,32 @@ def taylor_coefficients(homotopy: Homotopy, start: np.ndarray) -> np.ndarray:
     """Coefficients of orders 0 to ORDER of the path at t = 1, shape ``(ORDER + 1, N)``."""
     N = homotopy.N
     scratch = scratch_table(homotopy, ORDER)
-    reals = [np.zeros(1) for _ in range(2)]
-    wholes = [np.zeros(1, dtype=np.int64) for _ in range(2)]
     # The first step of a path corrects its start; the second one fails, as no more are allowed.
     batch = Batch(
-        np.ascontiguousarray(start, dtype=complex),
-        *(1, 0, 1, np.zeros(N, dtype=complex), np.zeros(N, dtype=complex), *reals, *wholes),
-        *(ORDER, 2, 0.0, 1e-3, 1e-7, 1e-12, 1e-6, 0.4, 0.2, 0.1),
+        starts=np.ascontiguousarray(start, dtype=complex),
+        count=1,
+        first=0,
+        stride=1,
+        points=np.zeros(N, dtype=complex),
+        safe=np.zeros(N, dtype=complex),
+        safe_t=np.zeros(1),
+        error=np.zeros(1),
+        steps=np.zeros(1, dtype=np.int64),
+        reason=np.zeros(1, dtype=np.int64),
+        order=ORDER,
+        max_steps=2,
+        radius=0.0,
+        tolerance=1e-3,
+        newton=1e-7,
+        newton_end=1e-12,
+        floor=1e-6,
+        radius_factor=0.4,
+        safety=0.2,
+        contraction=0.1,
     )
-    track_lanes(system(homotopy), scratch, batch)
-    base = scratch.record.base.reshape(ORDER + 1, 2, N, 8)[..., 0]
-    return base[:, 0] + 1j * base[:, 1]
+    track_lanes(equations(homotopy), scratch, batch)
+    base = scratch.record.base.reshape(ORDER + 1, N, 2, 8)[..., 0]
+    return base[..., 0] + 1j * base[..., 1]
 
 
 def residual_coefficients(homotopy: Homotopy, coefficients: np.ndarray) -> np.ndarray:

@@ -10,15 +10,15 @@ translated; called from Python they do the same with arrays of eight doubles.
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
-from functools import cache
+from collections.abc import Mapping
+from functools import cache, lru_cache
 from itertools import accumulate, pairwise
 from math import prod
 from typing import Any, get_type_hints
 
 import numpy as np
 
-from nag.machine_code.records import address
+from nag.machine_code.records import Table, Wholes, address
 
 LANES = 8
 ALIGNMENT = 64
@@ -97,12 +97,6 @@ def aligned_zeros(vectors: int) -> np.ndarray:
     return raw[offset : offset + vectors * LANES]
 
 
-def separate(vectors: np.ndarray, sizes: Sequence[int]) -> list[np.ndarray]:
-    """Parts of an `aligned_zeros` array with that many vectors each, one after the other."""
-    ends = [0, *accumulate(sizes)]
-    return [vectors[LANES * a : LANES * b] for a, b in pairwise(ends)]
-
-
 @cache
 def _shapes(record: type) -> tuple[tuple[str, ...], ...]:
     """The dimensions that the fields of a record name."""
@@ -110,15 +104,31 @@ def _shapes(record: type) -> tuple[tuple[str, ...], ...]:
     return tuple(tuple(hint.__metadata__[0].split()) for hint in hints.values())
 
 
-def scratch(record: Any, **dimensions: int) -> Any:
-    """A record of scratch vectors of zeros, one field after the other in memory.
+def _length(dimension: str, dimensions: Mapping[str, int]) -> int:
+    """What a number, a name, or a sum of these as ``rows+1``, stands for."""
+    parts = dimension.split("+")
+    return sum(int(part) if part.isdigit() else dimensions[part] for part in parts)
+
+
+@lru_cache(1024)
+def _layout(record: type, dimensions: tuple[tuple[str, int], ...]) -> tuple[list[int], list[bool]]:
+    """Where each field begins, and the last one ends, in vectors; which ones are whole numbers."""
+    known = dict(dimensions)
+    sizes = [prod(_length(name, known) for name in shape) for shape in _shapes(record)]
+    return [0, *accumulate(sizes)], [hint == Wholes for hint in get_type_hints(record).values()]
+
+
+def scratch(record: Any, **dimensions: int) -> Table:
+    """The table of a record of scratch vectors of zeros, one field after the other in memory.
 
     Args:
-        record: a NamedTuple; a field ``Annotated[Reals, "2 rows"]`` has twice ``rows`` vectors.
+        record: a NamedTuple; a field ``Annotated[Reals, "2 rows+1"]`` has twice ``rows + 1``
+            vectors, of lanes; one of `Wholes` as many times eight whole numbers.
         dimensions: what the names stand for.
     """
-    sizes = [
-        prod(int(name) if name.isdigit() else dimensions[name] for name in shape)
-        for shape in _shapes(record)
-    ]
-    return record(*separate(aligned_zeros(sum(sizes)), sizes))
+    places, whole = _layout(record, tuple(dimensions.items()))
+    vectors = aligned_zeros(places[-1])
+    fields = [vectors[LANES * a : LANES * b] for a, b in pairwise(places)]
+    made = (field.view(np.int64) if w else field for field, w in zip(fields, whole, strict=True))
+    words = np.array(places[:-1]) * VECTOR + address(vectors)
+    return Table(words, address(words), record(*made))

@@ -1,8 +1,9 @@
 """Homotopy path tracking: predictor, corrector, ends in as many digits as they need.
 
 In order of reading, bottom-up: `run` and `settings`; `compiled`, `homotopy` and `projective` (what
-is tracked); `taylor` (values and series of a path) and `predictor`, `linear_algebra` and
-`newton_kernel` on `kernel_arrays`; `straight_run` (many paths at once in doubles); `track` (their
+is tracked); `kernel_arrays` (the tape that all kernels read), `numbers` (the arithmetics that they
+are compiled for), `evaluation` and `linear_algebra` in any of these; `taylor` (series of a path)
+and `predictor`, `newton_kernel`, `straight_run` (many paths at once in doubles); `track` (their
 ends judged, by `newton`) with `jumps` and `known` (what a start system says of them); `ends` (the
 endgame: the doubtful ones, followed in more digits, by `numbers`); `paths` (what is known in the
 end) and `evaluations` (what it took). `close_paths` starts where doubles would lose them;

@@ -67,7 +67,7 @@ def refine(
     Newton's method made of it; compare ``moved`` with what was expected.
     """
     from nag.tracking.kernel_arrays import at_end, scratch_table
-    from nag.tracking.newton_kernel import Refinement, low_parts, newton_lanes
+    from nag.tracking.newton_kernel import Refinement, doubled_table, newton_lanes
 
     homotopy = _at(rows, A, t)
     start = homotopy.normalized(points)
@@ -77,9 +77,17 @@ def refine(
     further = np.zeros(result.shape if twice else (1, 1), dtype=np.complex128)
     if P:
         batch = Refinement(
-            result, P, iterations, before, smallest, error, size, further, int(twice)
+            points=result,
+            count=P,
+            iterations=iterations,
+            before=before,
+            after=smallest,
+            error=error,
+            frobenius=size,
+            further=further,
+            twice=int(twice),
         )
-        newton_lanes(at_end(homotopy), scratch_table(homotopy, 1), low_parts(homotopy), batch)
+        newton_lanes(at_end(homotopy), scratch_table(homotopy, 1), doubled_table(homotopy), batch)
         evaluations.count(P * (iterations + 1 + int(twice)))
     # A matrix that is singular in double precision leaves NaN.
     before, smallest = (np.where(np.isfinite(v), v, 0.0) for v in (before, smallest))

@@ -2,31 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from fractions import Fraction
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from nag.algebra.number import Number
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import aligned_zeros, fma, load, splat, square_root, store
-from nag.machine_code.records import Complexes, Reals
-from nag.tracking.ends.records import words
+from nag.machine_code.lanes import scratch, splat, square_root, store
+from nag.machine_code.records import Complexes, Reals, Table, replaced
+from nag.tracking.evaluation import (
+    block_of_values,
+    factors_at,
+    jacobian,
+    line,
+    products,
+    weigh_block,
+)
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.kernel_arrays import System, Work
+from nag.tracking.kernel_arrays import KernelEquations, Work, values_in_words
 from nag.tracking.linear_algebra import factorize, substitute, substitute_adjoint
 from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
-from nag.tracking.taylor import factors_at, jacobian, normalize, products
+from nag.tracking.numbers.doubles import DOUBLES, ComplexDoubles
+from nag.tracking.taylor import normalize
 
 
-class Low(NamedTuple):
-    """Low parts of coefficients, and scratch for double-double slots."""
+class Doubled(NamedTuple):
+    """Slots and factors in double-double, and the coefficients of the values."""
 
-    value_re: Reals
-    value_im: Reals
-    slots: Reals
-    total: Reals
+    t: Annotated[Reals, "words"]
+    slots: Annotated[Reals, "value_slots 2 words"]
+    factor: Annotated[Reals, "parts 2 words"]
+    value: Annotated[Reals, "0"]
 
 
 class Refinement(NamedTuple):
@@ -49,115 +54,70 @@ class Refinement(NamedTuple):
     twice: int
 
 
-def low_parts(homotopy: Homotopy) -> Low:
-    """What `newton_batch` needs besides the arrays of the homotopy."""
-    rows = homotopy.rows
-    if "low" not in rows._cache:
-        parts = []
-        for row, blocks, scale in zip(
-            rows.parts, rows.in_doubles, rows.scales.tolist(), strict=True
-        ):
-            for (_, terms), block in zip(row, blocks, strict=True):
-                parts += [_low(terms[e], c, scale) for e, c in block]
-        rows._cache["low"] = np.array(parts).reshape(-1, 2).T.copy()
-    re, im = rows._cache["low"]
-    size = homotopy.N + 1 + rows.tape.value_products
-    return Low(
-        re,
-        im,
-        aligned_zeros(4 * size),
-        aligned_zeros(4 * max(homotopy.N, 1)),
-    )
+def doubled_table(homotopy: Homotopy) -> Table:
+    """What `newton_batch` needs in double-double besides the arrays of the homotopy."""
+    value_slots = homotopy.N + 1 + homotopy.rows.tape.value_products
+    made = scratch(Doubled, words=2, value_slots=value_slots, parts=len(homotopy.factors))
+    return replaced(made, value=values_in_words(homotopy.rows, 2))
 
 
-def _low(number: Number | complex, rounded: complex, scale: float) -> Sequence[float]:
-    """Real and imaginary part of what rounding took away from a coefficient over a power of two."""
-    if type(number) is Fraction:
-        a, b = rounded.real.as_integer_ratio()
-        rest = number.numerator * b - a * number.denominator
-        return (rest / (number.denominator * b) / scale if rest else 0.0, 0.0)
-    if isinstance(number, complex | float):
-        return (0.0, 0.0)
-    return words(number, 2, 1 / Fraction(scale))[1::2]
-
-
-def _residual(z, s, w, low):
+def _residual(z, zz, s, w, d):
     """Minus the values of polynomial and linear rows in double-double, rounded at the end."""
     zero = splat(0.0)
-    slots = low.slots
-    total = low.total
-    nothing = z.exact(zero, zero)
-    z.write(slots, s.N, z.exact(splat(1.0), zero))
-    for q in range(s.value_products):
-        x = z.read(slots, s.first[q])
-        y = z.read(slots, s.second[q])
-        z.write(slots, s.N + 1 + q, z.multiply(x, y))
-    for k in range(s.N):
-        z.write(total, k, nothing)
-    for b in range(s.value_blocks):
-        value = nothing
-        for q in range(s.value_start[b], s.value_start[b + 1]):
-            a = (splat(s.value_re[q]), splat(low.value_re[q]))
-            c = a, (splat(s.value_im[q]), splat(low.value_im[q]))
-            value = z.add(value, z.multiply(c, z.read(slots, s.value_slot[q])))
-        part = s.value_part[b]
-        if s.moving[part] != 0:
-            factor = z.exact(splat(s.factor_re[2 * part]), splat(s.factor_im[2 * part]))
-            value = z.multiply(factor, value)
-        k = s.value_place[b]
-        z.write(total, k, z.add(z.read(total, k), value))
+    nothing = zz.exact(zero, zero)
+    factors_at(zz, s, d)
+    products(zz, s, d, 0, s.value_products)
+    for k in range(s.rows):
+        total = nothing
+        for b in range(s.value_begin[k], s.value_begin[k + 1]):
+            value = block_of_values(zz, s, b, d.value, d.slots)
+            total = zz.add(total, weigh_block(zz, s, d, s.value_part[b], value))
+        _write_rounded(z, zz, w, k, total)
     for k in range(s.linear):
-        value = nothing
-        for j in range(s.N):
-            c = z.exact(splat(s.A0_re[k * s.N + j]), splat(s.A0_im[k * s.N + j]))
-            value = z.add(value, z.multiply(c, z.read(slots, j)))
-        z.write(total, s.rows + k, value)
-    for k in range(s.N):
-        re, im = z.rounded(z.read(total, k))
-        store(w.br, k, zero - re)
-        store(w.bi, k, zero - im)
+        _write_rounded(z, zz, w, s.rows + k, line(zz, s, s.A0, k, d.slots, 0))
+    for k in range(s.rows + s.linear, s.N):
+        z.write(w.right, k, z.exact(zero, zero))
 
 
-def _matrix(s, w):
+def _write_rounded(z, zz, w, k, total):
+    z.write(w.right, k, z.negative(zz.rounded(total)))
+
+
+def _matrix(z, s, w):
     """Jacobian at the points, factorised; the squared Frobenius norm."""
-    factors_at(s, w)
-    products(s, w, 0, s.products)
-    jacobian(s, w, 0)
+    factors_at(z, s, w)
+    products(z, s, w, 0, s.products)
+    jacobian(z, s, w)
     frobenius = splat(0.0)
     for k in range(s.N * s.N):
-        x = load(w.jr, k)
-        y = load(w.ji, k)
-        frobenius = fma(x, x, fma(y, y, frobenius))
-    factorize(s.N, w.jr, w.ji, w.pivots)
+        frobenius = z.add_square(frobenius, z.read(w.matrix, k))
+    factorize(z, s.N, w.matrix, w.pivots)
     return frobenius
 
 
-def _length(s, w):
+def _length(z, s, w):
     total = splat(0.0)
     for j in range(s.N):
-        x = load(w.br, j)
-        y = load(w.bi, j)
-        total = fma(x, x, fma(y, y, total))
+        total = z.add_square(total, z.read(w.right, j))
     return square_root(total)
 
 
-def _smallest(s, w):
+def _stretch(z, s, w, factor):
+    for j in range(s.N):
+        z.write(w.right, j, z.stretch(z.read(w.right, j), factor))
+
+
+def _smallest(z, s, w):
     """Smallest singular value of the factorised matrix, by inverse iteration."""
     for j in range(s.N):
-        store(w.br, j, splat(1.0 / (1.0 + j)))
-        store(w.bi, j, splat(0.3 - 0.1 * (j % 7)))
+        z.write(w.right, j, z.exact(splat(1.0 / (1.0 + j)), splat(0.3 - 0.1 * (j % 7))))
     size = splat(1.0)
     for _step in range(4):
-        substitute(s.N, w.jr, w.ji, w.pivots, w.br, w.bi)
-        inverse = splat(1.0) / _length(s, w)
-        for j in range(s.N):
-            store(w.br, j, load(w.br, j) * inverse)
-            store(w.bi, j, load(w.bi, j) * inverse)
-        substitute_adjoint(s.N, w.jr, w.ji, w.pivots, w.br, w.bi)
-        size = splat(1.0) / _length(s, w)
-        for j in range(s.N):
-            store(w.br, j, load(w.br, j) * size)
-            store(w.bi, j, load(w.bi, j) * size)
+        substitute(z, s.N, w.matrix, w.pivots, w.right)
+        _stretch(z, s, w, splat(1.0) / _length(z, s, w))
+        substitute_adjoint(z, s.N, w.matrix, w.pivots, w.right)
+        size = splat(1.0) / _length(z, s, w)
+        _stretch(z, s, w, size)
     return size
 
 
@@ -166,74 +126,81 @@ def _put(s, w, batch, first):
     for lane in range(8):
         path = min(first + lane, batch.count - 1)
         for j in range(s.N):
-            w.vr[8 * j + lane] = batch.points[s.N * path + j].real
-            w.vi[8 * j + lane] = batch.points[s.N * path + j].imag
-    store(w.tr, 0, splat(0.0))
+            w.slots[16 * j + lane] = batch.points[s.N * path + j].real
+            w.slots[16 * j + 8 + lane] = batch.points[s.N * path + j].imag
+    store(w.t, 0, splat(0.0))
 
 
-def _newton(z, s, w, low):
+def _newton(z, zz, s, w, d):
     """Newton's step at the lanes' points, whose matrix is factorised, into the right-hand side."""
     for j in range(s.N):
-        z.write(low.slots, j, z.exact(load(w.vr, j), load(w.vi, j)))
-    _residual(z, s, w, low)
-    substitute(s.N, w.jr, w.ji, w.pivots, w.br, w.bi)
+        re, im = z.read(w.slots, j)
+        zz.write(d.slots, j, zz.exact(re, im))
+    _residual(z, zz, s, w, d)
+    substitute(z, s.N, w.matrix, w.pivots, w.right)
 
 
-def _move(s, w):
+def _move(z, s, w):
     """Take Newton's step, and its length into the first norm."""
-    store(w.norms, 0, _length(s, w))
+    store(w.norms, 0, _length(z, s, w))
     for lane in range(8):
         # A step that long, or not a number, belongs to a singular Jacobian.
         if not w.norms[lane] < 0.5:
             w.norms[lane] = np.inf
-            for j in range(s.N):
-                w.br[8 * j + lane] = 0.0
-                w.bi[8 * j + lane] = 0.0
+            for j in range(2 * s.N):
+                w.right[8 * j + lane] = 0.0
     for j in range(s.N):
-        store(w.vr, j, load(w.vr, j) + load(w.br, j))
-        store(w.vi, j, load(w.vi, j) + load(w.bi, j))
+        z.write(w.slots, j, z.add(z.read(w.slots, j), z.read(w.right, j)))
 
 
-def newton_batch(z: ComplexNumbers, s: System, w: Work, low: Low, batch: Refinement) -> None:
-    """Refine all points of a batch in place."""
+def newton_batch(
+    z: ComplexDoubles,
+    zz: ComplexNumbers,
+    s: KernelEquations,
+    w: Work,
+    d: Doubled,
+    batch: Refinement,
+) -> None:
+    """Refine all points of a batch in place, with matrices in ``z`` and residuals in ``zz``."""
     n = s.N
     count = batch.count
     iterations = batch.iterations
     for first in range(0, count, 8):
         last = min(8, count - first)
         _put(s, w, batch, first)
-        normalize(s, w)
-        length = square_root(_matrix(s, w))
-        small = _smallest(s, w)
+        normalize(z, s, w)
+        length = square_root(_matrix(z, s, w))
+        small = _smallest(z, s, w)
         store(w.norms, 0, small)
         store(w.norms, 1, small)
         for lane in range(last):
             batch.before[first + lane] = w.norms[lane]
         for step in range(iterations):
             if step > 0:
-                normalize(s, w)
-                length = square_root(_matrix(s, w))
-            _newton(z, s, w, low)
-            _move(s, w)
+                normalize(z, s, w)
+                length = square_root(_matrix(z, s, w))
+            _newton(z, zz, s, w, d)
+            _move(z, s, w)
             for lane in range(last):
                 batch.error[first + lane] = w.norms[lane]
         if iterations > 0:
-            normalize(s, w)
-            length = square_root(_matrix(s, w))
-            store(w.norms, 1, _smallest(s, w))
+            normalize(z, s, w)
+            length = square_root(_matrix(z, s, w))
+            store(w.norms, 1, _smallest(z, s, w))
         store(w.norms, 0, length)
         if batch.twice != 0:
-            _newton(z, s, w, low)
+            _newton(z, zz, s, w, d)
             for lane in range(last):
                 for j in range(n):
-                    further = complex(w.br[8 * j + lane], w.bi[8 * j + lane])
+                    further = complex(w.right[16 * j + lane], w.right[16 * j + 8 + lane])
                     batch.further[n * (first + lane) + j] = further
         for lane in range(last):
             path = first + lane
             batch.after[path] = w.norms[8 + lane]
             batch.frobenius[path] = w.norms[lane]
             for j in range(n):
-                batch.points[n * path + j] = complex(w.vr[8 * j + lane], w.vi[8 * j + lane])
+                x = complex(w.slots[16 * j + lane], w.slots[16 * j + 8 + lane])
+                batch.points[n * path + j] = x
 
 
-newton_lanes = Kernel(newton_batch, ARITHMETICS[2])
+newton_lanes = Kernel(newton_batch, DOUBLES, ARITHMETICS[2])

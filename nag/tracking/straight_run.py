@@ -12,25 +12,16 @@ from typing import NamedTuple
 import numpy as np
 
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import any_less, fma, load, select_less, splat, store
+from nag.machine_code.lanes import any_less, load, select_less, splat, store
 from nag.machine_code.records import Complexes, Reals, Wholes
-from nag.tracking.kernel_arrays import SCALARS, System, Work
+from nag.tracking.evaluation import complete_slots, incomplete_slots, products
+from nag.tracking.kernel_arrays import KernelEquations, Work
 from nag.tracking.linear_algebra import factorize, substitute
+from nag.tracking.numbers.doubles import DOUBLES, ComplexDoubles
 from nag.tracking.predictor import (
-    ACCURACY,
     CORRECT,
-    FIRST,
-    GOAL,
-    GROWTH,
-    H_USED,
-    LAST,
     OVERLONG,
     PREDICT,
-    SEEN_RADIUS,
-    SEEN_T,
-    THETA,
-    H,
-    T,
     estimate_radius,
     next_step,
     next_t,
@@ -39,12 +30,9 @@ from nag.tracking.predictor import (
 )
 from nag.tracking.taylor import (
     complete_slope,
-    complete_slots,
-    factors_at,
-    incomplete_slots,
-    jacobian,
+    factors_or_powers_at,
+    jacobian_and_slopes,
     normalize,
-    products,
     right_side,
     rounding_errors,
     values,
@@ -57,8 +45,6 @@ EMPTY, STEPPING, STARTING, CORRECTING = -1, 0, 1, 2
 OVERSTEPPED, REJECTED, UNFINISHED, ACCEPTED = range(4)
 # Why a path ended before t = 0, see `nag.tracking.paths.Reason`.
 ARRIVED, STEP_SIZE, STEPS, START, NOT_FINITE = 0, 1, 2, 3, 5
-# Rows of the lanes' counters.
-PATH, ROUNDS, TAKEN, FAILURES, STATE, STRAIGHT = range(6)
 # A path of which a step is rejected after so many tries behind the radius is left to others: they
 # take a tenth of the time that its end then takes.
 PATIENCE = 48
@@ -76,7 +62,7 @@ FARTHEST = 1.0
 OVERFLOW = 1e100
 
 
-def _length(s, w):
+def _length(z, s, w):
     """Squared norm of the right-hand side, the largest of the groups."""
     zero = splat(0.0)
     largest = zero
@@ -84,81 +70,72 @@ def _length(s, w):
         total = zero
         for j in range(s.N):
             if s.group_of[j] == g:
-                x = load(w.br, j)
-                y = load(w.bi, j)
-                total = fma(x, x, fma(y, y, total))
+                total = z.add_square(total, z.read(w.right, j))
         largest = select_less(total, largest, largest, total)
     return largest
 
 
-def _correct(s, w, norms, k):
+def _correct(z, s, w, k):
     """Add the solution to the point; its squared norm."""
-    store(norms, k, _length(s, w))
+    store(w.norms, k, _length(z, s, w))
     for j in range(s.N):
-        store(w.vr, j, load(w.vr, j) + load(w.br, j))
-        store(w.vi, j, load(w.vi, j) + load(w.bi, j))
+        z.write(w.slots, j, z.add(z.read(w.slots, j), z.read(w.right, j)))
 
 
-def _measure(s, w, order):
+def _measure(z, s, w, order):
     """Squared norm of the Taylor coefficient in the right-hand side."""
     total = splat(0.0)
     for j in range(s.N):
-        x = load(w.br, j)
-        y = load(w.bi, j)
-        total = fma(x, x, fma(y, y, total))
+        total = z.add_square(total, z.read(w.right, j))
     store(w.norms, 1 + order, total)
 
 
-def _newton_and_jets(s, w, order):
+def _newton_and_jets(z, s, w, order):
     """One Newton step, one simplified one, and the Taylor coefficients of the path."""
     n = s.N
-    normalize(s, w)
-    factors_at(s, w)
-    products(s, w, 0, s.products)
-    values(s, w)
-    jacobian(s, w, s.moves)
-    factorize(n, w.jr, w.ji, w.pivots)
-    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
-    _correct(s, w, w.norms, 0)
-    products(s, w, 0, s.value_products)
-    values(s, w)
-    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
+    normalize(z, s, w)
+    factors_or_powers_at(z, s, w)
+    products(z, s, w, 0, s.products)
+    values(z, s, w)
+    jacobian_and_slopes(z, s, w)
+    factorize(z, n, w.matrix, w.pivots)
+    substitute(z, n, w.matrix, w.pivots, w.right)
+    _correct(z, s, w, 0)
+    products(z, s, w, 0, s.value_products)
+    values(z, s, w)
+    substitute(z, n, w.matrix, w.pivots, w.right)
     # The slots stay those of the point before this correction, which is far smaller than the
     # error of the Taylor coefficients.
-    _correct(s, w, w.norms, 1)
+    _correct(z, s, w, 1)
     for k in range(1, order + 1):
         if k > 1:
-            incomplete_slots(s, w, k)
-        right_side(s, w, k)
-        substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
-        _measure(s, w, k)
-        complete_slots(s, w, k)
-        complete_slope(s, w)
+            incomplete_slots(z, s, w, k)
+        right_side(z, s, w, k)
+        substitute(z, n, w.matrix, w.pivots, w.right)
+        _measure(z, s, w, k)
+        complete_slots(z, s, w, k)
+        complete_slope(z, s, w)
 
 
-def _accept(s, w, order):
+def _accept(z, s, w, order):
     """Make the current points and Taylor coefficients the base, in the lanes accepted."""
-    n = s.N
-    half = splat(0.5)
-    a = load(w.accepted, 0)
-    size = n + 1 + s.inner
-    for j in range(n):
-        store(w.base, j, select_less(half, a, load(w.vr, j), load(w.base, j)))
-        store(w.base, n + j, select_less(half, a, load(w.vi, j), load(w.base, n + j)))
+    for j in range(s.N):
+        _keep(z, w, j, z.read(w.slots, j))
     for k in range(1, order + 1):
-        top = 2 * n * k
-        for j in range(n):
-            q = (k - 1) * size + j
-            store(w.base, top + j, select_less(half, a, load(w.cr, q), load(w.base, top + j)))
-            q_im = top + n + j
-            store(w.base, q_im, select_less(half, a, load(w.ci, q), load(w.base, q_im)))
+        top = (k - 1) * (s.N + 1 + s.inner)
+        for j in range(s.N):
+            _keep(z, w, k * s.N + j, z.read(w.series, top + j))
+
+
+def _keep(z, w, k, x):
+    z.write(w.base, k, z.choose(splat(0.5), load(w.accepted, 0), x, z.read(w.base, k)))
 
 
 def _put(s, w, lane, points, k):
     for j in range(s.N):
         x = points[s.N * k + j]
-        w.vr[8 * j + lane] = x.real
-        w.vi[8 * j + lane] = x.imag
+        w.slots[16 * j + lane] = x.real
+        w.slots[16 * j + 8 + lane] = x.imag
 
 
 class Batch(NamedTuple):
@@ -195,44 +172,41 @@ class Batch(NamedTuple):
 
 def _fill(s, w, lane, path, b):
     """Put a path into a lane."""
-    f, c = w.scalars, w.counters
     _put(s, w, lane, b.starts, path)
-    for k in range(SCALARS):
-        f[8 * k + lane] = 0.0
-    for k in range(6):
-        c[8 * k + lane] = 0
-    f[8 * T + lane] = 1.0
-    f[8 * SEEN_T + lane] = 1.0
-    f[8 * LAST + lane] = FARTHEST
-    f[8 * GOAL + lane] = b.radius
-    c[8 * PATH + lane] = path
-    c[8 * STATE + lane] = STARTING
+    w.h[lane] = w.taken_h[lane] = w.first[lane] = w.theta[lane] = 0.0
+    w.accuracy[lane] = w.growth[lane] = w.seen_radius[lane] = 0.0
+    w.rounds[lane] = w.taken[lane] = w.straight[lane] = 0
+    w.here[lane] = 1.0
+    w.seen_t[lane] = 1.0
+    w.last[lane] = FARTHEST
+    w.goal[lane] = b.radius
+    w.path[lane] = path
+    w.state[lane] = STARTING
 
 
 def _aim(w):
     """Where each lane's points are to be corrected, and which lanes predict."""
     for lane in range(8):
-        state = w.counters[8 * STATE + lane]
+        state = w.state[lane]
         w.mode[lane] = PREDICT if state == STEPPING else CORRECT
         if state == STEPPING:
             next_t(w, lane)
         elif state == STARTING:
-            w.tr[lane] = w.scalars[8 * T + lane]
+            w.t[lane] = w.here[lane]
 
 
 def _too_long(w, lane, b):
     """Whether a step is too long for the radius of convergence at its end, which is kept if so."""
-    f = w.scalars
-    h = f[8 * H_USED + lane]
+    h = w.taken_h[lane]
     radius = w.radius[lane]
     if h <= OVERLONG * b.radius_factor * (radius + h):
         return False
-    f[8 * SEEN_T + lane] = w.tr[lane]
-    f[8 * SEEN_RADIUS + lane] = radius
+    w.seen_t[lane] = w.t[lane]
+    w.seen_radius[lane] = radius
     return True
 
 
-def _estimate_noise(s, w, b):
+def _estimate_noise(z, s, w, b):
     """What rounding errors make of the corrections of lanes in which these do not contract.
 
     It is asked for where the second is no small part of the first, or the first is none of the last
@@ -243,7 +217,7 @@ def _estimate_noise(s, w, b):
     zero = splat(0.0)
     first = load(w.norms, 0)
     second = load(w.norms, 1)
-    last = load(w.scalars, LAST)
+    last = load(w.last, 0)
     stuck = select_less(first * splat(b.contraction * b.contraction), second, one, zero)
     stuck = select_less(last * last * splat(b.contraction * b.contraction), first, one, stuck)
     stuck = select_less(splat(b.newton_end * b.newton_end), second, stuck, zero)
@@ -252,18 +226,17 @@ def _estimate_noise(s, w, b):
     wanted = 0
     if any_less(zero, stuck):
         for lane in range(8):
-            if w.noise[lane] > 0.0 and w.counters[8 * STATE + lane] != EMPTY:
+            if w.noise[lane] > 0.0 and w.state[lane] != EMPTY:
                 wanted += 1
     if wanted > 0:
-        rounding_errors(s, w)
-        substitute(s.N, w.jr, w.ji, w.pivots, w.br, w.bi)
-        store(w.noise, 0, stuck * _length(s, w))
+        rounding_errors(z, s, w)
+        substitute(z, s.N, w.matrix, w.pivots, w.right)
+        store(w.noise, 0, stuck * _length(z, s, w))
 
 
 def _judged(w, lane, b):
     """Whether the corrections of a lane let it be accepted; sizes for the next step."""
-    f, c = w.scalars, w.counters
-    state = c[8 * STATE + lane]
+    state = w.state[lane]
     first = math.sqrt(w.norms[lane])
     second = math.sqrt(w.norms[8 + lane])
     noise = max(b.newton_end, NOISY * math.sqrt(w.noise[lane]))
@@ -272,108 +245,99 @@ def _judged(w, lane, b):
     theta = second / first if first > 0.0 else 0.0
     rounding = second <= noise
     if state == STEPPING:
-        f[8 * FIRST + lane] = first
-        f[8 * THETA + lane] = 0.0 if rounding or second <= ROUNDING else theta
-        c[8 * ROUNDS + lane] = 0
+        w.first[lane] = first
+        w.theta[lane] = 0.0 if rounding or second <= ROUNDING else theta
+        w.rounds[lane] = 0
         if not (theta <= b.contraction or rounding):
             return REJECTED
     else:
-        c[8 * ROUNDS + lane] += 1
+        w.rounds[lane] += 1
         # Directions in which corrections do not contract may be hidden in the first ones by others.
-        if first > max(b.contraction * f[8 * LAST + lane], noise) or not (theta <= 0.5 or rounding):
+        if first > max(b.contraction * w.last[lane], noise) or not (theta <= 0.5 or rounding):
             return REJECTED
-    f[8 * LAST + lane] = second
+    w.last[lane] = second
     if state != STARTING and _too_long(w, lane, b):
         return OVERSTEPPED
     if state == STEPPING and first > b.tolerance:
         return REJECTED
     # The Taylor coefficients' Jacobian is that before the correction.
-    exact = w.tr[lane] == f[8 * GOAL + lane] or state == STARTING
+    exact = w.t[lane] == w.goal[lane] or state == STARTING
     newton = b.newton_end if exact else b.newton
     left = min(theta, 1.0) * second
     if left <= newton or rounding:
-        f[8 * ACCURACY + lane] = max(left if left <= newton else second, LEAST)
+        w.accuracy[lane] = max(left if left <= newton else second, LEAST)
         return ACCEPTED
-    return UNFINISHED if c[8 * ROUNDS + lane] < 5 else REJECTED
+    return UNFINISHED if w.rounds[lane] < 5 else REJECTED
 
 
 def _accepted(w, lane, b):
     """Go on from the point that was accepted."""
-    f, c = w.scalars, w.counters
     power = 1.0 / (b.order + 1)
-    f[8 * GROWTH + lane] = 0.0
-    if c[8 * STATE + lane] != STARTING:
-        first = max(f[8 * FIRST + lane], 1e-300)
-        aim = min(
-            b.safety * b.tolerance, 0.3 * b.contraction / max(f[8 * THETA + lane], 1e-300) * first
-        )
-        f[8 * GROWTH + lane] = min((aim / first) ** power, 4.0)
-    f[8 * T + lane] = w.tr[lane]
-    f[8 * LAST + lane] = FARTHEST
-    c[8 * STATE + lane] = STEPPING
-    c[8 * FAILURES + lane] = 0
+    w.growth[lane] = 0.0
+    if w.state[lane] != STARTING:
+        first = max(w.first[lane], 1e-300)
+        aim = min(b.safety * b.tolerance, 0.3 * b.contraction / max(w.theta[lane], 1e-300) * first)
+        w.growth[lane] = min((aim / first) ** power, 4.0)
+    w.here[lane] = w.t[lane]
+    w.last[lane] = FARTHEST
+    w.state[lane] = STEPPING
 
 
 def _failed(w, lane, b, verdict):
     """Try a shorter step; the reason why there is none, or 0."""
-    f, c = w.scalars, w.counters
     first = math.sqrt(w.norms[lane])
     finite = first < OVERFLOW
-    if c[8 * STATE + lane] == STARTING:
+    if w.state[lane] == STARTING:
         return START
     shrink = 0.5
-    if finite and c[8 * STATE + lane] == STEPPING and first > b.tolerance:
+    if finite and w.state[lane] == STEPPING and first > b.tolerance:
         shrink = (b.safety * b.tolerance / first) ** (1.0 / (b.order + 1))
         shrink = min(max(shrink, 0.1), 0.6)
     elif verdict == OVERSTEPPED:
         # By as much as the radius at its end asks for.
         shrink = 1.0
-    f[8 * LAST + lane] = FARTHEST
-    c[8 * FAILURES + lane] += 1
+    w.last[lane] = FARTHEST
     longest = b.radius_factor * radius_as_seen(w, lane)
-    f[8 * H + lane] = min(f[8 * H_USED + lane] * shrink, longest)
-    c[8 * STATE + lane] = STEPPING
-    if f[8 * H + lane] > SHORTEST * f[8 * T + lane]:
+    w.h[lane] = min(w.taken_h[lane] * shrink, longest)
+    w.state[lane] = STEPPING
+    if w.h[lane] > SHORTEST * w.here[lane]:
         return ARRIVED
     return STEP_SIZE if finite else NOT_FINITE
 
 
 def _close(s, w, lane, b, reason):
     """Write down where a path ended; its lane becomes free."""
-    c = w.counters
     n = s.N
-    path = c[8 * PATH + lane]
+    path = w.path[lane]
     b.reason[path] = reason
-    b.steps[path] = c[8 * TAKEN + lane]
-    if c[8 * TAKEN + lane] > 1:
+    b.steps[path] = w.taken[lane]
+    if w.taken[lane] > 1:
         for j in range(n):
-            b.points[n * path + j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
-    b.error[path] = w.scalars[8 * ACCURACY + lane] if reason == ARRIVED else np.inf
-    c[8 * STATE + lane] = EMPTY
+            b.points[n * path + j] = complex(w.base[16 * j + lane], w.base[16 * j + 8 + lane])
+    b.error[path] = w.accuracy[lane] if reason == ARRIVED else np.inf
+    w.state[lane] = EMPTY
 
 
 def _arrive(s, w, lane, b):
     """A lane reached its goal: the path has ended, or goes on from its safe point."""
-    f, c = w.scalars, w.counters
     n = s.N
-    if f[8 * T + lane] == 0.0:
+    if w.here[lane] == 0.0:
         _close(s, w, lane, b, ARRIVED)
         return
-    path = c[8 * PATH + lane]
-    b.safe_t[path] = f[8 * T + lane]
+    path = w.path[lane]
+    b.safe_t[path] = w.here[lane]
     for j in range(n):
-        b.safe[n * path + j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
-    f[8 * GOAL + lane] = 0.0
+        b.safe[n * path + j] = complex(w.base[16 * j + lane], w.base[16 * j + 8 + lane])
+    w.goal[lane] = 0.0
 
 
 def _advance(s, w, b):
     """What becomes of each lane's step."""
-    f, c = w.scalars, w.counters
     for lane in range(8):
         w.accepted[lane] = 0.0
-        if c[8 * STATE + lane] == EMPTY:
+        if w.state[lane] == EMPTY:
             continue
-        c[8 * TAKEN + lane] += 1
+        w.taken[lane] += 1
         reason = ARRIVED
         verdict = _judged(w, lane, b)
         if verdict == ACCEPTED:
@@ -381,49 +345,49 @@ def _advance(s, w, b):
             _accepted(w, lane, b)
         elif verdict <= REJECTED:
             reason = _failed(w, lane, b, verdict)
-        elif c[8 * STATE + lane] == STEPPING:
-            c[8 * STATE + lane] = CORRECTING
-        if f[8 * GOAL + lane] == 0.0 and b.radius > 0.0:
-            c[8 * STRAIGHT + lane] += 1
-            if c[8 * STRAIGHT + lane] > PATIENCE and verdict <= REJECTED:
+        elif w.state[lane] == STEPPING:
+            w.state[lane] = CORRECTING
+        if w.goal[lane] == 0.0 and b.radius > 0.0:
+            w.straight[lane] += 1
+            if w.straight[lane] > PATIENCE and verdict <= REJECTED:
                 reason = STEPS
-        if c[8 * TAKEN + lane] >= b.max_steps and f[8 * T + lane] > 0.0:
+        if w.taken[lane] >= b.max_steps and w.here[lane] > 0.0:
             reason = STEPS
         if reason != ARRIVED:
             w.accepted[lane] = 0.0
             _close(s, w, lane, b, reason)
 
 
-def track_batch(s: System, w: Work, b: Batch) -> None:
+def track_batch(z: ComplexDoubles, s: KernelEquations, w: Work, b: Batch) -> None:
     """Track the paths of a batch."""
     following = b.first
     busy = 0
     for lane in range(8):
         _put(s, w, lane, b.starts, b.first)
-        w.counters[8 * STATE + lane] = EMPTY
+        w.state[lane] = EMPTY
         if following < b.count:
             _fill(s, w, lane, following, b)
             following += b.stride
             busy += 1
     while busy > 0:
         _aim(w)
-        predict(s, w, b.order)
-        _newton_and_jets(s, w, b.order)
+        predict(z, s, w, b.order)
+        _newton_and_jets(z, s, w, b.order)
         estimate_radius(w, b.order)
-        _estimate_noise(s, w, b)
+        _estimate_noise(z, s, w, b)
         _advance(s, w, b)
-        _accept(s, w, b.order)
+        _accept(z, s, w, b.order)
         busy = 0
         for lane in range(8):
             if w.accepted[lane] > 0.5:
-                if w.scalars[8 * T + lane] == w.scalars[8 * GOAL + lane]:
+                if w.here[lane] == w.goal[lane]:
                     _arrive(s, w, lane, b)
                 next_step(w, b.order, lane, b.safety * b.tolerance, b.radius_factor)
-            if w.counters[8 * STATE + lane] == EMPTY and following < b.count:
+            if w.state[lane] == EMPTY and following < b.count:
                 _fill(s, w, lane, following, b)
                 following += b.stride
-            if w.counters[8 * STATE + lane] != EMPTY:
+            if w.state[lane] != EMPTY:
                 busy += 1
 
 
-track_lanes = Kernel(track_batch)
+track_lanes = Kernel(track_batch, DOUBLES)

@@ -231,36 +231,41 @@ def run_in_doubles(
 
     P = len(starts)
     raw = StraightRun(
-        starts.copy(),
-        starts.copy(),
-        np.ones(P),
-        np.full(P, np.inf),
-        np.zeros(P, dtype=np.int64),
-        np.zeros(P, dtype=np.int64),
+        points=starts.copy(),
+        safe=starts.copy(),
+        safe_t=np.ones(P),
+        error=np.full(P, np.inf),
+        steps=np.zeros(P, dtype=np.int64),
+        reason=np.zeros(P, dtype=np.int64),
     )
     if P == 0:
         return raw
     straight_run.track_lanes.prepare()
-    arrays = kernel_arrays.system(homotopy, weights)
+    arrays = kernel_arrays.equations(homotopy, weights=weights)
     batches = max(1, min(threads, P // PATHS_PER_THREAD))
 
     def batch(first: int) -> None:
         paths = straight_run.Batch(
-            starts,
-            P,
-            first,
-            batches,
-            *(raw.points, raw.safe, raw.safe_t, raw.error, raw.steps, raw.reason),
-            settings.order,
-            settings.max_steps,
-            settings.radius if endgame else 0.0,
-            settings.tolerance,
-            settings.newton,
-            settings.newton_end,
-            settings.floor,
-            settings.radius_factor,
-            settings.safety,
-            settings.contraction,
+            starts=starts,
+            count=P,
+            first=first,
+            stride=batches,
+            points=raw.points,
+            safe=raw.safe,
+            safe_t=raw.safe_t,
+            error=raw.error,
+            steps=raw.steps,
+            reason=raw.reason,
+            order=settings.order,
+            max_steps=settings.max_steps,
+            radius=settings.radius if endgame else 0.0,
+            tolerance=settings.tolerance,
+            newton=settings.newton,
+            newton_end=settings.newton_end,
+            floor=settings.floor,
+            radius_factor=settings.radius_factor,
+            safety=settings.safety,
+            contraction=settings.contraction,
         )
         scratch = kernel_arrays.scratch_table(homotopy, settings.order, weights is not None)
         straight_run.track_lanes(arrays, scratch, paths)

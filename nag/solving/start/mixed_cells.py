@@ -300,19 +300,19 @@ def _scratch(n: int, points: int) -> Followed:
     width = (points // 8 + n) * (n + 2)
     # Memory that is never written to costs nothing.
     return Followed(
-        MOST_CELLS,
-        DEPTH,
-        np.empty((MOST_CELLS, n, 2), dtype=np.int64),
-        np.zeros(2, dtype=np.int64),
-        np.empty((DEPTH, n, 2), dtype=np.int64),
-        np.empty(DEPTH),
-        np.empty((n, 2), dtype=np.int64),
-        np.empty((n, n)),
-        np.empty(n, dtype=np.int64),
-        np.empty((n, 2)),
-        np.zeros(n + 1, dtype=np.int64),
-        aligned_zeros(width + 1),
-        width,
+        most_cells=MOST_CELLS,
+        depth=DEPTH,
+        found=np.empty((MOST_CELLS, n, 2), dtype=np.int64),
+        numbers=np.zeros(2, dtype=np.int64),
+        stack=np.empty((DEPTH, n, 2), dtype=np.int64),
+        times=np.empty(DEPTH),
+        cell=np.empty((n, 2), dtype=np.int64),
+        matrix=np.empty((n, n)),
+        pivots=np.empty(n, dtype=np.int64),
+        right=np.empty((n, 2)),
+        blocks=np.zeros(n + 1, dtype=np.int64),
+        wide=aligned_zeros(width + 1),
+        width=width,
     )
 
 
@@ -372,7 +372,16 @@ def mixed_cells(
         slope = np.zeros(len(lift))
         slope[first[stage] + count : first[stage + 1]] = 1.0
         all_points = np.concatenate(here, dtype=float)
-        lifted = Lifted(n, len(begin), MOST_STEPS, all_points, first, lift, slope, begin)
+        lifted = Lifted(
+            n=n,
+            cells=len(begin),
+            most_steps=MOST_STEPS,
+            points=all_points,
+            first=first,
+            lift=lift,
+            slope=slope,
+            begin=begin,
+        )
         found = _follow(lifted, room)
         cells = found[(found[:, stage] < first[stage] + count).all(axis=1)] - shift
     edges = np.zeros_like(cells)

@@ -3,22 +3,11 @@
 from __future__ import annotations
 
 from nag.machine_code.lanes import load, select_less, splat, store
-from nag.tracking.ends.evaluation import factors_at, jacobian, lay_patches, products, values
-from nag.tracking.ends.lane_scalars import (
-    BASE,
-    CONTRACTION,
-    CURVATURE,
-    EVALUATED,
-    EXCESS,
-    FIRST,
-    IDLE,
-    KNOWN,
-    LAST,
-    MODE,
-    ROUGH,
-    SETTLED,
-)
-from nag.tracking.ends.linear_algebra import equilibrate, factorize, newton_correction, vanishing
+from nag.tracking.ends.linear_algebra import equilibrate, newton_correction, vanishing
+from nag.tracking.ends.log_series import lay_patches, values
+from nag.tracking.ends.records import IDLE
+from nag.tracking.evaluation import factors_at, jacobian, products
+from nag.tracking.linear_algebra import factorize
 from nag.tracking.numbers.complex_numbers import largest
 
 # Relative size of coordinates that doubles do not know, and the rounding errors that they make of
@@ -31,7 +20,7 @@ STAGNANT = 1e2
 NOISY = 1e2
 
 
-def lay_floors(z, s, r, f):
+def lay_floors(z, s, r):
     """The least sizes by which columns are scaled, and in which corrections count.
 
     Small coordinates are not known at points that come from doubles; nor are those that have never
@@ -42,8 +31,8 @@ def lay_floors(z, s, r, f):
     half = splat(0.5)
     zero = splat(0.0)
     floor = splat(FLOOR)
-    rough = load(f, ROUGH)
-    based = load(f, BASE)
+    rough = load(r.rough, 0)
+    based = load(r.based, 0)
     for j in range(s.N):
         size = z.magnitude(z.read(r.slots, j))
         begun = select_less(half, rough, floor, zero)
@@ -67,38 +56,38 @@ def linearize(z, s, r, rough, close):
 
     ``rough, close``: see `newton_correction`.
     """
-    products(z, s, r, s.products)
+    products(z, s, r, 0, s.products)
     values(z, s, r)
     jacobian(z, s, r)
     equilibrate(z, s, r)
-    factorize(z, s, r)
+    factorize(z, s.N, r.matrix, r.pivots)
     newton_correction(z, s, r, rough, close)
 
 
-def correct(z, s, r, f, b):
+def correct(z, s, r, b):
     """Newton's method in all lanes, until each has settled or failed.
 
     At last everything is evaluated once more at the corrected points, whatever number of
     corrections a lane and its neighbours took.
     """
     for lane in range(8):
-        f[8 * SETTLED + lane] = 0.0 if f[8 * MODE + lane] > IDLE else 2.0
+        r.settled[lane] = 0.0 if r.mode[lane] > IDLE else 2.0
     lay_patches(z, s, r)
     factors_at(z, s, r)
     half = splat(0.5)
     nothing = z.exact(splat(0.0), splat(0.0))
     # What vanishes along a path is as large, at points from doubles, as their rounding errors are.
-    from_doubles = load(f, ROUGH) - load(f, BASE)
+    from_doubles = load(r.rough, 0) - load(r.based, 0)
     rough = select_less(half, from_doubles, splat(DOUBLES / z.number.epsilon), splat(0.0))
     close = splat(1.0) if b.close > 0 else splat(0.0)
-    lay_floors(z, s, r, f)
+    lay_floors(z, s, r)
     weigh(z, s, r)
     for k in range(MOST_CORRECTIONS):
         linearize(z, s, r, rough, close)
         for lane in range(8):
-            if f[8 * SETTLED + lane] < 0.5:
-                f[8 * EVALUATED + lane] += 1.0
-        settled = load(f, SETTLED)
+            if r.settled[lane] < 0.5:
+                r.evaluated[lane] += 1
+        settled = load(r.settled, 0)
         for j in range(s.N):
             x = z.read(r.slots, j)
             correction = z.read(r.right, j)
@@ -106,9 +95,9 @@ def correct(z, s, r, f, b):
             z.write(r.slots, j, z.choose(settled, half, moved, x))
         busy = 0
         for lane in range(8):
-            if f[8 * SETTLED + lane] < 0.5:
-                f[8 * SETTLED + lane] = _judged(z, r, f, lane, k)
-                if f[8 * SETTLED + lane] < 0.5:
+            if r.settled[lane] < 0.5:
+                r.settled[lane] = _judged(z, r, lane, k)
+                if r.settled[lane] < 0.5:
                     busy += 1
         if busy == 0:
             break
@@ -116,38 +105,38 @@ def correct(z, s, r, f, b):
     linearize(z, s, r, rough, close)
     for lane in range(8):
         excess = r.measures[8 + lane]
-        f[8 * EVALUATED + lane] += 1.0
-        f[8 * EXCESS + lane] = max(1.0, excess)
-        f[8 * KNOWN + lane] = r.measures[16 + lane] * f[8 * EXCESS + lane]
+        r.evaluated[lane] += 1
+        r.excess[lane] = max(1.0, excess)
+        r.known[lane] = r.measures[16 + lane] * r.excess[lane]
         if not excess <= STAGNANT or not r.measures[24 + lane] < 0.5:
-            f[8 * SETTLED + lane] = 2.0
+            r.settled[lane] = 2.0
 
 
-def _judged(z, r, f, lane, k):
+def _judged(z, r, lane, k):
     """0 if a lane needs another correction, 1 if it has settled, 2 if it failed."""
     eta = r.measures[lane]
     excess = r.measures[8 + lane]
     if not eta < 0.5 or not r.measures[24 + lane] < 0.5:
-        f[8 * FIRST + lane] = 1.0 if k == 0 else f[8 * FIRST + lane]
+        r.first[lane] = 1.0 if k == 0 else r.first[lane]
         return 2.0
     noise = excess <= 1.0
     if k == 0:
-        f[8 * FIRST + lane] = eta
-        f[8 * CONTRACTION + lane] = 0.0
-        f[8 * LAST + lane] = eta
+        r.first[lane] = eta
+        r.contraction[lane] = 0.0
+        r.last[lane] = eta
         return 1.0 if noise else 0.0
-    theta = eta / f[8 * LAST + lane]
-    f[8 * LAST + lane] = eta
+    theta = eta / r.last[lane]
+    r.last[lane] = eta
     if k == 1:
         # A second correction that is half rounding errors says how large it is at most.
-        curvature = theta / f[8 * FIRST + lane]
+        curvature = theta / r.first[lane]
         if excess <= NOISY:
-            curvature = min(curvature, f[8 * CURVATURE + lane])
-        f[8 * CURVATURE + lane] = curvature
+            curvature = min(curvature, r.curvature[lane])
+        r.curvature[lane] = curvature
     if noise:
         return 1.0
     if k == 1:
-        f[8 * CONTRACTION + lane] = theta
+        r.contraction[lane] = theta
     if theta > 0.25:
         # Corrections that do not contract any more may be a few rounding errors.
         return 1.0 if excess <= STAGNANT else 2.0

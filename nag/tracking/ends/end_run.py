@@ -23,44 +23,12 @@ from nag.tracking.ends.branch import (
     tails,
 )
 from nag.tracking.ends.corrector import correct
-from nag.tracking.ends.evaluation import (
-    block_sums,
-    complete_slots,
-    incomplete_slots,
-    right_side,
-)
 from nag.tracking.ends.kept_points import keep, steepest
-from nag.tracking.ends.lane_scalars import (
-    BASE,
-    CONTRACTION,
-    CURVATURE,
-    EVALUATED,
-    EXCESS,
-    FINISH,
-    IDLE,
-    KNOWN,
-    MODE,
-    PATH,
-    REJECTED,
-    ROUGH,
-    SAVED,
-    SCALARS,
-    SEEN_RADIUS,
-    SEEN_T,
-    SETTLED,
-    STEP,
-    TAKEN,
-    TRIED,
-    WAITED,
-    WANTED,
-    WINDING,
-    H,
-    T,
-)
-from nag.tracking.ends.linear_algebra import (
-    substitute,
-)
-from nag.tracking.ends.records import KernelEquations, Room
+from nag.tracking.ends.linear_algebra import substitute
+from nag.tracking.ends.log_series import block_sums, right_side
+from nag.tracking.ends.records import FINISH, IDLE, STEP, Room
+from nag.tracking.evaluation import complete_slots, incomplete_slots
+from nag.tracking.kernel_arrays import KernelEquations
 from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
 from nag.tracking.predictor import OVERLONG
 
@@ -73,7 +41,7 @@ LOSING = 1e-3
 TRIAL, SMALLER = 1e-2, 0.1
 # Steps, in the logarithm of t, that get a path nowhere; so often in a row they were shortened; and
 # where t leaves the range of doubles.
-SHORTEST, MOST_REJECTED, LAST_T = 1e-7, 25.0, 1e-280
+SHORTEST, MOST_REJECTED, LAST_T = 1e-7, 25, 1e-280
 
 
 class EndBatch(NamedTuple):
@@ -137,29 +105,31 @@ def _set_time(z, r, lane, t, path, zero):
         r.t[8 * k + lane] = 0.0 if zero else t[z.number.words * path + k]
 
 
-def _fill(z, s, r, f, lane, path, b):
+def _fill(z, s, r, lane, path, b):
     """Put a path into a lane."""
-    for k in range(SCALARS):
-        f[8 * k + lane] = 0.0
-    f[8 * PATH + lane] = path
-    f[8 * TRIED + lane] = TRIAL
-    f[8 * CURVATURE + lane] = b.curvature[path]
+    r.based[lane] = r.saved[lane] = r.wanted[lane] = r.settled[lane] = 0.0
+    r.here[lane] = r.h[lane] = r.seen_t[lane] = r.seen_radius[lane] = 0.0
+    r.first[lane] = r.last[lane] = r.contraction[lane] = r.known[lane] = r.excess[lane] = 0.0
+    r.taken[lane] = r.evaluated[lane] = r.rejected[lane] = r.winding[lane] = r.waited[lane] = 0
+    r.path[lane] = path
+    r.tried[lane] = TRIAL
+    r.curvature[lane] = b.curvature[path]
     for j in range(s.N):
         r.met[8 * j + lane] = b.met[s.N * path + j]
     if b.tried[path] == 0:
-        f[8 * MODE + lane] = FINISH
-        f[8 * ROUGH + lane] = b.rough_ends[path]
+        r.mode[lane] = FINISH
+        r.rough[lane] = b.rough_ends[path]
         _set_time(z, r, lane, b.t, path, True)
         _put(z, s, r, lane, b.ends, path)
     else:
-        _begin(z, s, r, f, lane, b)
+        _begin(z, s, r, lane, b)
 
 
-def _begin(z, s, r, f, lane, b):
+def _begin(z, s, r, lane, b):
     """Go to the path's own point."""
-    path = int(f[8 * PATH + lane])
-    f[8 * MODE + lane] = STEP
-    f[8 * ROUGH + lane] = b.rough[path]
+    path = r.path[lane]
+    r.mode[lane] = STEP
+    r.rough[lane] = b.rough[path]
     _set_time(z, r, lane, b.t, path, False)
     _put(z, s, r, lane, b.starts, path)
 
@@ -168,29 +138,29 @@ def _expand(z, s, r, order):
     """Taylor coefficients of the path."""
     for m in range(1, order + 1):
         incomplete_slots(z, s, r, m)
-        block_sums(z, s, r, m)
+        block_sums(z, s, r, m, r.partial, 0)
         right_side(z, s, r, m)
         substitute(z, s, r, r.right)
         complete_slots(z, s, r, m)
-        block_sums(z, s, r, m)
+        block_sums(z, s, r, m, r.series, (m - 1) * (s.N + 1 + s.inner))
 
 
-def _close(z, s, r, f, lane, b, outcome, data):
+def _close(z, s, r, lane, b, outcome, data):
     """Results of a path, its point from ``data``; the lane becomes free."""
-    path = int(f[8 * PATH + lane])
+    path = r.path[lane]
     b.outcome[path] = outcome
-    b.winding[path] = int(f[8 * WINDING + lane])
-    b.steps[path] += int(f[8 * TAKEN + lane])
-    b.evaluations[path] += int(f[8 * EVALUATED + lane])
-    b.curvature[path] = f[8 * CURVATURE + lane]
+    b.winding[path] = r.winding[lane]
+    b.steps[path] += r.taken[lane]
+    b.evaluations[path] += r.evaluated[lane]
+    b.curvature[path] = r.curvature[lane]
     numbers = 2 * z.number.words * s.N
-    if outcome == REGULAR or f[8 * BASE + lane] > 0.5:
+    if outcome == REGULAR or r.based[lane] > 0.5:
         for k in range(numbers):
             b.points[numbers * path + k] = data[8 * k + lane]
         if outcome != REGULAR:
             for k in range(z.number.words):
                 b.t[z.number.words * path + k] = r.time[8 * k + lane]
-    if f[8 * SAVED + lane] > 0.5:
+    if r.saved[lane] > 0.5:
         b.rough[path] = 0
         for k in range(numbers):
             b.safe[numbers * path + k] = r.safe[8 * k + lane]
@@ -199,119 +169,119 @@ def _close(z, s, r, f, lane, b, outcome, data):
     for j in range(s.N):
         error = r.base_errors[8 * j + lane]
         if outcome == REGULAR:
-            error = r.errors[8 * j + lane] * f[8 * EXCESS + lane]
+            error = r.errors[8 * j + lane] * r.excess[lane]
         b.errors[s.N * path + j] = error
         b.met[s.N * path + j] = r.met[8 * j + lane]
     if outcome == LIMIT:
         for k in range(4 * numbers):
             b.limits[4 * numbers * path + k] = r.limits[8 * k + lane]
-    f[8 * MODE + lane] = IDLE
+    r.mode[lane] = IDLE
 
 
-def _rejected(z, s, r, f, lane, b):
+def _rejected(z, s, r, lane, b):
     """A step or a finish that failed: a shorter step, or none if there is none."""
-    if f[8 * MODE + lane] == FINISH:
-        if f[8 * BASE + lane] < 0.5:
-            if b.max_steps[int(f[8 * PATH + lane])] == 0:
-                _close(z, s, r, f, lane, b, LOST, r.base)
+    if r.mode[lane] == FINISH:
+        if r.based[lane] < 0.5:
+            if b.max_steps[r.path[lane]] == 0:
+                _close(z, s, r, lane, b, LOST, r.base)
             else:
-                _begin(z, s, r, f, lane, b)
+                _begin(z, s, r, lane, b)
             return
-        f[8 * MODE + lane] = STEP
-    elif f[8 * BASE + lane] < 0.5:
-        _close(z, s, r, f, lane, b, LOST, r.base)
+        r.mode[lane] = STEP
+    elif r.based[lane] < 0.5:
+        _close(z, s, r, lane, b, LOST, r.base)
         return
     else:
-        f[8 * H + lane] *= 0.4
-        f[8 * REJECTED + lane] += 1.0
-        if f[8 * H + lane] < SHORTEST or f[8 * REJECTED + lane] > MOST_REJECTED:
-            _close(z, s, r, f, lane, b, LOST, r.base)
+        r.h[lane] *= 0.4
+        r.rejected[lane] += 1
+        if r.h[lane] < SHORTEST or r.rejected[lane] > MOST_REJECTED:
+            _close(z, s, r, lane, b, LOST, r.base)
             return
-    f[8 * WANTED + lane] = 1.0
+    r.wanted[lane] = 1.0
 
 
-def _too_long(r, f, lane, b):
+def _too_long(r, lane, b):
     """Whether a step is too long for the series at its end, whose radius is kept if so.
 
     See `nag.tracking.predictor.radius_as_seen`; where the series holds on the whole way back to
     the beginning of the step, its last coefficients may be rounding errors.
     """
-    h = f[8 * H + lane]
+    h = r.h[lane]
     radius = r.measures[lane]
-    if f[8 * BASE + lane] < 0.5 or h <= OVERLONG * b.radius_factor * (radius + h):
+    if r.based[lane] < 0.5 or h <= OVERLONG * b.radius_factor * (radius + h):
         return False
     if r.measures[8 + lane] * h ** (1.0 * b.order) <= b.accuracy:
         return False
-    f[8 * SEEN_T + lane] = r.t[lane]
-    f[8 * SEEN_RADIUS + lane] = radius
+    r.seen_t[lane] = r.t[lane]
+    r.seen_radius[lane] = radius
     return True
 
 
-def _nearest(f, lane):
+def _nearest(r, lane):
     """Radius of convergence at a lane's base as seen from further on, in the logarithm of t."""
-    seen = f[8 * SEEN_T + lane]
-    if not 0.0 < seen < f[8 * T + lane]:
+    seen = r.seen_t[lane]
+    if not 0.0 < seen < r.here[lane]:
         return LONGEST
-    return math.log(f[8 * T + lane] / seen) + f[8 * SEEN_RADIUS + lane]
+    return math.log(r.here[lane] / seen) + r.seen_radius[lane]
 
 
-def _shorten(z, s, r, f, lane, b):
+def _shorten(z, s, r, lane, b):
     """Another step from the base of one that was too long, by what that one saw."""
-    f[8 * H + lane] = b.radius_factor * _nearest(f, lane)
-    f[8 * REJECTED + lane] += 1.0
-    f[8 * WANTED + lane] = 1.0
-    if f[8 * REJECTED + lane] > MOST_REJECTED:
-        _close(z, s, r, f, lane, b, LOST, r.base)
+    r.h[lane] = b.radius_factor * _nearest(r, lane)
+    r.rejected[lane] += 1
+    r.wanted[lane] = 1.0
+    if r.rejected[lane] > MOST_REJECTED:
+        _close(z, s, r, lane, b, LOST, r.base)
 
 
-def _predict(z, s, r, f, order):
+def _predict(z, s, r, order):
     """Where the lanes that want it are to be corrected next."""
     one = splat(1.0)
-    finishing = load(f, MODE) - one
-    predict(z, s, r, order, load(f, WANTED), finishing, load(f, H))
-    store(f, WANTED, splat(0.0))
+    finishing = load(r.mode, 0) - one
+    predict(z, s, r, order, load(r.wanted, 0), finishing, load(r.h, 0))
+    store(r.wanted, 0, splat(0.0))
 
 
-def _advance(z, s, r, f, lane, b, best, winding):
+def _advance(z, s, r, lane, b, best, winding):
     """What follows an accepted step: a limit, a trial at t = 0, or another step."""
-    path = int(f[8 * PATH + lane])
-    rejected = f[8 * REJECTED + lane]
-    f[8 * T + lane] = r.t[lane]
-    f[8 * BASE + lane] = 1.0
-    f[8 * REJECTED + lane] = 0.0
-    curvature = max(f[8 * CURVATURE + lane], 1.0)
-    if f[8 * KNOWN + lane] * curvature > LOSING:
-        _close(z, s, r, f, lane, b, LOST, r.base)
+    path = r.path[lane]
+    rejected = r.rejected[lane]
+    r.here[lane] = r.t[lane]
+    r.based[lane] = 1.0
+    r.rejected[lane] = 0
+    curvature = max(r.curvature[lane], 1.0)
+    if r.known[lane] * curvature > LOSING:
+        _close(z, s, r, lane, b, LOST, r.base)
         return
     converged_here = best <= b.tail
     converged = converged_here and r.t[lane] <= b.latest[path]
-    f[8 * WAITED + lane] = f[8 * WAITED + lane] + 1.0 if converged else 0.0
-    if f[8 * WINDING + lane] != winding:
-        f[8 * WAITED + lane] = min(f[8 * WAITED + lane], 1.0)
-    f[8 * WINDING + lane] = winding
-    if f[8 * TAKEN + lane] >= b.max_steps[path] or f[8 * T + lane] < LAST_T:
-        _close(z, s, r, f, lane, b, TOO_LONG, r.base)
+    r.waited[lane] = r.waited[lane] + 1 if converged else 0
+    if r.winding[lane] != winding:
+        r.waited[lane] = min(r.waited[lane], 1)
+    r.winding[lane] = winding
+    if r.taken[lane] >= b.max_steps[path] or r.here[lane] < LAST_T:
+        _close(z, s, r, lane, b, TOO_LONG, r.base)
         return
-    steep = max(curvature, steepest(z, f, lane)) if b.close > 0 else curvature
+    steep = max(curvature, steepest(z, r, lane)) if b.close > 0 else curvature
     goal = min(b.accuracy, b.contraction / steep)
-    h = min(longest_step(s, r, b.order, lane, goal), b.radius_factor * _nearest(f, lane))
+    h = min(longest_step(s, r, b.order, lane, goal), b.radius_factor * _nearest(r, lane))
     if converged_here:
         # Further in, rounding errors grow: no further than a limit is wanted.
-        h = min(h, max(2.0, math.log(f[8 * T + lane] / b.latest[path])))
-    f[8 * H + lane] = min(h, f[8 * H + lane]) if rejected > 0.5 else h
+        h = min(h, max(2.0, math.log(r.here[lane] / b.latest[path])))
+    r.h[lane] = min(h, r.h[lane]) if rejected > 0 else h
     # Tails that are rounding errors, as of paths that stay where they are, say nothing new.
     end = max(tail_at_end(s, r, b.order, lane), z.number.epsilon)
-    near = SMALLER * f[8 * TRIED + lane]
+    near = SMALLER * r.tried[lane]
     if b.close > 0:
         near = min(near, b.contraction / steep)
     if end <= near and b.straight[path] != 0:
-        f[8 * TRIED + lane] = end
-        f[8 * MODE + lane] = FINISH
-        f[8 * WANTED + lane] = 1.0
-    elif f[8 * WAITED + lane] >= 2.0:
-        _close(z, s, r, f, lane, b, LIMIT, r.base)
+        r.tried[lane] = end
+        r.mode[lane] = FINISH
+        r.wanted[lane] = 1.0
+    elif r.waited[lane] >= 2:
+        _close(z, s, r, lane, b, LIMIT, r.base)
     else:
-        f[8 * WANTED + lane] = 1.0
+        r.wanted[lane] = 1.0
 
 
 def _best_winding(s, r, b):
@@ -333,36 +303,35 @@ def _best_winding(s, r, b):
 
 def follow_batch(z: ComplexNumbers, s: KernelEquations, r: Room, b: EndBatch) -> None:
     """Follow all paths of a batch."""
-    f = r.scalars
     following = 0
     busy = 0
     for lane in range(8):
-        f[8 * MODE + lane] = IDLE
+        r.mode[lane] = IDLE
         path = min(lane, b.count - 1)
-        _fill(z, s, r, f, lane, path, b)
+        _fill(z, s, r, lane, path, b)
         if lane < b.count:
             busy += 1
             following += 1
         else:
-            f[8 * MODE + lane] = IDLE
+            r.mode[lane] = IDLE
     while busy > 0:
-        correct(z, s, r, f, b)
+        correct(z, s, r, b)
         stepping = 0
         for lane in range(8):
             r.accepted[lane] = 0.0
-            mode = f[8 * MODE + lane]
+            mode = r.mode[lane]
             if mode == IDLE:
                 continue
-            f[8 * TAKEN + lane] += 1.0
-            contracted = f[8 * CONTRACTION + lane] <= b.contraction
-            if f[8 * SETTLED + lane] > 1.5 or not contracted:
-                _rejected(z, s, r, f, lane, b)
+            r.taken[lane] += 1
+            contracted = r.contraction[lane] <= b.contraction
+            if r.settled[lane] > 1.5 or not contracted:
+                _rejected(z, s, r, lane, b)
             elif mode == FINISH:
-                curvature = max(f[8 * CURVATURE + lane], 1.0)
-                if f[8 * KNOWN + lane] * curvature <= LOSING:
-                    _close(z, s, r, f, lane, b, REGULAR, r.slots)
+                curvature = max(r.curvature[lane], 1.0)
+                if r.known[lane] * curvature <= LOSING:
+                    _close(z, s, r, lane, b, REGULAR, r.slots)
                 else:
-                    _rejected(z, s, r, f, lane, b)
+                    _rejected(z, s, r, lane, b)
             else:
                 r.accepted[lane] = 1.0
                 stepping += 1
@@ -371,26 +340,26 @@ def follow_batch(z: ComplexNumbers, s: KernelEquations, r: Room, b: EndBatch) ->
             expand_logarithms(z, s, r, b.order)
             estimate_radius(z, s, r, b.order)
             for lane in range(8):
-                f[8 * EVALUATED + lane] += r.accepted[lane] * b.order
-                if r.accepted[lane] > 0.5 and _too_long(r, f, lane, b):
+                r.evaluated[lane] += b.order if r.accepted[lane] > 0.5 else 0
+                if r.accepted[lane] > 0.5 and _too_long(r, lane, b):
                     r.accepted[lane] = 0.0
-                    _shorten(z, s, r, f, lane, b)
-            keep(z, s, r, f, b.order)
+                    _shorten(z, s, r, lane, b)
+            keep(z, s, r, b.order)
             _best_winding(s, r, b)
             if any_less(load(r.measures, 0), splat(2.0 * b.tail)):
                 extrapolate(z, s, r, b.order, load(r.measures, 1))
             for lane in range(8):
                 if r.accepted[lane] > 0.5:
-                    best, winding = r.measures[lane], r.measures[8 + lane]
-                    _advance(z, s, r, f, lane, b, best, winding)
-        _predict(z, s, r, f, b.order)
+                    best, winding = r.measures[lane], int(r.measures[8 + lane])
+                    _advance(z, s, r, lane, b, best, winding)
+        _predict(z, s, r, b.order)
         for lane in range(8):
-            if f[8 * MODE + lane] == IDLE and following < b.count:
-                _fill(z, s, r, f, lane, following, b)
+            if r.mode[lane] == IDLE and following < b.count:
+                _fill(z, s, r, lane, following, b)
                 following += 1
         busy = 0
         for lane in range(8):
-            if f[8 * MODE + lane] > IDLE:
+            if r.mode[lane] > IDLE:
                 busy += 1
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from nag.machine_code.lanes import load, select_less, splat, store
 from nag.tracking.ends.branch import keep_series
-from nag.tracking.ends.lane_scalars import CURVATURE, EXCESS, KNOWN, SAVED
 from nag.tracking.ends.linear_algebra import RESOLVED
 from nag.tracking.numbers.complex_numbers import largest
 
@@ -15,7 +14,7 @@ SAFE = 1e-6
 RESIDUAL, SECOND = 8.0, 10.0
 
 
-def keep(z, s, r, f, order):
+def keep(z, s, r, order):
     """Make the accepted points the bases of further steps."""
     half = splat(0.5)
     accepted = load(r.accepted, 0)
@@ -27,20 +26,20 @@ def keep(z, s, r, f, order):
         weight, known = load(r.weights, j), load(r.base_weights, j)
         weight = largest(weight, size)
         store(r.base_weights, j, select_less(half, accepted, weight, known))
-        error, known = load(r.errors, j) * load(f, EXCESS), load(r.base_errors, j)
+        error, known = load(r.errors, j) * load(r.excess, 0), load(r.base_errors, j)
         store(r.base_errors, j, select_less(half, accepted, error, known))
     time = z.number.read(r.time, 0)
     z.number.write(r.time, 0, z.number.choose(half, accepted, z.number.read(r.t, 0), time))
-    _keep_safe(z, s, r, f)
+    _keep_safe(z, s, r)
     keep_series(z, s, r, order)
 
 
-def steepest(z, f, lane):
+def steepest(z, r, lane):
     """What Newton's constant may be, in a direction that corrections have not had."""
-    return SECOND * f[8 * KNOWN + lane] / (RESIDUAL * z.number.epsilon)
+    return SECOND * r.known[lane] / (RESIDUAL * z.number.epsilon)
 
 
-def _keep_safe(z, s, r, f):
+def _keep_safe(z, s, r):
     """Keep the bases that are known so well that the next arithmetic may start from them.
 
     Newton's constant is at most as large as the inverse Jacobian makes it, of which the error of
@@ -57,12 +56,12 @@ def _keep_safe(z, s, r, f):
         store(r.met, j, select_less(half, accepted, largest(met, known), met))
     store(r.measures, 1, lost)
     for lane in range(8):
-        curvature = max(f[8 * CURVATURE + lane], steepest(z, f, lane), 1.0)
+        curvature = max(r.curvature[lane], steepest(z, r, lane), 1.0)
         r.measures[lane] = 0.0
-        well = f[8 * KNOWN + lane] * curvature <= SAFE and r.measures[8 + lane] < 0.5
+        well = r.known[lane] * curvature <= SAFE and r.measures[8 + lane] < 0.5
         if r.accepted[lane] > 0.5 and well:
             r.measures[lane] = 1.0
-            f[8 * SAVED + lane] = 1.0
+            r.saved[lane] = 1.0
     safe = load(r.measures, 0)
     for j in range(s.N):
         z.write(r.safe, j, z.choose(half, safe, z.read(r.base, j), z.read(r.safe, j)))

@@ -1,11 +1,11 @@
-"""Complex LU decomposition with equilibrated rows and columns, in the arithmetic of the kernel."""
+"""Newton's correction with equilibrated rows and columns, and what rounding makes of it."""
 
 from __future__ import annotations
 
 import math
 
-from nag.machine_code.lanes import any_less, fma, load, select_less, splat, square_root, store
-from nag.tracking.linear_algebra import PHASE
+from nag.machine_code.lanes import fma, load, select_less, splat, square_root, store
+from nag.tracking.linear_algebra import PHASE, order_rows
 from nag.tracking.numbers.complex_numbers import largest
 from nag.tracking.numbers.error_free import power_near_inverse
 
@@ -50,73 +50,27 @@ def equilibrate(z, s, r):
             z.write(r.matrix, i * n + j, z.scale(entry, load(r.columns, j) * power))
 
 
-def _exchange(z, s, r, k):
-    """Bring the largest entry of column ``k`` to the diagonal, in each lane its own."""
-    n = s.N
-    best = splat(-1.0)
-    chosen = splat(float(k))
-    for i in range(k, n):
-        size = z.magnitude(z.read(r.matrix, i * n + k))
-        chosen = select_less(best, size, splat(float(i)), chosen)
-        best = select_less(best, size, size, best)
-    store(r.pivots, k, chosen)
-    quarter = splat(0.25)
-    for i in range(k + 1, n):
-        difference = chosen - splat(float(i))
-        distance = difference * difference
-        if any_less(distance, quarter):
-            for j in range(n):
-                upper = z.read(r.matrix, k * n + j)
-                lower = z.read(r.matrix, i * n + j)
-                z.write(r.matrix, k * n + j, z.choose(distance, quarter, lower, upper))
-                z.write(r.matrix, i * n + j, z.choose(distance, quarter, upper, lower))
-
-
-def factorize(z, s, r):
-    """Overwrite the equilibrated matrix by its factors; the diagonal holds the inverse pivots."""
-    n = s.N
-    for k in range(n):
-        _exchange(z, s, r, k)
-        pivot = z.inverse(z.read(r.matrix, k * n + k))
-        z.write(r.matrix, k * n + k, pivot)
-        for i in range(k + 1, n):
-            factor = z.negative(z.multiply(z.read(r.matrix, i * n + k), pivot))
-            z.write(r.matrix, i * n + k, factor)
-            for j in range(k + 1, n):
-                entry = z.read(r.matrix, i * n + j)
-                product = z.multiply(factor, z.read(r.matrix, k * n + j))
-                z.write(r.matrix, i * n + j, z.add(entry, product))
-
-
 def substitute(z, s, r, data):
     """Overwrite a right-hand side by the solution."""
     n = s.N
     for i in range(n):
         z.write(data, i, z.scale(z.read(data, i), load(r.scales, i)))
-    half = splat(0.5)
-    for k in range(n - 1):
-        chosen = load(r.pivots, k)
-        for i in range(k + 1, n):
-            difference = chosen - splat(float(i))
-            distance = difference * difference
-            if any_less(distance, half):
-                upper = z.read(data, k)
-                lower = z.read(data, i)
-                z.write(data, k, z.choose(distance, half, lower, upper))
-                z.write(data, i, z.choose(distance, half, upper, lower))
+    order_rows(z, n, r.pivots, data)
     for i in range(1, n):
-        total = z.read(data, i)
-        for j in range(i):
-            total = z.gather(total, z.read(r.matrix, i * n + j), z.read(data, j))
-        z.write(data, i, z.gathered(total))
+        z.write(data, i, _remainder(z, n, r.matrix, data, i, 0, i))
     for i in range(n - 1, -1, -1):
-        total = z.negative(z.read(data, i))
-        for j in range(i + 1, n):
-            total = z.gather(total, z.read(r.matrix, i * n + j), z.read(data, j))
-        total = z.negative(z.gathered(total))
+        total = _remainder(z, n, r.matrix, data, i, i + 1, n)
         z.write(data, i, z.multiply(total, z.read(r.matrix, i * n + i)))
     for j in range(n):
         z.write(data, j, z.scale(z.read(data, j), load(r.columns, j)))
+
+
+def _remainder(z, n, matrix, data, i, begin, end):
+    """Entry ``i`` of a vector less entries ``begin .. end - 1`` of row ``i`` times those of it."""
+    total = z.negative(z.read(data, i))
+    for j in range(begin, end):
+        total = z.gather(total, z.read(matrix, i * n + j), z.read(data, j))
+    return z.negative(z.gathered(total))
 
 
 def vanishing(z, x, correction):

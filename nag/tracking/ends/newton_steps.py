@@ -13,9 +13,11 @@ from nag.machine_code.records import Reals
 from nag.numerics.digits import bits_of, in_bits, number_of_words
 from nag.tracking.ends import records
 from nag.tracking.ends.corrector import linearize, weigh
-from nag.tracking.ends.evaluation import factors_at, lay_patches
-from nag.tracking.ends.records import KernelEquations, Room
+from nag.tracking.ends.log_series import lay_patches
+from nag.tracking.ends.records import Room
+from nag.tracking.evaluation import factors_at
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.kernel_arrays import KernelEquations
 from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
 
 # Digits in which quotients of coordinates lose nothing.
@@ -71,7 +73,7 @@ def newton_steps(homotopy: Homotopy, points: np.ndarray, words: int, steps: int)
     result = np.zeros((*points.shape, 2, words))
     result[..., 0, 0], result[..., 1, 0] = points.real, points.imag
     if len(points):
-        batch = Steps(len(points), steps, result.reshape(-1))
+        batch = Steps(count=len(points), steps=steps, points=result.reshape(-1))
         system = records.equations(homotopy, words, 1)
         KERNELS[words](system, records.room(homotopy, words, 1), batch)
     return result

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nag.machine_code.records import Table, replaced
 from nag.tracking import evaluations
 from nag.tracking.ends import records
-from nag.tracking.ends.records import KernelEquations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.settings import Settings
 
@@ -63,9 +63,7 @@ def run(
     limits = np.zeros((len(chosen), homotopy.N, 4, 2, words))
     powers = powers_of_two(homotopy, states.where[chosen], states.met[chosen] > 0)
 
-    def part(
-        places: np.ndarray, own: KernelEquations = system, shift: np.ndarray | None = None
-    ) -> int:
+    def part(places: np.ndarray, own: Table = system, shift: np.ndarray | None = None) -> int:
         batch = _batch(homotopy, states, chosen[places], words, settings, shift)
         compiled(own, records.room(homotopy, words, order), batch)
         _keep(states, chosen[places], batch, shift)
@@ -107,36 +105,35 @@ def _batch(
     if words == max(ORDER):
         most = np.maximum(1, most - states.steps[own])
     ends, where, safe = (_over(x[own], shift) for x in (states.ends, states.where, states.safe))
-    outcome, winding, steps, spent = (np.zeros(count, dtype=np.int64) for _ in range(4))
     return EndBatch(
-        count,
-        states.orders[words],
-        ends.ravel(),
-        states.tried[own],
-        states.straight[own],
-        states.rough[own],
-        (states.steps[own] == 0).astype(np.int64),
-        where.ravel(),
-        states.t[own].ravel(),
-        states.latest[own],
-        outcome,
-        winding,
-        steps,
-        spent,
-        where.flatten(),
-        safe.ravel(),
-        states.safe_t[own].ravel(),
-        np.zeros(count * N * 4 * 2 * words),
-        np.zeros(count * N),
-        states.met[own].ravel(),
-        states.curvature[own],
-        np.where([path in states.limits for path in own.tolist()], 0, most),
-        MAX_WINDING,
-        int(states.close),
-        ACCURACY * settings.tolerance,
-        CONTRACTION * settings.contraction,
-        TAIL,
-        settings.radius_factor,
+        count=count,
+        order=states.orders[words],
+        ends=ends.ravel(),
+        tried=states.tried[own],
+        straight=states.straight[own],
+        rough=states.rough[own],
+        rough_ends=(states.steps[own] == 0).astype(np.int64),
+        starts=where.ravel(),
+        t=states.t[own].ravel(),
+        latest=states.latest[own],
+        outcome=np.zeros(count, dtype=np.int64),
+        winding=np.zeros(count, dtype=np.int64),
+        steps=np.zeros(count, dtype=np.int64),
+        evaluations=np.zeros(count, dtype=np.int64),
+        points=where.flatten(),
+        safe=safe.ravel(),
+        safe_t=states.safe_t[own].ravel(),
+        limits=np.zeros(count * N * 4 * 2 * words),
+        errors=np.zeros(count * N),
+        met=states.met[own].ravel(),
+        curvature=states.curvature[own],
+        max_steps=np.where([path in states.limits for path in own.tolist()], 0, most),
+        max_winding=MAX_WINDING,
+        close=int(states.close),
+        accuracy=ACCURACY * settings.tolerance,
+        contraction=CONTRACTION * settings.contraction,
+        tail=TAIL,
+        radius_factor=settings.radius_factor,
     )
 
 
@@ -205,9 +202,7 @@ def _exponents(homotopy: Homotopy) -> tuple[np.ndarray, np.ndarray]:
     return np.array([e for row in rows for e in row], dtype=np.float64), np.cumsum([0, *sizes[:-1]])
 
 
-def scale_equations(
-    equations: KernelEquations, homotopy: Homotopy, powers: np.ndarray
-) -> KernelEquations:
+def scale_equations(equations: Table, homotopy: Homotopy, powers: np.ndarray) -> Table:
     """The equations in coordinates over powers of two, each row over the power of its largest term.
 
     Args:
@@ -228,12 +223,14 @@ def scale_equations(
                         derivatives.setdefault(j, []).append(shifts[e] - most)
             blocks += [(r * homotopy.N + j, part, derivatives[j]) for j in sorted(derivatives)]
     blocks.sort(key=lambda block: block[:2])
-    A0, A1 = (A.reshape(-1, homotopy.N, 2) for A in (equations.A0, equations.A1))
+    known = equations.record
+    A0, A1 = (A.reshape(-1, homotopy.N, 2) for A in (known.A0, known.A1))
     largest = np.where((A0 != 0).any(axis=2) | (A1 != 0).any(axis=2), powers, np.iinfo(int).min)
     lines = (powers - largest.max(axis=1, initial=np.iinfo(int).min)[:, None])[:, :, None]
-    return equations._replace(
-        value=_shifted(equations.value, values),
-        jacobian=_shifted(equations.jacobian, [k for _, _, own in blocks for k in own]),
+    return replaced(
+        equations,
+        value=_shifted(known.value, values),
+        jacobian=_shifted(known.jacobian, [k for _, _, own in blocks for k in own]),
         A0=np.ldexp(A0, np.minimum(lines, 0)).ravel(),
         A1=np.ldexp(A1, np.minimum(lines, 0)).ravel(),
     )

@@ -37,9 +37,11 @@ class ComplexNumbers:
 
     Attributes:
         number: what real numbers are, and how they are added, multiplied, read and written.
+        pivot: part of the largest entry of a column below which a pivot is exchanged.
     """
 
     number: Any
+    pivot: float = 1.0
 
     def __str__(self) -> str:
         return f"{self.number.words}_words"
@@ -87,6 +89,36 @@ class ComplexNumbers:
         )
         im = self.number.add(self.number.multiply(ar, bi), self.number.multiply(ai, br))
         return re, im
+
+    def weigh(self, a, factor):
+        """``a`` times a factor."""
+        return self.multiply(factor, a)
+
+    def add_product(self, s, a, b):
+        """``s + a b``."""
+        return self.add(s, self.multiply(a, b))
+
+    def add_multiple(self, s, a, x):
+        """``s + a x`` with a real number."""
+        return self.add(s, self.stretch(a, x))
+
+    def is_real(self, data, k):
+        """Whether number ``k``, the same in all lanes, of an array is real."""
+        return data[self.number.words * (2 * k + 1)] == 0.0
+
+    def term(self, data, k, a):
+        """Number ``k``, the same in all lanes, of an array times ``a``."""
+        if self.is_real(data, k):
+            return self.stretch(a, self.number.same(data, 2 * k))
+        return self.multiply(self.same(data, k), a)
+
+    def add_term(self, s, data, k, a):
+        """``s + c a`` with number ``k``, the same in all lanes, of an array."""
+        return self.add(s, self.term(data, k, a))
+
+    def begin(self, a, b):
+        """``a b``, to which products are gathered."""
+        return self.gather(self.exact(splat(0.0), splat(0.0)), a, b)
 
     def gather(self, s, a, b):
         """``s + a b`` where words of ``s`` and of the result may overlap, in half the work."""
@@ -140,8 +172,12 @@ class ComplexNumbers:
         re, im = self.rounded(a)
         return length(re, im)
 
+    def size(self, a):
+        """What grows with the absolute value, by which pivots are compared."""
+        return self.magnitude(a)
+
     def stretch(self, a, x):
-        """``a`` times a real self.number."""
+        """``a`` times a real number."""
         re, im = a
         return self.number.multiply(re, x), self.number.multiply(im, x)
 
