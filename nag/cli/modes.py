@@ -33,11 +33,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """The operation modes of a parallel robot."""
     from nag.errors import MechanismError
-    from nag.text.json_text import pairs
     from nag.interpolation.vanishing import InterpolationError
     from nag.mechanism import PLATFORM_ALONE
     from nag.mechanism.operation_modes import modes
     from nag.report.agreement import agreement_text, compare
+    from nag.text.json_text import pairs
     from nag.witness.shown import paths_text
 
     case = read_case_file(options.case, options.set)
