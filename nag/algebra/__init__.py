@@ -1,11 +1,12 @@
-"""Exact polynomials over the rationals, and systems of them.
+"""Exact polynomials over the rationals and their square roots, and systems of them.
 
-Read in this order, bottom-up: `number`, `polynomial`, `system` (the data), with `flint_numbers`
-(FLINT's rationals); `tokens`, `bounded`, `expression` and `from_python` (with `from_sympy` and
-`given`: text and Python's numbers in); `evaluation` (in doubles); `exact_ranks`, `elimination`,
-`symmetry`, `combinations` and `turns` (what equations show at once); `factoring`, `branches` (on
-`branch_search`, `branch_equations` and `consequences`), `algebraic_zeros` (with `bivariate`),
-`zero_count` and `generic_multiplicity` (what exact algebra decides before any path is tracked);
-`groebner`, `smoothness` and `multipliers` (ideals); `rational_function` and `interpolation`;
-`family`, `rational_map` and `symmetric_family` (systems with parameters).
+Read in this order, bottom-up: `surd` (sums of square roots), `number`, `polynomial`, `system` (the
+data), with `flint_numbers` (FLINT's rationals); `tokens`, `bounded`, `expression` and `from_python`
+(with `from_sympy` and `given`: text and Python's numbers in); `evaluation` (in doubles);
+`exact_ranks`, `elimination`, `symmetry`, `combinations` and `turns` (what equations show at once);
+`factoring` (on `conjugate_factors`), `branches` (on `branch_search`, `branch_equations` and
+`consequences`), `algebraic_zeros` (with `bivariate`), `zero_count` and `generic_multiplicity` (what
+exact algebra decides before any path is tracked); `groebner`, `smoothness` and `multipliers`
+(ideals); `rational_function` and `interpolation`; `family`, `rational_map` and `symmetric_family`
+(systems with parameters).
 """

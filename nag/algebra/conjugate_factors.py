@@ -62,7 +62,7 @@ class RootField:
         def image(c: Exact) -> Exact:
             if not isinstance(c, Surd):
                 return c
-            return Surd({r: q if signs[r] > 0 else -q for r, q in c.terms.items()})
+            return normal_sum({r: q if signs[r] > 0 else -q for r, q in c.terms.items()})
 
         return Polynomial(f.n, {e: image(c) for e, c in f.terms.items()})
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import gcd, isqrt
+from types import MappingProxyType
 from typing import Any
 
 import flint
@@ -43,7 +44,7 @@ class Surd:
     terms: Mapping[int, flint.fmpq]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Surd, (dict(self.terms),)
+        return normal_sum, (dict(self.terms),)
 
     def __add__(self, other: Surd | Exact) -> Surd | Fraction:
         theirs = _terms(other)
@@ -57,7 +58,7 @@ class Surd:
     __radd__ = __add__
 
     def __neg__(self) -> Surd:
-        return Surd({r: -c for r, c in self.terms.items()})
+        return _of({r: -c for r, c in self.terms.items()})
 
     def __pos__(self) -> Surd:
         return self
@@ -85,7 +86,7 @@ class Surd:
         if not other:
             return Fraction(0)
         q = to_rational(other)
-        return Surd({r: c * q for r, c in self.terms.items()})
+        return _of({r: c * q for r, c in self.terms.items()})
 
     __rmul__ = __mul__
 
@@ -118,7 +119,7 @@ class Surd:
         """One over it."""
         if len(self.terms) == 1:
             ((r, c),) = self.terms.items()
-            return Surd({r: 1 / (c * r)})
+            return _of({r: 1 / (c * r)})
         found: Surd | Fraction = Fraction(1)
         rest: Surd | Fraction = self
         while isinstance(rest, Surd):
@@ -130,7 +131,7 @@ class Surd:
 
     def conjugate(self, prime: int) -> Surd:
         """The image where the square root of a prime changes its sign, and no other's."""
-        return Surd({r: c if r % prime else -c for r, c in self.terms.items()})
+        return _of({r: c if r % prime else -c for r, c in self.terms.items()})
 
     def primes(self) -> frozenset[int]:
         """The primes whose roots it is made of."""
@@ -253,6 +254,10 @@ def _terms(value: Surd | Exact | Any) -> Mapping[int, flint.fmpq] | None:
     return None
 
 
+def _of(terms: dict[int, flint.fmpq]) -> Surd:
+    return Surd(MappingProxyType(terms))
+
+
 def normal_sum(terms: Mapping[int, flint.fmpq]) -> Surd | Fraction:
     """The sum of rational multiples of square roots of square-free integers, zeros among them."""
     kept = {r: c for r, c in terms.items() if c}
@@ -260,7 +265,7 @@ def normal_sum(terms: Mapping[int, flint.fmpq]) -> Surd | Fraction:
         return Fraction(0)
     if len(kept) == 1 and 1 in kept:
         return to_fraction(kept[1])
-    return Surd(kept)
+    return _of(kept)
 
 
 def multiply_roots(r: int, s: int) -> tuple[int, int]:

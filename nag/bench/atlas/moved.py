@@ -105,7 +105,7 @@ SPARSE: dict[str, tuple[str, ...]] = {
     "sparse-loops": (
         "spatial/bricard-line-symmetric", "spatial/bricard-plane-symmetric",
         "spatial/bricard-trihedral", "spatial/bricard_cube", "spatial/general-7r",
-        "spatial/schatz", "spatial/spherical-pair-6r", "spatial/sarrus",
+        "spatial/schatz", "spatial/spherical-pair-6r", "spatial/sarrus", "spatial/bennett-chain-3",
     ),
     "sparse-arms": (
         "spatial/puma-held", "spatial/ur5-held", "spatial/seven-joint-arm",
@@ -114,6 +114,12 @@ SPARSE: dict[str, tuple[str, ...]] = {
     "sparse-walking": (
         "planar/jansen-leg", "planar/chebyshev-four-bar", "planar/lambda-linkage",
         "planar/hart-inversor",
+    ),
+    "sparse-robots": (
+        "robots/3-prs", "robots/3-rps", "robots/3-rrr-planar", "robots/3-rrr-spherical",
+        "robots/3-rrs", "robots/3-sps-s", "robots/3-upu-snu", "robots/3-upu-tangential",
+        "robots/3-upu-tsai", "robots/3-upu-wrist", "robots/3-uu-locked", "robots/exechon",
+        "robots/hexapod", "robots/quadrupteron", "robots/tricept", "robots/tripteron",
     ),
     "sparse-planar": ("planar/eight-bar", "planar/six-bar-placed"),
     "sparse-spatial": ("spatial/sarrus-kinematotropic", "spatial/universal-shaft"),
