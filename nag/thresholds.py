@@ -344,6 +344,14 @@ interpolation.point_cloud.SMALL             1e-5    Singular values of tangents,
                                                     of directions that the projection loses.
 mechanism.assembly.REAL                     1e-8    Imaginary parts of real assemblies, relative.
 mechanism.real_assemblies.NONZERO           1e-8    Values at an assembly that must not vanish.
+mechanism.inverse_kinematics.REACHED        1e-10   Relative residual of a pose that a leg reaches;
+                                                    what it does not reach is said, not dismissed.
+mechanism.inverse_kinematics.DISPLACEMENT   1e-6    Norm of a factor, beside the squares that it is
+                                                    the sum of, from which it is a displacement.
+mechanism.operation_modes.NOT_ZERO          1e-6    Value of a form, beside its largest term, at a
+                                                    pose that is certainly not on its zeros.
+mechanism.motions.NO_PITCH                  1e-7    Pitches, moments and entries of unit axes that
+                                                    are zero in what is said of a motion in words.
 mechanism.bonds.UNCLEAR                     0.03    How far orders of bonds may be from fractions.
 check.four_way.RESIDUAL                     1e-8    Values at witness points of exact components.
 ==========================================  ======  ================================================
@@ -393,7 +401,8 @@ decomposition.ends: ROUNDED; decomposition.growth: PATH, FACTOR, ENTRY, STEP;
 decomposition.superset: REGULAR; decomposition.power_sums:
 EQUATIONS, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
 interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
-mechanism.framework_decomposition: ROUNDED; files.export: ROUNDED; files.json_values: AGREES;
+mechanism.framework_decomposition: ROUNDED; mechanism.inverse_kinematics: TINY, LEAST_DAMPING,
+LEAST_SHARE; mechanism.operation_modes: NEARER; files.export: ROUNDED; files.json_values: AGREES;
 check.four_way: ROUNDING; report.singular: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:
 PATIENCE; cli.running: INTERVAL.
 """

@@ -13,14 +13,16 @@ import numpy as np
 
 from nag.mechanism.loop_product import Element
 
-STARTS = 24
-STEPS = 60
+# Random starts of a round, their steps, and rounds for a pose that is not reached before.
+STARTS, STEPS, ROUNDS = 24, 60, 12
 # What stands along a pose is taken for no less.
 TINY = 1e-12
 # Relative residual of a pose that is reached.
 REACHED = 1e-10
 # A factor's norm, beside the squares that it is the sum of, from which it is a displacement.
 DISPLACEMENT = 1e-6
+# Least damping of a step; share of a factor's size in the squares that its norm is compared with.
+LEAST_DAMPING, LEAST_SHARE = 1e-14, 1e-3
 
 # The product of quaternions: (a b)_k = sum of _TABLE[k, i, j] a_i b_j.
 _TABLE = np.zeros((4, 4, 4))
@@ -48,6 +50,12 @@ def conjugate_pose(x: np.ndarray) -> np.ndarray:
     return x * np.array([1, -1, -1, -1, 1, -1, -1, -1])
 
 
+def shift_origin(x: np.ndarray, origin: np.ndarray) -> np.ndarray:
+    """The same displacements in coordinates whose origin is another point, shapes ``(..., 8)``."""
+    there = np.array([1.0, 0, 0, 0, 0, *(np.asarray(origin) / 2)])
+    return multiply_poses(multiply_poses(conjugate_pose(there), x), there)
+
+
 def _multiply(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.einsum("kij,...i,...j->...k", _TABLE, a, b)
 
@@ -55,6 +63,7 @@ def _multiply(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 def reach_poses(
     elements: Sequence[Element],
     poses: np.ndarray,
+    origin: np.ndarray,
     length: float,
     rng: np.random.Generator,
     real: bool = False,
@@ -63,6 +72,7 @@ def reach_poses(
 
     Args:
         poses: Study coordinates, shape ``(k, 8)``.
+        origin: a point amidst the chain, shape ``(3,)``, from which displacements are taken.
         length: by which lengths are measured.
         real: whether with real joint coordinates only.
 
@@ -71,14 +81,32 @@ def reach_poses(
         where a pose is reached.
     """
     scale = np.array([1.0] * 4 + [1.0 / length] * 4)
-    generators = [
-        np.array([[float(c) for part in g for c in part] for g in e.generators]) * scale
-        for e in elements
+    given = [
+        np.array([[float(c) for part in g for c in part] for g in e.generators]) for e in elements
     ]
-    targets = np.repeat(_unit(poses * scale), STARTS, axis=0)
-    weights = [_unit(_random(rng, (len(targets), len(g)), real)) for g in generators]
-    places = np.repeat(np.arange(len(poses)), STARTS)
+    generators = [shift_origin(g, origin) * scale for g in given]
+    targets = _unit(shift_origin(poses, origin) * scale)
     best = np.full(len(poses), np.inf)
+    for _ in range(ROUNDS):
+        left = np.flatnonzero(best >= REACHED)
+        if not len(left):
+            break
+        places = np.repeat(left, STARTS)
+        _approach(generators, targets, places, best, rng, real)
+    return best
+
+
+def _approach(
+    generators: Sequence[np.ndarray],
+    poses: np.ndarray,
+    places: np.ndarray,
+    best: np.ndarray,
+    rng: np.random.Generator,
+    real: bool,
+) -> None:
+    """Lower the residuals ``best`` of poses from random starts, one for each of ``places``."""
+    targets = poses[places]
+    weights = [_unit(_random(rng, (len(targets), len(g)), real)) for g in generators]
     for _ in range(STEPS):
         residuals, rest, slopes = _beside(generators, weights, targets)
         inside = _are_displacements(generators, weights)
@@ -88,7 +116,6 @@ def reach_poses(
             break
         places, targets = places[left], targets[left]
         weights = _step([w[left] for w in weights], rest[left], slopes[left])
-    return best
 
 
 def _beside(
@@ -142,7 +169,7 @@ def _step(
     """Steps of Gauss, Newton, Levenberg and Marquardt, the less damped the nearer they are."""
     adjoint = derivative.conj().transpose(0, 2, 1)
     square = adjoint @ derivative
-    damping = np.minimum(np.linalg.norm(rest, axis=1), 1.0) ** 2 + 1e-14
+    damping = np.minimum(np.linalg.norm(rest, axis=1), 1.0) ** 2 + LEAST_DAMPING
     square += damping[:, None, None] * np.eye(square.shape[1])
     step = np.linalg.solve(square, (adjoint @ rest[:, :, None]))[:, :, 0]
     ends = np.cumsum([w.shape[1] for w in weights])[:-1]
@@ -159,5 +186,7 @@ def _are_displacements(
         real = (w @ own)[:, :4]
         squares = np.sum(np.abs(real) ** 2, axis=1)
         whole = np.sum(np.abs(w) ** 2, axis=1)
-        found &= np.abs(np.sum(real**2, axis=1)) > DISPLACEMENT * np.maximum(squares, whole * 1e-3)
+        found &= np.abs(np.sum(real**2, axis=1)) > DISPLACEMENT * np.maximum(
+            squares, whole * LEAST_SHARE
+        )
     return found

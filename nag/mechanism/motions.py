@@ -16,7 +16,8 @@ from nag.mechanism.inverse_kinematics import conjugate_pose, multiply_poses
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.text.table import count_text, join_words
 
-# Pitches, beside the length that lengths are measured by, that are zero.
+# Pitches, moments and entries of unit axes, beside the length that lengths are measured by, that
+# are zero.
 NO_PITCH = 1e-7
 
 
@@ -170,7 +171,7 @@ def _over_text(turn: np.ndarray, axis: np.ndarray) -> str:
     motion[:4] = turn
     vector = np.array([0, *axis, 0, 0, 0, 0])
     moved = multiply_poses(multiply_poses(motion, vector), conjugate_pose(motion))[1:4]
-    return "turned over" if np.linalg.norm(moved + axis) < 1e-6 * np.linalg.norm(axis) else ""
+    return "turned over" if np.linalg.norm(moved + axis) < NO_PITCH * np.linalg.norm(axis) else ""
 
 
 def _vector_text(vector: np.ndarray) -> str:

@@ -48,6 +48,7 @@ from nag.mechanism.modes_report import (
 )
 from nag.mechanism.motions import motion_of, screw_system, twists_at
 from nag.mechanism.platform import PlatformModel, platform_model
+from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.membership import UndecidedError, components_through
@@ -156,10 +157,15 @@ def _rank(mode: OperationMode) -> tuple[Any, ...]:
 
 def robot_length(model: PlatformModel) -> float:
     """The largest distance between points of joints, by which lengths are measured."""
-    joints = [j for leg in model.legs for j in leg.leg.joints if j.of_type.turns_about_point]
-    points = np.array([[float(x) for x in j.point] for j in joints]).reshape(-1, 3)
+    points = _places(model)
     apart = np.linalg.norm(points[:, None] - points[None], axis=2)
     return float(apart.max(initial=0.0)) or 1.0
+
+
+def _places(model: PlatformModel) -> np.ndarray:
+    """The points of joints that turn about one, shape ``(joints, 3)``."""
+    joints = [j for leg in model.legs for j in leg.leg.joints if j.of_type.turns_about_point]
+    return np.array([[float(x) for x in j.point] for j in joints]).reshape(-1, 3)
 
 
 def _residuals(
@@ -170,7 +176,9 @@ def _residuals(
     real: bool = False,
 ) -> np.ndarray:
     """How near each leg comes to each pose, shape ``(poses, legs)``."""
-    rows = [reach_poses(leg.leg.elements(), poses, length, rng, real) for leg in model.legs]
+    places = _places(model)
+    origin = places.mean(axis=0) if len(places) else np.zeros(3)
+    rows = [reach_poses(leg.leg.elements(), poses, origin, length, rng, real) for leg in model.legs]
     return np.array(rows).reshape(len(model.legs), len(poses)).T
 
 
@@ -215,7 +223,7 @@ def _conjugate(found: Decomposition, k: int, run: Run) -> int | None:
         apart = [np.abs(found.components[i].points[0] - point).max() for i in alike]
         return alike[int(np.argmin(apart))]
     try:
-        on = components_through(found, point, accuracy=max(1e-12, component.accuracy), run=run)
+        on = components_through(found, point, accuracy=max(LEAST, component.accuracy), run=run)
     except UndecidedError:
         return None
     return on[0] if len(on) == 1 else None

@@ -1,0 +1,382 @@
+"""The operation modes of parallel robots are those that are known, wherever a robot stands."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from linkages import CASES
+
+import nag
+from nag.algebra.exact_ranks import null_space
+from nag.cli import main
+from nag.decomposition.intersection import intersect_components
+from nag.errors import MechanismError
+from nag.files.cases import read_case
+from nag.mechanism.axes import cross
+from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.inverse_kinematics import REACHED, multiply_poses, reach_poses
+from nag.mechanism.joint_factors import factors_of_joint
+from nag.mechanism.leg_image import COORDINATES, image_of_chain, study_quadric
+from nag.mechanism.legs import Leg, parallel_robot
+from nag.mechanism.loop_product import displacement
+from nag.mechanism.modes_report import OperationModes, Reality
+from nag.mechanism.motions import motion_of, screw_system
+from nag.mechanism.quaternion import rotate
+from nag.report.agreement import AgreementKind, compare
+
+ROBOTS = sorted(path.stem for path in (CASES / "robots").glob("*.toml"))
+X, Y, Z = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+
+
+def robot(name: str) -> Mechanism:
+    mechanism = read_case(CASES / "robots" / f"{name}.toml").mechanism
+    assert mechanism is not None
+    return mechanism
+
+
+@cache
+def found_modes(name: str, seed: int = 0) -> OperationModes:
+    return nag.modes(robot(name), seed=seed)
+
+
+def kinds(found: OperationModes) -> Counter[tuple[int, int]]:
+    assert found.complete
+    return Counter((m.dimension, m.degree) for m in found.modes)
+
+
+def chain(*joints: tuple[str, dict]) -> Leg:
+    """Joints one after the other."""
+    bodies = tuple(f"B{i}" for i in range(len(joints) + 1))
+    made = [
+        Joint(f"J{i}", kind, (bodies[i], bodies[i + 1]), **given)
+        for i, (kind, given) in enumerate(joints)
+    ]
+    return Leg(tuple(made), bodies)
+
+
+def at(point: tuple, axis: tuple | None = None, second_axis: tuple | None = None) -> dict:
+    return {"point": point, "axis": axis, "second_axis": second_axis}
+
+
+CHAINS = {
+    "UPS": chain(
+        ("universal", at((1, 2, 0), X, Y)), ("prismatic", {"axis": (1, 1, 3)}),
+        ("spherical", at((2, 3, 3))),
+    ),
+    "RPS": chain(
+        ("revolute", at((1, 2, 0), Y)), ("prismatic", {"axis": (1, 0, 3)}),
+        ("spherical", at((2, 2, 3))),
+    ),
+    "UPU": chain(
+        ("universal", at((3, 0, 0), Y, (4, 0, 2))), ("prismatic", {"axis": (-2, 0, 4)}),
+        ("universal", at((1, 0, 4), (4, 0, 2), Y)),
+    ),
+    "UU": chain(("universal", at((3, 0, 0), Y, X)), ("universal", at((3, 0, 4), X, Y))),
+    "CC": chain(("cylindrical", at((1, 2, 3), X)), ("cylindrical", at((2, 0, 1), (1, 1, 2)))),
+    "PRRR": chain(
+        ("prismatic", {"axis": X}), *(("revolute", at((2, k, k * k), X)) for k in range(3))
+    ),
+    "RS": chain(("revolute", at((1, 2, 0), Y)), ("spherical", at((2, 3, 3)))),
+    "RRR": chain(
+        ("revolute", at((1, 2, 0), Y)), ("revolute", at((0, 1, 1), X)),
+        ("revolute", at((3, 1, 2), (1, 1, 1))),
+    ),
+    "CS": chain(("cylindrical", at((1, 2, 0), Y)), ("spherical", at((2, 3, 3)))),
+}  # fmt: skip
+# Dimension of the image, and degrees of its forms besides Study's quadric.
+IMAGES = {
+    "UPS": (6, []),
+    "RPS": (5, [2]),
+    "UPU": (5, [2]),
+    "UU": (4, [2, 2]),
+    "CC": (4, [2, 2]),
+    "PRRR": (4, [1, 1]),
+    "RS": (4, [2] * 5),
+    "RRR": (3, [2] * 8),
+    "CS": (5, [4]),
+}
+
+
+@pytest.mark.parametrize("name", sorted(CHAINS))
+def test_the_forms_of_a_leg_have_the_degrees_that_are_known(name: str) -> None:
+    image = image_of_chain(CHAINS[name].elements(), np.random.default_rng(0))
+    assert image.cuts
+    assert (image.dimension, [f.degree for f in image.forms]) == IMAGES[name]
+
+
+numbers = st.fractions(-5, 5, max_denominator=6)
+
+
+@pytest.mark.parametrize("name", ["RPS", "CC", "RRR", "CS", "PRRR"])
+@settings(max_examples=10, deadline=None)
+@given(data=st.data())
+def test_the_forms_of_a_leg_vanish_exactly_at_its_poses(name: str, data: st.DataObject) -> None:
+    leg = CHAINS[name]
+    image = image_of_chain(leg.elements(), np.random.default_rng(1))
+    factors = [f for joint in leg.joints for f in factors_of_joint(joint)]
+    values = {f: [Fraction(1)] + [data.draw(numbers) for _ in range(f.dimension)] for f in factors}
+    real, dual = displacement(leg.elements(), values, Fraction)
+    assert all(f((*real, *dual)) == 0 for f in (study_quadric(), *image.forms))
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_robot_has_the_modes_that_are_known(name: str) -> None:
+    case = read_case(CASES / "robots" / f"{name}.toml")
+    found = found_modes(name)
+    assert found.complete
+    assert not found.spurious
+    agreement = compare(found.decomposition, case.truth, "P")
+    assert agreement is not None
+    assert agreement.verdict is AgreementKind.AGREES
+    assert not agreement.unlisted
+
+
+def test_robots_name_their_sources() -> None:
+    assert len(ROBOTS) >= 12
+    for name in ROBOTS:
+        truth = read_case(CASES / "robots" / f"{name}.toml").truth
+        assert truth, name
+        assert all(t.source and t.formulation == "P" for t in truth), name
+
+
+@pytest.mark.parametrize("name", ["3-rps", "3-upu-snu", "3-sps-s", "3-uu-locked", "exechon"])
+def test_the_largest_mode_through_the_reference_and_idle_turns_are_the_local_dimension(
+    name: str,
+) -> None:
+    found = found_modes(name)
+    idle = sum(leg.idle for leg in found.model.legs)
+    report = nag.mobility(robot(name), detail="local")
+    assert report.local_dimension == found.dimension_at_reference + idle
+
+
+@pytest.mark.parametrize("seed", range(1, 4))
+@pytest.mark.parametrize("name", ["3-rps", "3-upu-snu"])
+def test_another_seed_finds_the_same_modes_in_the_same_order(name: str, seed: int) -> None:
+    one, other = found_modes(name), found_modes(name, seed)
+    assert kinds(one) == kinds(other)
+    for a, b in zip(one.modes, other.modes, strict=True):
+        assert (a.equations, a.reality, str(a.motion)) == (b.equations, b.reality, str(b.motion))
+    assert one.transitions == other.transitions
+
+
+def moved(mechanism: Mechanism, turn: tuple, shift: tuple, scale: Fraction) -> Mechanism:
+    """The robot elsewhere, turned by an unnormalised quaternion, and of another size."""
+    norm = sum(q * q for q in turn)
+
+    def turned(v: tuple | None) -> tuple | None:
+        return None if v is None else tuple(x / norm for x in rotate(turn, v))
+
+    joints = [
+        replace(
+            j,
+            point=tuple(scale * x + s for x, s in zip(turned(j.point), shift, strict=True)),
+            axis=turned(j.axis),
+            second_axis=turned(j.second_axis),
+        )
+        for j in mechanism.joints
+    ]
+    return Mechanism(mechanism.ground, tuple(joints))
+
+
+@settings(max_examples=3, deadline=None)
+@given(
+    turn=st.tuples(*[st.integers(-3, 3).map(Fraction)] * 4).filter(any),
+    shift=st.tuples(*[st.integers(-20, 20).map(Fraction)] * 3),
+    scale=st.fractions(Fraction(1, 7), 10, max_denominator=7),
+)
+def test_the_modes_of_a_robot_do_not_depend_on_where_it_stands(
+    turn: tuple, shift: tuple, scale: Fraction
+) -> None:
+    there = nag.modes(moved(robot("3-upu-tsai"), turn, shift, scale))
+    here = found_modes("3-upu-tsai")
+    assert kinds(there) == kinds(here)
+    groups = [Counter(m.motion.group for m in found.modes) for found in (here, there)]
+    assert groups[0] == groups[1]
+    known = [Counter(t.kinds for t in found.transitions) for found in (here, there)]
+    assert known[0] == known[1]
+
+
+def test_modes_say_in_words_what_they_are() -> None:
+    words = Counter(str(m.motion) for m in found_modes("3-upu-snu").modes)
+    assert words == {
+        "translation": 1,
+        "translation, turned by 180 degrees about (1, 1, 1)": 1,
+        "planar motion normal to (1, 1, 1)": 1,
+        "planar motion normal to (1, 1, 1), turned over": 1,
+        "spherical motion about the point (0, 0, 0)": 1,
+        "turns about two directions, with 1 translation": 4,
+    }
+    (plane,) = found_modes("3-rrr-planar").modes
+    assert str(plane.motion) == "planar motion normal to (1, 1, 1)"
+    here, over = found_modes("quadrupteron").modes
+    assert str(over.motion) == f"{here.motion}, turned over"
+
+
+def test_conjugate_modes_are_told_from_real_ones() -> None:
+    found = found_modes("3-upu-snu")
+    pairs = [(i, m.conjugate) for i, m in enumerate(found.modes) if m.conjugate is not None]
+    assert pairs == [(7, 8), (8, 7)]
+    assert all((m.reality is Reality.REAL) == (i < 7) for i, m in enumerate(found.modes))
+    assert all(m.really_reached for m in found.modes[:7])
+
+
+def test_linear_modes_are_given_by_forms_that_satisfy_the_legs_exactly() -> None:
+    for mode in found_modes("3-upu-tsai").modes[:4]:
+        assert mode.is_linear
+        units = [tuple(int(i == j) for j in range(8)) for i in range(8)]
+        rows = [[f.terms.get(e, Fraction(0)) for e in units] for f in mode.linear]
+        basis = null_space(rows, 8)
+        for f in found_modes("3-upu-tsai").model.forms:
+            for k in range(20):
+                weights = [Fraction(k**i % 7 - 3) for i in range(len(basis))]
+                point = [
+                    sum(w * v[i] for w, v in zip(weights, basis, strict=True)) for i in range(8)
+                ]
+                assert f(point) == 0
+
+
+def test_transitions_of_linear_modes_are_those_that_paths_find() -> None:
+    found = found_modes("3-upu-snu")
+    exact = {t.modes: t.kinds for t in found.transitions}
+    system = found.decomposition.system
+    for i, j in ((0, 1), (0, 4), (2, 5), (3, 4)):
+        met = intersect_components(system, found.modes[i].component, found.modes[j].component)
+        assert met.complete
+        assert tuple((c.dimension, c.degree) for c in met.components) == exact.get((i, j), ())
+
+
+def test_a_leg_reaches_its_poses_and_no_others() -> None:
+    rng = np.random.default_rng(5)
+    for name in ("RPS", "RRR", "UU"):
+        elements = CHAINS[name].elements()
+        poses = []
+        for _ in range(4):
+            pose = np.array([1.0, 0, 0, 0, 0, 0, 0, 0])
+            for e in elements:
+                weights = rng.standard_normal(len(e.generators))
+                own = np.array([[float(c) for part in g for c in part] for g in e.generators])
+                pose = multiply_poses(pose, weights @ own)
+            poses.append(pose)
+        assert (reach_poses(elements, np.array(poses), np.zeros(3), 3.0, rng) < REACHED).all()
+        other = rng.standard_normal((3, 8))
+        other[:, 4] = -(other[:, 1:4] * other[:, 5:]).sum(axis=1) / other[:, 0]
+        assert (reach_poses(elements, other, np.zeros(3), 3.0, rng) > 1e-3).all()
+
+
+def test_pitches_of_screw_systems_are_those_of_their_axes() -> None:
+    twists = np.zeros((3, 6))
+    for i, (axis, point, pitch) in enumerate(((X, (0, 0, 0), 2), (Y, (0, 0, 0), 5), (Z, Z, -1))):
+        twists[i] = [*axis, *(np.cross(point, axis) + pitch * np.array(axis))]
+    assert screw_system(twists, 3.0).pitches == pytest.approx((-3, 6, 15))
+    slide = np.array([[0, 0, 0, 0, 0, 1.0]])
+    with_slide = screw_system(np.vstack([twists[:2], slide]), 1.0)
+    assert (with_slide.rank, with_slide.turning) == (3, 2)
+    assert with_slide.pitches == pytest.approx((2, 5))
+    # A slide along an axis makes its pitch any.
+    assert screw_system(np.vstack([twists[2:], slide]), 1.0).pitches == ()
+
+
+def test_a_screw_system_that_changes_is_no_group() -> None:
+    pose = np.array([[1.0, 0, 0, 0, 0, 0, 0, 0]])
+    about = [np.array([[*axis, 0, 0, 0]], dtype=float) for axis in (X, X, Y)]
+    assert motion_of(pose, about[:2], 1.0).group == "rotation"
+    assert motion_of(pose, about, 1.0).group == ""
+
+
+def test_legs_are_what_joins_platform_and_ground() -> None:
+    found = parallel_robot(robot("exechon"))
+    assert found.platform == "platform"
+    assert [leg.letters for leg in found.legs] == ["UPR", "UPR", "SPR"]
+    hanging = Joint("T", "revolute", ("link1a", "tool"), (0, 0, 0), X)
+    with_tool = Mechanism("base", (*robot("exechon").joints, hanging))
+    again = parallel_robot(with_tool)
+    assert [leg.letters for leg in again.legs] == ["UPR", "UPR", "SPR"]
+    assert [j.name for j in again.aside] == ["T"]
+
+
+def test_a_coupler_of_a_loop_may_be_named_as_the_platform() -> None:
+    found = nag.modes(read_case(CASES / "bennett.toml").mechanism, "B2")
+    assert kinds(found) == {(1, 2): 1}
+    assert found.dimension_at_reference == 1
+
+
+def two_platforms() -> Mechanism:
+    joints = [
+        Joint(f"{body}{k}", "spherical", ("base", body), (k, k * k, i))
+        for i, body in enumerate(("left", "right"))
+        for k in range(3)
+    ]
+    return Mechanism("base", tuple(joints))
+
+
+def with_parallelograms() -> Mechanism:
+    """Three legs, each an arm and a parallelogram."""
+    joints = []
+    for k, axis in enumerate((X, Y, Z)):
+        p, q = (axis[2], axis[0], axis[1]), tuple(cross(axis, (axis[2], axis[0], axis[1])))
+        near, far = q, tuple(a + b for a, b in zip(p, q, strict=True))
+        joints += [
+            Joint(f"R{k}", "revolute", ("base", f"arm{k}"), (0, 0, 0), axis),
+            Joint(f"A{k}", "revolute", (f"arm{k}", f"left{k}"), near, axis),
+            Joint(f"B{k}", "revolute", (f"arm{k}", f"right{k}"), far, axis),
+            Joint(f"C{k}", "revolute", (f"left{k}", "plate"), tuple(2 * x for x in near), axis),
+            Joint(f"D{k}", "revolute", (f"right{k}", "plate"), tuple(2 * x for x in far), axis),
+        ]
+    return Mechanism("base", tuple(joints))
+
+
+@pytest.mark.parametrize(
+    ("make", "platform", "message"),
+    [
+        (lambda: read_case(CASES / "bennett.toml").mechanism, None, "no body has 3 legs"),
+        (lambda: robot("3-rps"), "base", "is the ground"),
+        (lambda: robot("3-rps"), "hand", "is no body"),
+        (two_platforms, None, "bodies left and right have 3 legs each"),
+        (with_parallelograms, None, "leg .* has loops of its own"),
+    ],
+)
+def test_what_is_no_robot_is_refused(
+    make: Callable[[], Mechanism], platform: str | None, message: str
+) -> None:
+    with pytest.raises(MechanismError, match=message):
+        nag.modes(make(), platform)
+
+
+def test_irrational_robots_are_refused() -> None:
+    joints = [replace(j, point=("sqrt(3)", *j.point[1:])) for j in robot("3-rrr-planar").joints]
+    with pytest.raises(MechanismError, match="irrational"):
+        nag.modes(Mechanism("base", tuple(joints)))
+
+
+def test_the_command_tells_bad_input_in_one_line(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    case = str(CASES / "robots" / "tripteron.toml")
+    for words in (
+        [case, "--platform", "hand"],
+        [str(CASES / "literature" / "arcs.toml")],
+        [str(CASES / "bennett.toml")],
+    ):
+        assert main(["modes", *words, "--quiet"]) == 2
+        told = capsys.readouterr().err
+        assert told.count("\n") == 1
+        assert words[0] in told
+
+
+def test_the_command_prints_modes_and_transitions(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["modes", str(CASES / "robots" / "3-rps.toml"), "--quiet"]) == 0
+    text = capsys.readouterr().out
+    assert "2 operation modes, each of dimension 3, degree 7" in text
+    assert "mode 1      x1 + x2 + x3 = 0" in text
+    assert "transition  1 and 2: dimension 2, degree 4" in text
+    assert "agrees with what is known" in text
+    assert COORDINATES[0] in text
