@@ -353,6 +353,18 @@ mechanism.operation_modes.NOT_ZERO          1e-6    Value of a form, beside its 
 mechanism.motions.NO_PITCH                  1e-7    Pitches, moments and entries of unit axes that
                                                     are zero in what is said of a motion in words.
 mechanism.bonds.UNCLEAR                     0.03    How far orders of bonds may be from fractions.
+mechanism.moving_parts.ZERO                 1e-9    Rates and singular values of joints' motions
+                                                    that are zero, where lengths are of size one.
+mechanism.moving_parts.NOT_ZERO             1e-5    Those that are not; between the two nothing is
+                                                    said.
+mechanism.nearly_mobile.ROUNDING            1e-11   Gaps of a loop, over its size, that rounding
+                                                    leaves.
+mechanism.nearly_mobile.WIDEST_GAP          0.03    Gaps beyond which a motion is not followed, and
+                                                    the largest tolerance.
+mechanism.nearly_mobile.HINT                1e-6    Smallest singular value, beside the next, at
+                                                    which a rigid mechanism may be meant to move.
+mechanism.overconstrained.CLOSE             1e-9    Lengths and sines of angles that are the same,
+                                                    of lines that were fitted in doubles.
 check.four_way.RESIDUAL                     1e-8    Values at witness points of exact components.
 ==========================================  ======  ================================================
 
@@ -402,7 +414,9 @@ decomposition.superset: REGULAR; decomposition.power_sums:
 EQUATIONS, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
 interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
 mechanism.framework_decomposition: ROUNDED; mechanism.inverse_kinematics: TINY, LEAST_DAMPING,
-LEAST_SHARE; mechanism.operation_modes: NEARER; files.export: ROUNDED; files.json_values: AGREES;
+LEAST_SHARE; mechanism.moving_parts: LENGTH, ARRIVED; mechanism.nearly_mobile: STEP,
+SHORTEST_STEP, STRAIGHT, LONGEST_SLIDE, WEIGHT, COMPLEX_STEP, NO_STEP, TINY, SMALL;
+mechanism.operation_modes: NEARER; files.export: ROUNDED; files.json_values: AGREES;
 check.four_way: ROUNDING; report.singular: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:
 PATIENCE; cli.running: INTERVAL.
 """

@@ -141,6 +141,9 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, int], l
     ask("singular", family, "--free", "a")
     ask("local", whole)
     ask("mobility", linkage, "--curves", "--check")
+    idle = str(CASES / "robots" / "3-sps-s.toml")
+    ask("mobility", idle, "--budget", "0", "--of", "platform")
+    ask("mobility", str(CASES / "spatial" / "bennett-rounded.toml"), "--tolerance", "1e-4")
     ask("decompose", str(CASES / "bennett.toml"), "--modes", "all")
     for name in ("3-uu-locked", "3-rps"):
         ask("modes", str(CASES / "robots" / f"{name}.toml"))

@@ -16,6 +16,7 @@ from nag.cli.arguments import (
 )
 from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case, say_first
 from nag.cli.witness_input import point_at
+from nag.errors import NagError
 from nag.mechanism import BUDGET
 
 if TYPE_CHECKING:
@@ -65,6 +66,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         f"(default: {BUDGET}); what is not known then is bounded from below",
     )
     parser.add_argument(
+        "--of",
+        metavar="BODY",
+        help="say how this body moves against the ground: its freedoms, and what they are",
+    )
+    parser.add_argument(
+        "--tolerance",
+        type=_tolerance,
+        metavar="T",
+        help="of a mechanism that is rigid as it is given: whether it nearly moves, its loops "
+        "opening by no more than T radians, and T times its size",
+    )
+    parser.add_argument(
         "--curves",
         action="store_true",
         help="the genus of each curve through the configuration (0 is a rational motion), and in "
@@ -75,6 +88,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="do it all again in another formulation of the mechanism, and compare",
     )
+
+
+def _tolerance(text: str) -> float:
+    from nag.mechanism.nearly_mobile import check_tolerance
+
+    try:
+        return check_tolerance(float(text))
+    except NagError as error:
+        raise argparse.ArgumentTypeError(str(error).removeprefix("tolerance: ")) from None
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number; write one like 1e-3") from None
 
 
 def run(options: argparse.Namespace) -> CommandAnswer:
@@ -141,10 +165,14 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
     Raises:
         UsageError: if nothing moves in it, or no configuration of it is known or given.
     """
-    from nag.mechanism.mobility_at import tree_of
+    from nag.mechanism.mobility_at import check_body, tree_of
     from nag.mechanism.problem import in_real_coordinates
 
     case = read_case_file(options.case, options.set)
+    try:
+        check_body(options.of, case.mechanism)
+    except NagError as error:
+        raise UsageError(f"--{error}") from None
     if tree_of(case) is not None:
         if options.at is not None:
             raise UsageError(f"--at: {options.case} has no loop, so that it has no equations")
@@ -191,7 +219,13 @@ def _reports(
     budget = options.budget if budget is None else budget
     try:
         yield from mobility_in_steps(
-            given, at, detail=detail, budget=budget, run=chosen_run(options)
+            given,
+            at,
+            detail=detail,
+            budget=budget,
+            of=options.of,
+            tolerance=options.tolerance,
+            run=chosen_run(options),
         )
     except NoAssembly as reason:
         raise UsageError(f"{options.case}: {reason}") from None

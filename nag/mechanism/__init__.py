@@ -10,9 +10,10 @@ and `unreduced` (all constraints, for checks). Other ways to give one are `frame
 `assembly` and `real_assemblies`. `problem` is what all of these come down to, and cases and
 equations with them, and what `nag.decompose` and `nag.solve` ask; `coordinates` carries its
 components over to Euler parameters, `other_equations` are those that must say the same.
-`mobility_at` with `mobility_report` and `bonds` says how one moves; `operation_modes` with
-`modes_report` how the platform of a parallel robot does, by `legs`, `leg_image`, `platform`,
-`inverse_kinematics` and `motions`; `shown` is what is seen at the prompt.
+`mobility_at` with `mobility_report` and `bonds` says how one moves, `moving_parts` what of it, and
+`nearly_mobile` (on `overconstrained`) how it would if it were not rigid as it is given;
+`operation_modes` with `modes_report` how the platform of a parallel robot does, by `legs`,
+`leg_image`, `platform`, `inverse_kinematics` and `motions`; `shown` is what is seen at the prompt.
 
 To add a type of joint, write its record in `joint_types.JOINT_TYPES`, by the rules at the head of
 that file, and a row in `docs/cases.md`: all formulations, case files, graphs and tables read it

@@ -6,10 +6,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal, get_args
 
+import numpy as np
+
 from nag.algebra.from_python import coordinates
 from nag.algebra.given import check_choice, check_size, is_a
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import quote
 from nag.decomposition.curve_genus import GenusError, genus
 from nag.decomposition.growth import grow_component
 from nag.decomposition.through import through_points, zero_at
@@ -22,7 +25,10 @@ from nag.mechanism.graph import Mechanism, check_mechanism
 from nag.mechanism.loops import gruebler_kutzbach, loop_structure
 from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model
+from nag.mechanism.moving_parts import MovingParts, NotClear, find_moving_parts
+from nag.mechanism.nearly_mobile import check_tolerance, find_near_motion, find_spoiled_motion
 from nag.mechanism.problem import Problem, problem_of
+from nag.mechanism.quaternion import R
 from nag.mechanism.real_assemblies import real_doubt
 from nag.numerics.local_dimension import local_dimension_near
 from nag.text.table import count_text
@@ -50,6 +56,8 @@ def mobility(
     formulation: str = "auto",
     detail: Detail = "through",
     budget: float = BUDGET,
+    of: str | None = None,
+    tolerance: float | None = None,
     run: Run = DEFAULT_RUN,
 ) -> MobilityReport:
     """The mobility of a mechanism at its reference configuration, or at another one.
@@ -73,6 +81,10 @@ def mobility(
         budget: seconds that the degree may take at a smooth configuration, counted by what a common
             processor does in them, so that the answer does not depend on the time that is taken;
             what is not known then is bounded from below.
+        of: the name of a body whose freedoms are asked for, of a mechanism at a smooth
+            configuration.
+        tolerance: of a mechanism that is rigid as it is given, how far its loops may open, in
+            radians and as a part of its size, for it to be called nearly mobile.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
@@ -92,7 +104,14 @@ def mobility(
     mobility    overconstrained: it moves with 1 freedom, though counting predicts -2
     """
     *_, report = mobility_in_steps(
-        mechanism, point, formulation=formulation, detail=detail, budget=budget, run=run
+        mechanism,
+        point,
+        formulation=formulation,
+        detail=detail,
+        budget=budget,
+        of=of,
+        tolerance=tolerance,
+        run=run,
     )
     return report
 
@@ -105,18 +124,25 @@ def mobility_in_steps(
     formulation: str = "auto",
     detail: Detail = "through",
     budget: float = BUDGET,
+    of: str | None = None,
+    tolerance: float | None = None,
     run: Run = DEFAULT_RUN,
 ) -> Iterator[MobilityReport]:
     """The same, as far as it is known: what needs no component first, then the whole."""
     check_choice(detail, "detail", get_args(Detail))
     check_size(budget, "budget")
+    if tolerance is not None:
+        check_tolerance(tolerance)
     tree = tree_of(mechanism)
     if tree is not None:
-        yield _without_loops(tree)
+        check_body(of, tree)
+        first = _without_loops(tree)
+        yield replace(first, moving=_moving_parts(tree, first, None, of, run))
         return
     problem = problem_of(mechanism, formulation=formulation)
     if problem.model is None:
         check_mechanism(problem.system, "the parts of a case, case.assembly")
+    check_body(of, problem.mechanism.mechanism if problem.mechanism is not None else None)
     at = problem.reference
     if point is not None:
         at = coordinates(point, problem.system.variables)
@@ -124,6 +150,8 @@ def mobility_in_steps(
         yield _in_general(problem, detail, run)
         return
     first = _local_report(problem, at, run)
+    if problem.mechanism is not None:
+        first = _with_parts(first, problem.mechanism, point is None, at, of, tolerance, run)
     yield first
     if detail != "local":
         yield _with_components(first, problem, at, detail, budget, run)
@@ -154,6 +182,72 @@ def _local_report(problem: Problem, at: Sequence[Number], run: Run) -> MobilityR
         open="",
         local=found,
     )
+
+
+def check_body(of: str | None, mechanism: Mechanism | None) -> None:
+    """That a body whose freedoms are asked for is there.
+
+    Raises:
+        MechanismError: if it is not.
+    """
+    if of is None:
+        return
+    if mechanism is None:
+        raise MechanismError("of: is for mechanisms, whose bodies have names; leave it out")
+    if of not in mechanism.body_names:
+        names = ", ".join(mechanism.body_names)
+        raise MechanismError(f"of: {quote(of)} is no body; they are {names}")
+
+
+def _with_parts(
+    first: MobilityReport,
+    made: Model,
+    at_reference: bool,
+    at: Sequence[Number],
+    of: str | None,
+    tolerance: float | None,
+    run: Run,
+) -> MobilityReport:
+    """A report, and what moves, or would move if the loops of a rigid mechanism were let open."""
+    if first.local_dimension == 0:
+        if not at_reference:
+            return first
+        if tolerance is not None:
+            return replace(first, near=find_near_motion(made.mechanism, tolerance))
+        return replace(first, hint=find_spoiled_motion(made.mechanism))
+    places = None if at_reference else _places(made, at)
+    return replace(first, moving=_moving_parts(made.mechanism, first, places, of, run))
+
+
+def _places(made: Model, at: Sequence[Number]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """How the bodies are displaced against the reference configuration."""
+    here, reference = made.lift(at), made.lift(made.reference)
+    found = {}
+    for body, euler in here.euler.items():
+        turns = [
+            np.array([[complex(x).real for x in row] for row in R(q)])
+            for q in (euler, reference.euler[body])
+        ]
+        place = np.array([complex(x).real for x in here.position[body]])
+        found[body] = (turns[0] @ turns[1].T, place)
+    return found
+
+
+def _moving_parts(
+    mechanism: Mechanism,
+    report: MobilityReport,
+    places: Mapping[str, tuple[np.ndarray, np.ndarray]] | None,
+    of: str | None,
+    run: Run,
+) -> MovingParts | None:
+    """What moves near a smooth configuration; None elsewhere, or where it is not clear."""
+    smooth = report.local is None or report.local.smooth
+    if report.local_dimension is None or not smooth:
+        return None
+    try:
+        return find_moving_parts(mechanism, report.local_dimension, run.random(46), places, of)
+    except NotClear:
+        return None
 
 
 def _with_components(

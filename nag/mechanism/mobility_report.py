@@ -14,6 +14,8 @@ from enum import StrEnum
 from typing import Any, Literal
 
 from nag.mechanism.bonds import Bonds
+from nag.mechanism.moving_parts import MovingParts
+from nag.mechanism.nearly_mobile import NearMotion
 from nag.numerics.local_dimension import LocalDimension
 from nag.text.table import LINE, count_text, html_table, shorten_text
 from nag.witness.witness import WitnessSet
@@ -99,6 +101,10 @@ class MobilityReport:
         least_degree: what the degree of the one component through a smooth configuration is at
             least, where it is not known.
         rests_on: what ``components`` are known by, and why a degree is not; empty where nothing is.
+        moving: what moves near a smooth configuration of a mechanism; None elsewhere.
+        near: how a rigid mechanism would move if its loops were let open; None if that was not
+            asked for.
+        hint: at a rigid mechanism that may be meant to move; empty where there is none.
     """
 
     space: str
@@ -120,6 +126,9 @@ class MobilityReport:
     doubt: str = ""
     least_degree: int | None = None
     rests_on: str = ""
+    moving: MovingParts | None = None
+    near: NearMotion | None = None
+    hint: str = ""
 
     @property
     def local_dimension(self) -> int | None:
@@ -194,6 +203,9 @@ class MobilityReport:
             *self.local_rows(),
             ("components", _components_text(self)),
             ("mobility", f"{self.status}: {self.sentence}"),
+            *(self.moving.rows() if self.moving is not None else ()),
+            *(self.near.rows() if self.near is not None else ()),
+            *([("hint", self.hint)] if self.hint else []),
             *(("curve", str(curve)) for curve in self.curves),
         ]
 
@@ -237,6 +249,8 @@ class MobilityReport:
             "degree_at_least": self.least_degree,
             "rests_on": self.rests_on,
             "open": self.open,
+            "moving": None if self.moving is None else self.moving.document(),
+            "near": None if self.near is None else self.near.document(),
             "curves": [curve.document() for curve in self.curves],
             "local": None if self.local is None else self.local.document(),
         }
@@ -295,7 +309,8 @@ def _sentence(report: MobilityReport) -> str:
             report.local.reason if report.local is not None else report.open or "nothing is known"
         )
     if report.general is None:
-        return _meaning(report)
+        asked = report.moving.body if report.moving is not None else None
+        return f"{asked}; {_meaning(report)}" if asked is not None else _meaning(report)
     if status is MobilityStatus.RIGID:
         return "no configuration moves, not even infinitesimally"
     text = f"at a general configuration of those with the most freedoms {_meaning(report)}"
@@ -314,6 +329,10 @@ def _meaning(report: MobilityReport) -> str:
             f"{report.multiplicity}"
         )
     text = f"it moves with {count_text(mobility or 0, 'freedom')}"
+    if report.moving is not None and report.moving.idle:
+        idle = report.moving.idle_count
+        share = "all" if idle == mobility else str(idle)
+        text += f", {share} of them idle: {report.moving.idle_text}"
     if report.overconstrained:
         text += f", though counting predicts {report.gruebler_kutzbach}"
     if status is MobilityStatus.KINEMATOTROPIC:

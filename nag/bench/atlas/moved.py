@@ -106,6 +106,7 @@ SPARSE: dict[str, tuple[str, ...]] = {
         "spatial/bricard-line-symmetric", "spatial/bricard-plane-symmetric",
         "spatial/bricard-trihedral", "spatial/bricard_cube", "spatial/general-7r",
         "spatial/schatz", "spatial/spherical-pair-6r", "spatial/sarrus", "spatial/bennett-chain-3",
+        "spatial/bennett-rounded",
     ),
     "sparse-arms": (
         "spatial/puma-held", "spatial/ur5-held", "spatial/seven-joint-arm",

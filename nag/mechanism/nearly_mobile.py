@@ -1,0 +1,734 @@
+"""Nearly mobile: how far a rigid mechanism's loops open when it is moved along as if it were not.
+
+Rounded numbers make an overconstrained linkage rigid, exactly so, and uselessly. Here one joint is
+driven, all others follow by least squares, and the largest gap over the whole motion is what play
+the joints need; the least change of the axes that closes the loops at several positions says next
+to which linkage it is. Nothing of that says that the mechanism moves.
+
+Every joint is a product of turns and slides, q in all, exponentials of their screws in the
+reference configuration, q = 0. The gap of a loop is its product's quaternion and the place to which
+it takes the mechanism's centre, the point nearest to all axes. Everything is in doubles, in units
+of the mechanism's size; derivatives are by complex steps, which lose no digits (Squire & Trapp,
+Using complex variables to estimate derivatives of real functions, 1998).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cached_property
+from math import atan2, inf, isfinite, pi
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.given import check_type
+from nag.errors import NagError
+from nag.mechanism.axes import cross
+from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.loops import Loop, loop_structure
+from nag.mechanism.overconstrained import CLOSE, known_linkage
+from nag.mechanism.quaternion import multiply
+
+# Arc of joint coordinates from one position to the next, radians or sizes of the mechanism; where
+# the motion bends, steps are halved down to the shortest.
+STEP = 0.1
+SHORTEST_STEP = 0.1 / 2**6
+# Cosine between neighbouring tangents below which a step is halved.
+STRAIGHT = 0.998
+# Positions after which a motion is not followed further.
+MOST_POSITIONS = 1000
+# Gaps beyond which a motion is not followed further, and slides.
+WIDEST_GAP = 0.03
+LONGEST_SLIDE = 10.0
+# Positions at which the axes are fitted: more than the equations that any of their linkages has.
+FITTED = 12
+# Conditions that hold up to so many changes were meant: they are of lengths and angles together.
+MEANT = 30
+# The second fit is at positions of the motion of the first.
+FITS = 2
+# What closing weighs against changing the axes, when both are least squares.
+WEIGHT = 1e5
+# What is left of a gap by rounding.
+ROUNDING = 1e-11
+COMPLEX_STEP = 1e-40
+# Steps to a position, which end with one that is too short to matter.
+MOST_STEPS = 8
+NO_STEP = 1e-11
+# The fit goes on until nothing changes, within so many evaluations.
+TINY = 1e-15
+MOST_EVALUATIONS = 200
+# Steps that close what is left; directions that change a gap by less than a small part are none.
+SHORTEST_STEPS = 3
+SMALL = 1e-8
+# A singular value that is so small beside the next one is that of a motion which rounding spoiled.
+HINT = 1e-6
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class LoopLinkage:
+    """The overconstrained linkage that a loop becomes by a change of its axes.
+
+    Attributes:
+        joints: the loop's, in order.
+        linkage: which one it is, with its article; None if that is none that is known.
+        next_to: one that it is up to the size of the change, if that is another one: the family of
+            what moves may be larger, and the least change ends in it.
+    """
+
+    joints: tuple[str, ...]
+    linkage: str | None
+    next_to: str | None
+
+    def __str__(self) -> str:
+        words = [] if self.linkage is None else [self.linkage]
+        if self.next_to is not None:
+            words.append(f"next to {self.next_to}")
+        return ", ".join(words)
+
+
+@dataclass(frozen=True)
+class NearMotion:
+    """How a mechanism that is rigid as it is given would move, if its loops were let open a little.
+
+    Angles are in radians; lengths in the mechanism's unit.
+
+    Attributes:
+        tolerance: the largest gap and change, in radians and parts of ``size``, of what is called
+            nearly mobile.
+        size: of the mechanism: mean distance of its axes from their centre; 1 if they all meet.
+        singular_values: the smallest and the next one of the loops' closure, in radians and sizes.
+        driven: the joint that turns or slides most to first order.
+        driven_to: how far it goes either way, by radians or in length.
+        slides: whether it slides.
+        whole: whether that is the whole motion: it came back to where it began.
+        gap: the largest over the motion, an angle and a length.
+        change: the largest angle and the largest distance by which an axis must be changed for all
+            loops to close at `FITTED` positions; None if there is no such change nearby.
+        left_open: the largest gap over the whole motion after that.
+        linkages: what is known of each loop after that.
+    """
+
+    tolerance: float
+    size: float
+    singular_values: tuple[float, float]
+    driven: str
+    driven_to: tuple[float, float]
+    slides: bool
+    whole: bool
+    gap: tuple[float, float]
+    change: tuple[float, float] | None
+    left_open: tuple[float, float] | None
+    linkages: tuple[LoopLinkage, ...]
+
+    @property
+    def nearly_mobile(self) -> bool:
+        """Whether the whole motion takes gaps, and a mobile linkage changes, within tolerance."""
+        if not self.whole or self.change is None or self.left_open is None:
+            return False
+        amounts = (self.gap, self.change)
+        within = all(max(a, s / self.size) <= self.tolerance for a, s in amounts)
+        return within and max(self.left_open[0], self.left_open[1] / self.size) <= ROUNDING
+
+    @property
+    def first_order(self) -> float:
+        """How far the driven motion goes to first order until the gap is the tolerance."""
+        least = self.singular_values[0]
+        return self.tolerance / least if least else inf
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Labelled lines."""
+        word = "nearly mobile" if self.nearly_mobile else "not nearly mobile"
+        gap = f"the loops open by at most {_amount(self.gap)}"
+        rows = [("tolerance", f"{word} within {self.tolerance:g}: {self._motion_text()}, {gap}")]
+        if self.change is None:
+            rows.append(("change", "no small change of the axes was found that makes it mobile"))
+        else:
+            text = f"axes changed by at most {_amount(self.change)} close at {FITTED} positions"
+            if self.left_open is not None:
+                text += f", and over the motion open by at most {_amount(self.left_open)}"
+            rows.append(("change", text))
+            rows += [("then", text) for text in self._linkage_texts()]
+        least, following = self.singular_values
+        far = f"{self.first_order:.2g}" if self.first_order < 2 * pi else "a whole turn"
+        rows.append(
+            (
+                "1st order",
+                f"smallest singular value {least:.1e}, the next {following:.1e}: within "
+                f"{self.tolerance:g} it moves by {far}",
+            )
+        )
+        return rows
+
+    def _motion_text(self) -> str:
+        low, high = self.driven_to
+        unit = "" if self.slides else " rad"
+        if self.whole and not self.slides and high - low >= 2 * pi - STEP:
+            far = "through a whole turn"
+        else:
+            far = f"from {low:.3g} to {high:.3g}{unit}"
+            far += ", all that it goes" if self.whole else ", where it is not followed further"
+        return f"{self.driven} driven {far}"
+
+    def _linkage_texts(self) -> list[str]:
+        named = [x for x in self.linkages if str(x)]
+        several = len(self.linkages) > 1
+        return [f"{', '.join(x.joints)}: {x}" if several else str(x) for x in named]
+
+    def document(self) -> dict[str, Any]:
+        """The same as a JSON object."""
+        return {
+            "nearly_mobile": self.nearly_mobile,
+            "tolerance": self.tolerance,
+            "size": self.size,
+            "singular_values": list(self.singular_values),
+            "first_order": self.first_order if isfinite(self.first_order) else None,
+            "driven": self.driven,
+            "driven_to": list(self.driven_to),
+            "whole": self.whole,
+            "gap": list(self.gap),
+            "change": None if self.change is None else list(self.change),
+            "left_open": None if self.left_open is None else list(self.left_open),
+            "linkages": [
+                {"joints": list(x.joints), "linkage": x.linkage, "next_to": x.next_to}
+                for x in self.linkages
+            ],
+        }
+
+
+def _amount(pair: tuple[float, float]) -> str:
+    return f"{pair[0]:.1e} rad and {pair[1]:.1e} in length"
+
+
+def check_tolerance(tolerance: Any) -> float:
+    """A tolerance as a number.
+
+    Raises:
+        NagError: if it is none that makes sense.
+    """
+    check_type(tolerance, (int, float), "tolerance", "a number such as 1e-3")
+    value = float(tolerance)
+    if not 0 < value <= WIDEST_GAP:
+        raise NagError(f"tolerance: {value:g} is not between 0 and {WIDEST_GAP:g}")
+    return value
+
+
+def find_near_motion(mechanism: Mechanism, tolerance: float) -> NearMotion | None:
+    """The motion that a rigid mechanism would have, if its loops were let open.
+
+    Nothing is drawn at random. None if the mechanism has no loops.
+
+    Args:
+        mechanism: what is rigid; of one that moves any of its motions may be found.
+        tolerance: in radians, and as a part of the mechanism's size.
+
+    Raises:
+        NagError: if the tolerance is none.
+
+    >>> import nag
+    >>> rounded = [("0", "0", "0", "0", "0", "1"), ("1", "0", "0", "0", "-.861538", ".507692"),
+    ...     (".792543", ".574496", ".974902", ".974902", ".205104", ".086592"),
+    ...     (".833079", ".793409", "0", ".683552", "-.717730", "-.132743")]
+    >>> loop = nag.Mechanism("B0", tuple(
+    ...     nag.Joint(f"J{i}", "revolute", (f"B{(i - 1) % 4}", f"B{i}"), line[:3], line[3:])
+    ...     for i, line in enumerate(rounded)))
+    >>> found = find_near_motion(loop, 1e-5)
+    >>> found.nearly_mobile, found.whole, [str(x) for x in found.linkages]
+    (True, True, ['a Bennett linkage'])
+    """
+    tolerance = check_tolerance(tolerance)
+    chains = Chains.of(mechanism)
+    if chains is None:
+        return None
+    values, directions = chains.singular()
+    tangent = directions[-1]
+    driven = _most_moved(chains, tangent)
+    tangent = tangent if tangent[driven] > 0 else -tangent
+    walk = _follow_both_ways(chains, tangent)
+    fitted = closed = None
+    for _ in range(FITS):
+        fitted = _fit(chains, walk, max(tolerance, WIDEST_GAP / 10))
+        if fitted is None:
+            break
+        closed = _follow_both_ways(fitted, tangent)
+        if not closed.whole or max(fitted.widest_gap(closed)) > ROUNDING:
+            break
+        # Beside a linkage that moves, its motion is the better guide: motions may nearly meet.
+        walk = closed.beside(chains)
+    change, left_open, linkages = None, None, []
+    if fitted is not None and closed is not None:
+        change, left_open = chains.change_to(fitted), fitted.widest_gap(closed)
+        linkages = [_linkage_of(fitted, loop, max(change)) for loop in chains.loops]
+    widest = chains.widest_gap(walk)
+    along = walk.positions[:, driven]
+    size = chains.size
+    slides = not chains.turning[driven]
+    return NearMotion(
+        tolerance=tolerance,
+        size=size,
+        singular_values=(float(values[-1]), float(values[-2] if len(values) > 1 else inf)),
+        driven=chains.joints[chains.screws[driven].joint].name,
+        driven_to=tuple(float(x) * (size if slides else 1.0) for x in (along.min(), along.max())),
+        slides=slides,
+        whole=walk.whole,
+        gap=(widest[0], widest[1] * size),
+        change=None if change is None else (change[0], change[1] * size),
+        left_open=None if left_open is None else (left_open[0], left_open[1] * size),
+        linkages=tuple(linkages),
+    )
+
+
+def find_spoiled_motion(mechanism: Mechanism) -> str:
+    """A hint at a motion that rounding spoiled; empty where the singular values give none."""
+    chains = Chains.of(mechanism)
+    if chains is None:
+        return ""
+    values, _ = chains.singular()
+    if len(values) < 2 or not ROUNDING * HINT < values[-1] < HINT * values[-2]:
+        return ""
+    return (
+        f"the smallest singular value is {values[-1] / values[-2]:.0e} of the next: it may be that "
+        "only rounding keeps it from moving; ask for a tolerance to see how far it opens"
+    )
+
+
+@dataclass(frozen=True)
+class Screw:
+    """One turn or slide of a joint.
+
+    Attributes:
+        joint: the joint's number.
+        turns: whether it turns.
+        line: which of the joint's axes it goes with when that changes; -1 for none, as of a ball.
+    """
+
+    joint: int
+    turns: bool
+    line: int
+
+
+@dataclass(frozen=True)
+class Chains:
+    """The loops of a mechanism as products of turns and slides, in units of its size.
+
+    Attributes:
+        joints: those of the loops.
+        loops: a basis.
+        size: of the mechanism, in its own unit.
+        screws: the turns and slides of all joints.
+        axis: the unit direction of each, shape (n, 3).
+        point: a point of each, from the centre, shape (n, 3).
+        products: for each loop, numbers of its turns and slides and their signs, in order.
+    """
+
+    joints: tuple[Joint, ...]
+    loops: tuple[Loop, ...]
+    size: float
+    screws: tuple[Screw, ...]
+    axis: Array
+    point: Array
+    products: tuple[tuple[tuple[int, int], ...], ...]
+
+    @classmethod
+    def of(cls, mechanism: Mechanism) -> Chains | None:
+        """The loops of a mechanism; None if there are none."""
+        structure = loop_structure(mechanism)
+        if not structure.loops:
+            return None
+        screws: list[Screw] = []
+        axes: list[Array] = []
+        points: list[Array] = []
+        numbers: dict[str, range] = {}
+        for i, joint in enumerate(structure.joints):
+            begin = len(screws)
+            for turns, line, direction in _motions(joint):
+                screws.append(Screw(i, turns, line))
+                axes.append(direction / np.linalg.norm(direction))
+                points.append(np.array([float(x) for x in joint.point]))
+            numbers[joint.name] = range(begin, len(screws))
+        axis, point = np.array(axes), np.array(points)
+        turning = np.array([s.turns for s in screws])
+        centre = _nearest_point(axis[turning], point[turning])
+        point = point - centre
+        feet = point - np.sum(point * axis, axis=1, keepdims=True) * axis
+        for k, screw in enumerate(screws):
+            # Where a joint has one axis, any of its points is as good.
+            if len(_lines(structure.joints[screw.joint])) == 1:
+                point[k] = feet[k]
+        size = float(np.sqrt(np.mean(np.sum(feet[turning] ** 2, axis=1)))) if turning.any() else 0.0
+        if size <= ROUNDING * (1 + float(np.abs(centre).max())):
+            size = 1.0
+        return cls(
+            structure.joints,
+            structure.loops,
+            size,
+            tuple(screws),
+            axis,
+            point / size,
+            tuple(_product(loop, numbers) for loop in structure.loops),
+        )
+
+    @cached_property
+    def turning(self) -> Array:
+        """Which coordinates are angles."""
+        return np.array([s.turns for s in self.screws])
+
+    def closing(self, q: Array, axis: Array | None = None, point: Array | None = None) -> Array:
+        """How far each loop is from closed: twice its quaternion's vector, and where its centre is.
+
+        Args:
+            q: shape (..., n), real or complex.
+            axis, point: instead of the chains' own, shape (..., n, 3).
+
+        Returns:
+            shape (..., 6 loops).
+        """
+        axis = self.axis if axis is None else axis
+        point = self.point if point is None else point
+        found = []
+        for product in self.products:
+            turn, place = _displacement(q, axis, point, self.turning, product)
+            # A quaternion and its negative are one rotation.
+            sign = np.where(turn[0].real < 0, -2.0, 2.0)
+            found += [x * sign for x in turn[1:]] + list(place)
+        return np.stack(np.broadcast_arrays(*found), axis=-1)
+
+    def gap(self, q: Array) -> tuple[float, float]:
+        """The largest gap of a loop, an angle and a distance in sizes."""
+        gaps = []
+        for product in self.products:
+            turn, place = _displacement(q, self.axis, self.point, self.turning, product)
+            angle = 2 * atan2(float(np.linalg.norm(turn[1:])), abs(float(turn[0])))
+            gaps.append((angle, float(np.linalg.norm(place))))
+        return max(g[0] for g in gaps), max(g[1] for g in gaps)
+
+    def widest_gap(self, walk: Walk) -> tuple[float, float]:
+        """The largest angle and the largest distance of all gaps on a walk."""
+        gaps = [self.gap(q) for q in walk.positions]
+        return max(g[0] for g in gaps), max(g[1] for g in gaps)
+
+    def linearised(self, q: Array) -> tuple[Array, Array]:
+        """`closing` at q, and its derivative there, shape (6 loops, n)."""
+        values = self.closing(q + 1j * COMPLEX_STEP * np.eye(len(q)))
+        return values[0].real, values.imag.T / COMPLEX_STEP
+
+    def singular(self) -> tuple[Array, Array]:
+        """Singular values of the closure at the reference, one for each coordinate, and vectors."""
+        _, values, rows = np.linalg.svd(self.linearised(np.zeros(len(self.screws)))[1])
+        return np.append(values, np.zeros(len(rows) - len(values))), rows
+
+    @cached_property
+    def changes(self) -> tuple[tuple[int, int], ...]:
+        """What of the drawing can change: a joint's place, (joint, -1), or one of its axes."""
+        found: list[tuple[int, int]] = []
+        for i, joint in enumerate(self.joints):
+            if joint.of_type.turns_about_point or joint.of_type.keeps_line:
+                found.append((i, -1))
+            found += [(i, line) for line in _lines(joint)]
+        return tuple(found)
+
+    def changed_lines(self, change: Array) -> tuple[Array, Array]:
+        """Axes and points after a change, shapes (..., n, 3).
+
+        Args:
+            change: a translation of each place that can change, and a rotation by twice the arc
+                tangent of half its length of each axis, in the order of `changes`; shape
+                (..., 3 changes).
+        """
+        shape = change.shape[:-1]
+        axis = np.broadcast_to(self.axis, (*shape, *self.axis.shape)).astype(change.dtype)
+        point = np.broadcast_to(self.point, (*shape, *self.point.shape)).astype(change.dtype)
+        for k, (joint, line) in enumerate(self.changes):
+            own = change[..., 3 * k : 3 * k + 3]
+            for i, screw in enumerate(self.screws):
+                if screw.joint == joint and line < 0:
+                    point[..., i, :] += own
+                elif screw.joint == joint and screw.line == line:
+                    axis[..., i, :] = _rotate_by_half(own / 2, axis[..., i, :])
+        return axis, point
+
+    def with_change(self, change: Array) -> Chains:
+        """The same with changed axes and points."""
+        axis, point = self.changed_lines(change)
+        return Chains(self.joints, self.loops, self.size, self.screws, axis, point, self.products)
+
+    def change_to(self, other: Chains) -> tuple[float, float]:
+        """The largest angle between axes, and the largest distance between points, in sizes."""
+        crossed = np.linalg.norm(np.cross(self.axis, other.axis), axis=1)
+        angles = np.arctan2(crossed, np.sum(self.axis * other.axis, axis=1))
+        places = np.linalg.norm(self.point - other.point, axis=1)
+        return float(np.max(angles)), float(np.max(places))
+
+
+def _lines(joint: Joint) -> tuple[int, ...]:
+    """Numbers of the axes that are given of a joint."""
+    return tuple(i for i, a in enumerate((joint.axis, joint.second_axis)) if a is not None)
+
+
+def _motions(joint: Joint) -> list[tuple[bool, int, Array]]:
+    """Whether it turns, with which axis it changes, and its direction: for each screw of a joint.
+
+    The factors of `nag.mechanism.joint_factors`; a ball is three turns.
+    """
+    given = [np.array([float(x) for x in a]) for a in (joint.axis, joint.second_axis) if a]
+    found: list[tuple[bool, int, Array]] = []
+    kinds = joint.of_type.factors
+    for i, kind in enumerate(kinds):
+        number = kinds[:i].count(kind)
+        if kind == "ball":
+            found += [(True, -1, direction) for direction in np.eye(3)]
+        elif kind == "plane":
+            across = np.linalg.svd(given[0][None])[2][1:]
+            found += [(True, 0, given[0]), *((False, 0, direction) for direction in across)]
+        else:
+            found.append((kind == "turn", number, given[number]))
+    return found
+
+
+def _product(loop: Loop, numbers: dict[str, range]) -> tuple[tuple[int, int], ...]:
+    """Numbers of the turns and slides of a loop, and their signs, one after the other."""
+    found: list[tuple[int, int]] = []
+    for joint, body in zip(loop.joints, loop.bodies, strict=True):
+        own = numbers[joint.name]
+        forward = joint.bodies[0] == body
+        found += [(k, 1) for k in own] if forward else [(k, -1) for k in reversed(own)]
+    return tuple(found)
+
+
+def _nearest_point(axis: Array, point: Array) -> Array:
+    """The point whose squared distances from lines have the least sum; their mean where it moves.
+
+    Of parallel lines it is the one nearest to the mean of their points.
+    """
+    if not len(axis):
+        return np.zeros(3)
+    across = np.eye(3) - axis[:, :, None] * axis[:, None, :]
+    mean = point.mean(axis=0)
+    right = np.einsum("kij,kj->i", across, point - mean)
+    return mean + np.linalg.lstsq(across.sum(axis=0), right, rcond=ROUNDING)[0]
+
+
+def _displacement(
+    q: Array, axis: Array, point: Array, turning: Array, product: Sequence[tuple[int, int]]
+) -> tuple[list[Any], list[Any]]:
+    """A product of turns and slides: its quaternion, and where it takes the centre."""
+    turn: list[Any] = [np.ones(1)[0], 0.0, 0.0, 0.0]
+    place: list[Any] = [0.0, 0.0, 0.0]
+    for k, sign in product:
+        u = [axis[..., k, i] for i in range(3)]
+        amount = q[..., k] * sign
+        if not turning[k]:
+            moved = _rotate(turn, [amount * x for x in u])
+            place = [x + y for x, y in zip(place, moved, strict=True)]
+            continue
+        p = [point[..., k, i] for i in range(3)]
+        half = np.sin(amount / 2)
+        own = [np.cos(amount / 2), *(half * x for x in u)]
+        # The centre goes from 0 to p - R p.
+        step = [x - y for x, y in zip(p, _rotate(own, p), strict=True)]
+        place = [x + y for x, y in zip(place, _rotate(turn, step), strict=True)]
+        turn = list(multiply(turn, own))
+    return turn, place
+
+
+def _rotate(turn: Sequence[Any], vector: Sequence[Any]) -> list[Any]:
+    """R(turn) v of a unit quaternion."""
+    twice = [2 * x for x in cross(turn[1:], vector)]
+    again = cross(turn[1:], twice)
+    return [v + turn[0] * t + a for v, t, a in zip(vector, twice, again, strict=True)]
+
+
+def _rotate_by_half(half: Array, vector: Array) -> Array:
+    """Cayley's rotation, by twice the arc tangent of the length of ``half``; any numbers."""
+    crossed = np.cross(half, vector)
+    squared = np.sum(half * half, axis=-1, keepdims=True)
+    return vector + 2 / (1 + squared) * (crossed + np.cross(half, crossed))
+
+
+class End(StrEnum):
+    """Why a motion is not followed further."""
+
+    CLOSED = "it is back where it began"
+    WIDE = "the gap is wide"
+    FAR = "a slide is long"
+    LONG = "it is long"
+
+
+@dataclass(frozen=True)
+class Walk:
+    """Positions along a motion of chains that close as far as they can.
+
+    Attributes:
+        positions: shape (k, n), the reference among them.
+        tangents: the direction in which each was reached, shape (k, n).
+        ends: why it ends, for each of its ends.
+    """
+
+    positions: Array
+    tangents: Array
+    ends: tuple[End, ...]
+
+    @property
+    def whole(self) -> bool:
+        """Whether it goes around, or as far as slides are followed."""
+        return End.CLOSED in self.ends or self.ends == (End.FAR, End.FAR)
+
+    def beside(self, chains: Chains) -> Walk:
+        """The positions of other chains next to these."""
+        pairs = zip(self.positions, self.tangents, strict=True)
+        found = [close_across(chains, q, tangent) for q, tangent in pairs]
+        return Walk(np.array(found), self.tangents, self.ends)
+
+
+def follow_motion(chains: Chains, tangent: Array) -> Walk:
+    """Follow the motion that opens loops the least, from the reference on.
+
+    Each next position is the one of least squares in the plane across the direction ahead, that of
+    the last two steps extrapolated; where it turns away from that, a nearer one is looked for.
+    """
+    q = np.zeros(len(chains.screws))
+    positions, tangents = [q], [tangent]
+    bend, before, step = np.zeros(len(q)), STEP, STEP
+    left = False
+    end = End.LONG
+    while len(positions) < MOST_POSITIONS:
+        # From the middle of one step to the middle of the next.
+        towards = tangents[-1] + bend * (before + step) / 2
+        towards = towards / np.linalg.norm(towards)
+        ahead = close_across(chains, q + step * towards, towards)
+        secant = (ahead - q) / np.linalg.norm(ahead - q)
+        if secant @ towards < STRAIGHT and step > SHORTEST_STEP:
+            step /= 2
+            continue
+        bend = (secant - tangents[-1]) * 2 / (before + step)
+        q, before, step = ahead, step, min(2 * step, STEP)
+        positions.append(q)
+        tangents.append(secant)
+        if max(chains.gap(q)) > WIDEST_GAP:
+            end = End.WIDE
+            break
+        if np.abs(q[~chains.turning]).max(initial=0) > LONGEST_SLIDE:
+            end = End.FAR
+            break
+        away = np.where(chains.turning, (q + pi) % (2 * pi) - pi, q)
+        distance = np.linalg.norm(away)
+        left |= bool(distance > 3 * STEP)
+        if left and distance < 0.75 * STEP and secant @ tangent > 0:
+            end = End.CLOSED
+            break
+    return Walk(np.array(positions), np.array(tangents), (end,))
+
+
+def _follow_both_ways(chains: Chains, tangent: Array) -> Walk:
+    """The motion from the reference on, and where it does not come back, the other way too."""
+    walk = follow_motion(chains, tangent)
+    return walk if walk.whole else _join_walks(follow_motion(chains, -tangent), walk)
+
+
+def _join_walks(back: Walk, forth: Walk) -> Walk:
+    """One walk of two from the reference in opposite directions."""
+    return Walk(
+        np.vstack([back.positions[:0:-1], forth.positions]),
+        np.vstack([back.tangents[:0:-1], forth.tangents]),
+        back.ends + forth.ends,
+    )
+
+
+def close_across(chains: Chains, q: Array, tangent: Array) -> Array:
+    """The position of least squares in the plane through ``q`` across ``tangent``.
+
+    By Gauss and Newton's steps, as gaps are small.
+    """
+    across = _across(tangent)
+    for _ in range(MOST_STEPS):
+        opening, rows = chains.linearised(q)
+        step = across @ np.linalg.lstsq(rows @ across, -opening, rcond=None)[0]
+        q = q + step
+        if np.linalg.norm(step) < NO_STEP:
+            break
+    return q
+
+
+def _across(tangent: Array) -> Array:
+    """An orthonormal basis of the plane across a direction, as columns."""
+    return np.linalg.svd(tangent[None])[2][1:].T
+
+
+def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
+    """The least change of places and axes with which the loops close at a few positions.
+
+    First both closing and not changing are least squares, then what is left of the gaps is closed
+    by the shortest steps. None if that leaves gaps, or there are not as many positions with gaps of
+    at most ``widest``.
+    """
+    from scipy.optimize import least_squares
+
+    others = [i for i, q in enumerate(walk.positions) if q.any() and max(chains.gap(q)) <= widest]
+    if len(others) < FITTED:
+        return None
+    chosen = np.array(others)[np.linspace(0, len(others) - 1, FITTED).round().astype(int)]
+    positions = walk.positions[chosen]
+    across = np.array([_across(t) for t in walk.tangents[chosen]])
+    n, m = len(chains.screws), 3 * len(chains.changes)
+
+    def parts(x: Array) -> tuple[Array, Array]:
+        z = x[m:].reshape(FITTED, n - 1)
+        return x[:m], positions + np.einsum("kij,kj->ki", across, z)
+
+    def opening(x: Array) -> Array:
+        change, q = parts(x)
+        return chains.closing(q, *chains.changed_lines(change)).ravel()
+
+    def derivative(x: Array) -> Array:
+        change, q = parts(x)
+        axis, point = chains.changed_lines(change + 1j * COMPLEX_STEP * np.eye(m))
+        by_change = chains.closing(q, axis[:, None], point[:, None]).imag / COMPLEX_STEP
+        steps = q[:, None] + 1j * COMPLEX_STEP * np.eye(n)
+        by_joints = chains.closing(steps, *chains.changed_lines(change)).imag / COMPLEX_STEP
+        rows = by_change.shape[-1]
+        found = np.zeros((FITTED, rows, m + FITTED * (n - 1)))
+        found[:, :, :m] = np.moveaxis(by_change, 0, -1)
+        for k in range(FITTED):
+            at = m + k * (n - 1)
+            found[k, :, at : at + n - 1] = by_joints[k].T @ across[k]
+        return found.reshape(FITTED * rows, -1)
+
+    unchanged = np.eye(m, m + FITTED * (n - 1))
+    x = least_squares(
+        lambda x: np.concatenate([WEIGHT * opening(x), x[:m]]),
+        np.zeros(m + FITTED * (n - 1)),
+        lambda x: np.vstack([WEIGHT * derivative(x), unchanged]),
+        ftol=TINY,
+        xtol=TINY,
+        gtol=TINY,
+        max_nfev=MOST_EVALUATIONS,
+    ).x
+    for _ in range(SHORTEST_STEPS):
+        x = x - np.linalg.lstsq(derivative(x), opening(x), rcond=SMALL)[0]
+    closed = np.abs(opening(x)).max() < ROUNDING
+    return chains.with_change(x[:m]) if closed else None
+
+
+def _most_moved(chains: Chains, tangent: Array) -> int:
+    """The turn that moves most to first order; of chains that only slide, the slide."""
+    amounts = np.abs(tangent)
+    turning = chains.turning if chains.turning.any() else ~chains.turning
+    # Of equal ones the first, however they are rounded.
+    amounts = np.where(turning, amounts, 0)
+    return int(np.flatnonzero(amounts >= 0.999 * amounts.max())[0])
+
+
+def _linkage_of(chains: Chains, loop: Loop, change: float) -> LoopLinkage:
+    """What a loop is, exactly and up to a change."""
+    names = tuple(j.name for j in loop.joints)
+    if not all(j.of_type.turns_only for j in loop.joints):
+        return LoopLinkage(names, None, None)
+    places = {chains.joints[s.joint].name: i for i, s in enumerate(chains.screws)}
+    own = [places[name] for name in names]
+    axis, point = chains.axis[own], chains.point[own]
+    linkage = known_linkage(axis, point)
+    next_to = known_linkage(axis, point, max(CLOSE, MEANT * change))
+    return LoopLinkage(names, linkage, None if next_to == linkage else next_to)

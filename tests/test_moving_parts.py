@@ -1,0 +1,122 @@
+"""What moves near a configuration, and what of it by itself, is told for whole components."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from linkages import CASES
+
+import nag
+from nag.cli import main
+from nag.errors import MechanismError
+from nag.files.cases import read_case
+from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.moving_parts import MovingParts, find_moving_parts
+
+X, Y, Z = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+
+
+def mechanism(name: str) -> Mechanism:
+    found = read_case(CASES / f"{name}.toml").mechanism
+    assert found is not None
+    return found
+
+
+def parts(name: str, dimension: int, body: str | None = None, seed: int = 0) -> MovingParts:
+    return find_moving_parts(mechanism(name), dimension, np.random.default_rng(seed), None, body)
+
+
+def joint(name: str, kind: str, bodies: tuple[str, str], point: tuple, axis: tuple) -> Joint:
+    exact = [tuple(map(Fraction, v)) for v in (point, axis)]
+    return Joint(name, kind, bodies, exact[0], None if kind == "spherical" else exact[1])
+
+
+@pytest.mark.parametrize(
+    ("name", "dimension", "freedoms"),
+    [
+        ("robots/3-rrr-planar", 3, "planar motion"),
+        ("robots/3-rrr-spherical", 3, "turns about a point"),
+        ("robots/tripteron", 3, "translations"),
+        ("robots/3-upu-tsai", 3, "translations"),
+        ("robots/quadrupteron", 4, "translations and turns of one direction"),
+        ("robots/hexapod", None, "all"),
+    ],
+)
+def test_freedoms_of_a_platform_are_those_that_the_robot_was_built_for(
+    name: str, dimension: int | None, freedoms: str
+) -> None:
+    if dimension is None:
+        dimension = nag.mobility(mechanism(name), detail="local").local_dimension
+    found = parts(name, dimension, "platform").body
+    assert found is not None and found.kind == freedoms
+
+
+def test_rods_between_balls_are_idle_and_the_rest_is_not() -> None:
+    found = parts("robots/3-sps-s", 6)
+    assert [(own.bodies, own.count) for own in found.idle] == [
+        ((f"link{i}a", f"link{i}b"), 1) for i in (1, 2, 3)
+    ]
+    rod = Mechanism(
+        "base",
+        (
+            joint("A", "revolute", ("base", "crank"), (0, 0, 0), Z),
+            joint("B", "spherical", ("crank", "rod"), (1, 0, 0), Z),
+            joint("C", "spherical", ("rod", "rocker"), (3, 2, 1), Z),
+            joint("D", "revolute", ("rocker", "base"), (3, 0, 1), X),
+        ),
+    )
+    dimension = nag.mobility(rod, detail="local").local_dimension
+    moving = find_moving_parts(rod, dimension, np.random.default_rng(0))
+    assert [(own.bodies, own.count, own.turns) for own in moving.idle] == [(("rod",), 1, True)]
+    assert "rod turns about itself" in nag.mobility(rod, detail="local").sentence
+
+
+def test_joints_that_never_move_are_locked_and_their_bodies_rigid_together() -> None:
+    # A slide across the plane of a four-bar linkage, in its loop, cannot move.
+    corners = [(0, 0, 0), (0, 2, 0), (3, 3, 0), (4, 0, 0)]
+    names = ("base", "left", "top", "right")
+    turns = [
+        joint(f"T{i}", "revolute", (names[i], names[(i + 1) % 4]), corners[i], Z) for i in range(3)
+    ]
+    slide = joint("S", "prismatic", ("right", "end"), corners[3], Z)
+    last = joint("T3", "revolute", ("end", "base"), corners[3], Z)
+    made = Mechanism("base", (*turns, slide, last))
+    found = find_moving_parts(made, 1, np.random.default_rng(0), None, "end")
+    assert found.locked == ("S",) and found.together == (("right", "end"),)
+    assert found.body is not None and found.body.kind == "a turn"
+
+
+@settings(max_examples=10, deadline=None)
+@given(seed=st.integers(0, 10**6))
+def test_what_moves_does_not_depend_on_where_it_is_looked_at(seed: int) -> None:
+    one, other = parts("robots/3-rps", 3, "platform"), parts("robots/3-rps", 3, "platform", seed)
+    assert (one.idle, one.locked, one.together) == (other.idle, other.locked, other.together)
+    assert one.body is not None and other.body is not None
+    kinds = [
+        (b.screws.rank, b.screws.turning, len(b.screws.pitches)) for b in (one.body, other.body)
+    ]
+    assert kinds[0] == kinds[1] == (3, 2, 1)
+
+
+def test_the_report_names_the_body_that_is_asked_for_first(capsys) -> None:
+    report = nag.mobility(mechanism("robots/tripteron"), of="platform", detail="local")
+    assert report.sentence.startswith("platform: 3 freedoms, translations; it moves with 3 ")
+    assert report.document()["moving"]["of"]["kind"] == "translations"
+    with pytest.raises(MechanismError, match="of: 'nobody' is no body; they are B0, B1"):
+        nag.mobility(mechanism("bennett"), of="nobody")
+    assert main(["mobility", str(CASES / "bennett.toml"), "--of", "nobody", "--quiet"]) == 2
+    said = capsys.readouterr()
+    assert not said.out and said.err.startswith("nag: --of: 'nobody' is no body")
+
+
+def test_a_part_of_a_mechanism_elsewhere_is_described_there() -> None:
+    made = mechanism("robots/3-rrr-planar")
+    model = nag.model(made)
+    there = find_moving_parts(made, 3, np.random.default_rng(5), None, "platform").body
+    report = nag.mobility(made, model.reference, of="platform", detail="local")
+    assert report.moving is not None and report.moving.body is not None
+    assert there is not None and report.moving.body.kind == there.kind

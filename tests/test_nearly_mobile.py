@@ -1,0 +1,108 @@
+"""Linkages of rounded numbers are rigid, and said to be nearly the mobile ones that were meant."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from linkages import CASES
+from overconstrained_linkages import (
+    Lines,
+    assembled,
+    line_symmetric,
+    plane_symmetric,
+    rounded_loop,
+    sarrus,
+    turned,
+)
+
+import nag
+from nag.cli import main
+from nag.errors import NagError
+from nag.files.cases import read_case
+from nag.mechanism.nearly_mobile import ROUNDING, WIDEST_GAP, find_near_motion, find_spoiled_motion
+from nag.mechanism.overconstrained import known_linkage
+
+KINDS = {
+    "a Bennett linkage": lambda: assembled("bennett"),
+    "a Goldberg 5R linkage": lambda: assembled("goldberg-5r"),
+    "a trihedral Bricard linkage": lambda: assembled("bricard-trihedral"),
+    "a line-symmetric Bricard linkage": line_symmetric,
+    "a plane-symmetric Bricard linkage": plane_symmetric,
+    "a Sarrus linkage": sarrus,
+}
+
+
+def general_lines(n: int, seed: int) -> Lines:
+    rng = np.random.default_rng(seed)
+    axes = rng.standard_normal((n, 3))
+    return axes / np.linalg.norm(axes, axis=1, keepdims=True), rng.standard_normal((n, 3))
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_exact_lines_have_the_name_of_their_linkage(name: str) -> None:
+    found = known_linkage(*turned(KINDS[name]()))
+    assert found is not None and name.split()[-2] in found
+
+
+@pytest.mark.parametrize("n", [4, 5, 6])
+def test_general_lines_have_no_name(n: int) -> None:
+    assert all(known_linkage(*general_lines(n, seed)) is None for seed in range(20))
+
+
+@pytest.mark.parametrize("digits", [3, 6, 9])
+def test_a_rounded_bennett_linkage_is_rigid_and_nearly_one(digits: int) -> None:
+    loop = rounded_loop(turned(assembled("bennett")), digits)
+    tolerance = min(10.0 ** (2 - digits), WIDEST_GAP)
+    report = nag.mobility(loop, tolerance=tolerance)
+    assert report.status == "rigid" and report.near is not None
+    near = report.near
+    assert near.nearly_mobile and near.whole
+    assert [x.linkage for x in near.linkages] == ["a Bennett linkage"]
+    assert near.change is not None and near.left_open is not None
+    # Neither is more than some hundred units in the last place, and the linkage does move.
+    assert max(*near.change, *near.gap) < 100 * 10.0**-digits
+    assert max(near.left_open) < ROUNDING
+
+
+def test_gaps_within_a_smaller_tolerance_are_not_claimed() -> None:
+    made = read_case(CASES / "spatial" / "bennett-rounded.toml").mechanism
+    assert made is not None
+    wide, narrow = (find_near_motion(made, t) for t in (1e-6, 1e-8))
+    assert wide is not None and narrow is not None
+    assert wide.nearly_mobile and not narrow.nearly_mobile
+    assert 1e-8 < max(wide.gap) < 1e-6
+
+
+@pytest.mark.parametrize("n", [4, 5, 6])
+def test_general_loops_are_never_nearly_mobile(n: int) -> None:
+    for seed in range(2):
+        found = find_near_motion(rounded_loop(general_lines(n, seed), 6), 1e-3)
+        assert found is not None and not found.nearly_mobile
+
+
+def test_an_offset_of_a_hundredth_is_no_rounding() -> None:
+    axes, points = assembled("bennett")
+    loop = rounded_loop(turned((axes, points + 0.01 * np.eye(4)[:, :1] * axes[1])), 9)
+    found = find_near_motion(loop, 1e-3)
+    assert found is not None and not found.nearly_mobile
+
+
+def test_rigid_is_the_first_word_and_a_hint_follows_where_one_is_due(capsys) -> None:
+    rounded = str(CASES / "spatial" / "bennett-rounded.toml")
+    assert main(["mobility", rounded, "--quiet"]) == 0
+    said = capsys.readouterr().out
+    assert "mobility    rigid: it does not move" in said and "\nhint  " in said
+    assert main(["mobility", rounded, "--quiet", "--tolerance", "1e-6"]) == 0
+    assert "nearly mobile within 1e-06" in capsys.readouterr().out
+    general = rounded_loop(general_lines(6, 1), 6)
+    assert find_spoiled_motion(general) == ""
+
+
+def test_a_tolerance_that_makes_no_sense_is_refused(capsys) -> None:
+    made = read_case(CASES / "spatial" / "bennett-rounded.toml").mechanism
+    for wrong in (0, -1, 1, float("nan")):
+        with pytest.raises(NagError, match=r"tolerance: .* is not between 0 and 0\.03"):
+            nag.mobility(made, tolerance=wrong)
+    rounded = str(CASES / "spatial" / "bennett-rounded.toml")
+    assert main(["mobility", rounded, "--tolerance", "2"]) == 2
+    assert "is not between 0 and 0.03" in capsys.readouterr().err
