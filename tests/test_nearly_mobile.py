@@ -14,6 +14,8 @@ from overconstrained_linkages import (
     sarrus,
     turned,
 )
+from scipy.optimize import least_squares
+from scipy.spatial.transform import Rotation
 
 import nag
 from nag.cli import main
@@ -62,6 +64,68 @@ def test_a_rounded_bennett_linkage_is_rigid_and_nearly_one(digits: int) -> None:
     # Neither is more than some hundred units in the last place, and the linkage does move.
     assert max(*near.change, *near.gap) < 100 * 10.0**-digits
     assert max(near.left_open) < ROUNDING
+
+
+@pytest.mark.parametrize("digits", [3, 6, 9])
+@pytest.mark.parametrize("name", KINDS)
+def test_a_rounded_linkage_is_nearly_mobile_and_next_to_what_was_rounded(
+    name: str, digits: int
+) -> None:
+    mechanism = rounded_loop(turned(KINDS[name]()), digits)
+    found = find_near_motion(mechanism, 2 * 10.0 ** (1 - digits))
+    assert found is not None and found.nearly_mobile and found.change is not None
+    (linkage,) = found.linkages
+    assert name in (linkage.linkage, linkage.next_to)
+    # What was rounded is mobile, and no further away than that: the least change is no larger.
+    assert max(found.change) < 30 * 10.0**-digits * (1 + found.size)
+    narrow = find_near_motion(mechanism, 10.0 ** (-digits - 3))
+    assert narrow is not None and not narrow.nearly_mobile
+
+
+def opening(mechanism: nag.Mechanism, angles: np.ndarray) -> np.ndarray:
+    """Rotation vector and translation of a loop's product, by matrices."""
+    turn, place = Rotation.identity(), np.zeros(3)
+    for joint, angle in zip(mechanism.joints, angles, strict=True):
+        axis, point = (np.array([float(x) for x in v]) for v in (joint.axis, joint.point))
+        own = Rotation.from_rotvec(angle * axis / np.linalg.norm(axis))
+        place = place + turn.apply(point - own.apply(point))
+        turn = turn * own
+    return np.concatenate([turn.as_rotvec(), place])
+
+
+@pytest.mark.parametrize("digits", [3, 6])
+def test_the_gap_is_that_of_a_crank_driven_through_its_turn(digits: int) -> None:
+    """By another solver, with lengths about the origin: the same up to a small factor."""
+    mechanism = rounded_loop(turned(assembled("bennett")), digits)
+    found = find_near_motion(mechanism, 2 * 10.0 ** (1 - digits))
+    assert found is not None and found.whole
+    driven = int(found.driven[1:])
+    others = [i for i in range(4) if i != driven]
+    angles, widest = np.zeros(4), 0.0
+    for step in range(1, 64):
+        angles[driven] = 2 * np.pi * step / 64
+
+        def closing(x: np.ndarray) -> np.ndarray:
+            angles[others] = x
+            return opening(mechanism, angles)
+
+        rest = least_squares(closing, angles[others], xtol=1e-15, ftol=1e-15, gtol=1e-15).x
+        widest = max(widest, float(np.linalg.norm(closing(rest))))
+    assert widest / 3 < np.linalg.norm(found.gap) < 3 * widest
+
+
+@pytest.mark.parametrize("offset", [1e-2, 5e-2, 0.3])
+@pytest.mark.parametrize("make", [lambda: assembled("bennett"), line_symmetric, plane_symmetric])
+def test_linkages_with_an_axis_out_of_place_are_not_nearly_mobile(make, offset: float) -> None:
+    axes, points = turned(make())
+    points[0] += offset * np.cross(axes[0], axes[1]) / np.linalg.norm(axes[0])
+    found = find_near_motion(rounded_loop((axes, points), 12), 1e-3)
+    assert found is not None and not found.nearly_mobile
+
+
+def test_of_what_moves_no_near_motion_is_looked_for() -> None:
+    report = nag.mobility(read_case(CASES / "bennett.toml").mechanism, tolerance=1e-4)
+    assert report.near is None and report.status == "overconstrained"
 
 
 def test_gaps_within_a_smaller_tolerance_are_not_claimed() -> None:
