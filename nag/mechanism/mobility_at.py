@@ -214,7 +214,8 @@ def _with_parts(
             return first
         if tolerance is not None:
             return replace(first, near=find_near_motion(made.mechanism, tolerance))
-        return replace(first, hint=find_spoiled_motion(made.mechanism))
+        shaky = first.tangent_dimension != 0
+        return first if shaky else replace(first, hint=find_spoiled_motion(made.mechanism))
     places = None if at_reference else _places(made, at)
     return replace(first, moving=_moving_parts(made.mechanism, first, places, of, run))
 

@@ -66,7 +66,9 @@ class Problem:
     @property
     def reference(self) -> tuple[Number, ...] | None:
         """A configuration that is known, an exact solution."""
-        return None if self.model is None or not self.model.reference else self.model.reference
+        known = None if self.model is None else self.model.reference
+        # Other assembly modes have none; a model without unknowns has the empty one.
+        return known if known or not self.system.n else None
 
     @property
     def named(self) -> list[tuple[str, tuple[Number, ...]]]:
@@ -227,7 +229,7 @@ def check_formulation(formulation: str) -> None:
 def _of_model(made: Model) -> Problem:
     # Other assembly modes have no reference configuration.
     reference = NamedPoint("reference", tuple(made.reference), "the reference configuration")
-    points = (reference,) if made.reference else ()
+    points = (reference,) if made.reference or not made.system.n else ()
     return Problem(made.system, tuple(made.symmetries), points, model=made)
 
 
