@@ -414,7 +414,8 @@ decomposition.superset: REGULAR; decomposition.power_sums:
 EQUATIONS, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
 interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
 mechanism.framework_decomposition: ROUNDED; mechanism.inverse_kinematics: TINY, LEAST_DAMPING,
-LEAST_SHARE; mechanism.moving_parts: LENGTH, ARRIVED; mechanism.nearly_mobile: STEP,
+LEAST_SHARE; mechanism.mobility_at: LEAST_SECONDS;
+mechanism.moving_parts: LENGTH, ARRIVED; mechanism.nearly_mobile: STEP,
 SHORTEST_STEP, STRAIGHT, LONGEST_SLIDE, WEIGHT, COMPLEX_STEP, NO_STEP, TINY, SMALL;
 mechanism.operation_modes: NEARER; files.export: ROUNDED; files.json_values: AGREES;
 check.four_way: ROUNDING; report.singular: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:

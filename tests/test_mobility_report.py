@@ -325,3 +325,11 @@ def test_what_is_known_first_is_printed_first_and_once(
     after = capsys.readouterr().out.splitlines()
     assert [line.split("  ")[0] for line in after] == ["components", "mobility", "run"]
     assert {line[12] == " " for line in lines[2:] + after} == {False}
+
+
+def test_a_singular_reference_whose_decomposition_takes_too_long_is_said_to_be_open() -> None:
+    made = nag.read_case(CASES / "robots" / "3-upu-snu.toml").mechanism
+    report = nag.mobility(made)
+    assert (report.tangent_dimension, report.local_dimension, report.components) == (5, 3, None)
+    assert "8e+06 paths, more than a budget of 10 s allows" in report.open
+    assert report.status == "mobile"

@@ -27,6 +27,7 @@ from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model
 from nag.mechanism.moving_parts import MovingParts, NotClear, find_moving_parts
 from nag.mechanism.nearly_mobile import check_tolerance, find_near_motion, find_spoiled_motion
+from nag.mechanism.path_estimates import fewest_estimated_paths
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.quaternion import R
 from nag.mechanism.real_assemblies import real_doubt
@@ -39,6 +40,10 @@ from nag.witness.witness import Decomposition, WitnessSet
 # What components are known by.
 SMOOTH = "one component passes through a smooth point, and is reduced there"
 ALL_COMPONENTS = "a decomposition of all configurations"
+
+
+# Seconds that a path of a decomposition takes at least.
+LEAST_SECONDS = 1e-4
 
 
 class NoAssembly(MechanismError):
@@ -80,7 +85,8 @@ def mobility(
             there are, ``"curves"`` for genus and bonds of curves, too.
         budget: seconds that the degree may take at a smooth configuration, counted by what a common
             processor does in them, so that the answer does not depend on the time that is taken;
-            what is not known then is bounded from below.
+            what is not known then is bounded from below. At a singular one nothing is decomposed
+            that is sure to take longer.
         of: the name of a body whose freedoms are asked for, of a mechanism at a smooth
             configuration.
         tolerance: of a mechanism that is rigid as it is given, how far its loops may open, in
@@ -262,6 +268,13 @@ def _with_components(
     """A report, and the components through the configuration."""
     if detail == "through" and first.local.smooth:
         return _with_only_component(first, problem, budget, run)
+    paths = fewest_estimated_paths(problem.system)
+    if detail == "through" and not first.local.smooth and paths * LEAST_SECONDS > budget:
+        reason = (
+            f"the configuration is singular, and a decomposition takes some {paths:.0e} paths, "
+            f"more than a budget of {budget:g} s allows"
+        )
+        return replace(first, open=reason)
     through, doubt = _components(problem, zero_at(problem.system, at, first.local), run)
     if through is None and first.local.smooth:
         only = _with_only_component(first, problem, budget, run)
