@@ -13,10 +13,9 @@ from nag.numerics import deflation
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.deflation import NotDeflated, deflate
 from nag.numerics.descent import Round, descend
-from nag.numerics.digits import DIGITS, log_norm, working_digits
+from nag.numerics.digits import BITS, DIGITS, log_norm, working_digits
 from nag.numerics.exact_system import ExactSystem
-from nag.numerics.newton import find_zero
-from nag.numerics.second_round import SecondRound
+from nag.numerics.newton import find_zero, move_point
 from nag.numerics.sharpening import ARRIVED
 
 QUARTICS = "x^4 - 2*y^2*z^2 + x^5, y^4 + 3*x*z^3 - z^5, z^4 - x^2*y*z + y^6"
@@ -85,27 +84,16 @@ def test_deflation_of_no_equations_comes_to_an_end() -> None:
     assert found.notes == ("a point of dimension 1 led to no component",)
 
 
-@pytest.mark.parametrize("left", [0, 1])
-def test_newton_s_step_of_two_rounds_is_the_same_by_jacobians_and_by_series(left: int) -> None:
-    """But for terms of second order in the error of the point, and half of the digits."""
+@pytest.mark.parametrize("order", [1, 2])
+def test_a_step_by_series_raises_the_error_to_a_power_one_above_their_order(order: int) -> None:
     given = ("w + x^2 - y*z + w^3", "x^2 - 2*y^2 + 3*z*w", "x*y + w^2 + z*x - z^2")
     system = ExactSystem.of(polynomials("x y z w", *given), np.zeros(4))
-    rounds = [Round((0,), (3,), 2), Round((2, 1, 3)[left:], (0, 1, 2)[left:])]
-    with working_digits(DIGITS):
-        point = [flint.acb(f"{c}e-40") for c in (1, -2, 3, 1)]
-        newton = SecondRound.of(system.values_at(DIGITS), len(system.rows), rounds)
-        assert newton is not None
-        found, series = newton.step(point), descend(system, DIGITS, point, rounds, 1)
-    assert found is not None and series is not None
-    pairs = list(zip(found.displacement, series.displacement, strict=True))
-    assert -41 < log_norm(b for _, b in pairs) < -39
-    assert log_norm(a - b for a, b in pairs) < -78
-
-
-def test_rounds_of_other_orders_are_left_to_series() -> None:
-    functions = ExactSystem.of(polynomials("x y", "x + y^3", "y^4"), np.zeros(2)).values_at(DIGITS)
-    for rounds in ([Round((0,), (0,), 3), Round((1,), (0,))], [Round((0,), (0,), 2)]):
-        assert SecondRound.of(functions, 2, rounds) is None
+    rounds = [Round((0,), (3,), 2), Round((2, 1, 3), (0, 1, 2))]
+    point = [flint.acb(c) * flint.arb(10) ** -40 for c in (1, -2, 3, 1)]
+    found = descend(system, DIGITS, point, rounds, order)
+    assert found is not None
+    left = move_point(point, found.displacement, BITS)
+    assert -2 < log_norm(left) + 40 * (order + 1) < 2
 
 
 def test_rows_added_to_equations_have_their_values_and_slopes_after_theirs() -> None:

@@ -6,7 +6,7 @@ and `system_facts` (what exact algebra says of a system); `digits`, `ball_polyno
 `precise_point` (balls), `power_series`; `ball_ranks` and `double_ranks` (ranks); `exact_system` and
 `algebraic_point` (exact points, modulo primes); `implicit_function` (the regular part of equations
 solved by series); `deflation` (a singular zero made a regular one) by `descent` and `sharpening`,
-with `second_round` and `rounds_in_doubles`; `dual_space` (the dimension of its local ring),
+with `rounds_in_doubles`; `dual_space` (the dimension of its local ring),
 `far_along`, `curves` and `clusters` on `series_zeros` (zeros beside it); `singular_point` on
 `local_structure` (all of it together); `zero_values` (what is zero at the zero that a point stands
 for); `branch_union` (what the branches of factored equations leave, joined without repeats);

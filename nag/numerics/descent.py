@@ -16,7 +16,7 @@ import flint
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import in_bits, log_norm, middle
 from nag.numerics.exact_system import ExactSystem, PointValues
-from nag.numerics.implicit_function import eliminate
+from nag.numerics.implicit_function import CONSTANT_STEPS, eliminate
 from nag.numerics.newton import inverse_of, newton_step
 from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives, evaluate
 
@@ -175,7 +175,11 @@ def _descend(
 ) -> Descent | None:
     this = rounds[0]
     total = total_order(rounds, order)
-    reduction = eliminate(rows, centre, this.rows, this.columns, total, at_points=at_points)
+    # Series of this order make the square, or the cube, of an error: so the constants must.
+    steps = min(order, CONSTANT_STEPS)
+    reduction = eliminate(
+        rows, centre, this.rows, this.columns, total, at_points=at_points, steps=steps
+    )
     if reduction is None:
         return None
     ring, rest = reduction.ring, reduction.rest

@@ -181,6 +181,7 @@ def eliminate(
     order: int,
     modulus: int = 0,
     at_points: PointValues | None = None,
+    steps: int = CONSTANT_STEPS,
 ) -> SeriesReduction | None:
     """Solve the equations ``solved`` for the variables ``columns`` as series in the others.
 
@@ -193,6 +194,7 @@ def eliminate(
         modulus: a prime, for arithmetic modulo it.
         at_points: the same rows as functions, where they are known so: a faster way to their
             values and slopes.
+        steps: of Newton's method for the values of ``columns``.
 
     Returns:
         None if the block of the Jacobian is singular.
@@ -208,7 +210,7 @@ def eliminate(
         )
     chosen = [rows[i] for i in solved]
     functions = at_points or _Rows(rows, modulus)
-    found = _at_centre(functions, centre, solved, columns, modulus)
+    found = _at_centre(functions, centre, solved, columns, modulus, steps)
     if found is None:
         return None
     centre, gradients, inverse = found
@@ -266,10 +268,11 @@ def _at_centre(
     solved: Sequence[int],
     columns: Sequence[int],
     modulus: int,
+    steps: int,
 ) -> tuple[list[Any], Matrix, Matrix] | None:
     """The corrected centre, the Jacobian there, and the inverse of its block."""
     x = list(centre)
-    for steps_left in range(CONSTANT_STEPS, -1, -1):
+    for steps_left in range(steps, -1, -1):
         gradients = functions.jacobian(x)
         inverse = _inverse([[gradients[i][j] for j in columns] for i in solved], modulus)
         if inverse is None:
@@ -278,10 +281,10 @@ def _at_centre(
             break
         values = functions.values(x)
         column = [{0: values[i]} if values[i] else {} for i in solved]
-        steps = [value.get(0, 0) for value in product_of(inverse, column, modulus)]
-        for j, step in zip(columns, steps, strict=True):
+        moves = [value.get(0, 0) for value in product_of(inverse, column, modulus)]
+        for j, step in zip(columns, moves, strict=True):
             x[j] = (x[j] - step) % modulus if modulus else middle(x[j] - flint.acb(step))
-        if not any(steps) or (not modulus and log_norm(steps) < _rounding(inverse)):
+        if not any(moves) or (not modulus and log_norm(moves) < _rounding(inverse)):
             break
     return x, gradients, inverse
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import inf
-from typing import Protocol, TypeVar
 
 import flint
 
@@ -13,7 +12,6 @@ from nag.numerics.digits import BITS, DIGITS, bits_of, log_norm
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import find_zero, move_point
 from nag.numerics.power_series import SeriesRing
-from nag.numerics.second_round import SecondRound
 
 # What vanishes at a singular point, of `DIGITS` digits, stays below 10^ZERO, relative to
 # coefficients of one; Newton's method has arrived when its step is below 10^ARRIVED.
@@ -32,34 +30,20 @@ ROUNDING = 10.0
 NEARLY = 0.4
 
 
-class Step(Protocol):
-    """A step of Newton's method for rounds: what is added, and the largest inverse's logarithm."""
-
-    displacement: Point
-    inverse: float
-
-
-S = TypeVar("S", bound=Step)
-
-
 def sharpen(
     system: ExactSystem, x: Sequence[flint.acb], rounds: Sequence[Round], digits: int = DIGITS
 ) -> tuple[Point, Descent] | None:
     """The zero of the rounds' equations next to ``x``, by Newton's method; None if not found.
 
-    It starts in `DIGITS` digits, and doubles them until they are as many as asked for.
+    Where more digits are asked for than points are judged in, they are doubled from twice as many
+    at most: each step doubles those that are known.
     """
     if len(rounds) == 1:
         return _sharpen_block(system, list(x), rounds[0], digits)
     found: tuple[Point, Descent] | None = None
     point = list(x)
     for stage in _stages(digits):
-        last = stage == digits
-        near = _sharpen_without_series(system, point, rounds, stage)
-        if near is not None and not last:
-            point = near
-            continue
-        found = _sharpen_by_series(system, near or point, rounds, stage, last, near is not None)
+        found = _sharpen_by_series(system, point, rounds, stage, stage == digits)
         if found is None:
             return None
         point = found[0]
@@ -68,8 +52,8 @@ def sharpen(
 
 def _stages(digits: int) -> list[int]:
     stages = [digits]
-    while stages[0] > DIGITS:
-        stages.insert(0, max(DIGITS, stages[0] // 2))
+    while stages[0] > 2 * DIGITS:
+        stages.insert(0, stages[0] // 2)
     return stages
 
 
@@ -93,30 +77,30 @@ def _sharpen_block(
     return point, Descent(displacement, ring, remaining, log_norm(rest), inverse)
 
 
-def _sharpen_without_series(
-    system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int
-) -> Point | None:
-    """The zero without series, where there is such a way and it leads there."""
-    newton = SecondRound.of(system.values_at(digits), len(system.rows), rounds)
-    if newton is None:
-        return None
-    found = _follow_steps(newton.step, x, digits, True)
-    return None if found is None else found[0]
-
-
 def _sharpen_by_series(
-    system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int, last: bool, there: bool
+    system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int, last_stage: bool
 ) -> tuple[Point, Descent] | None:
-    """The zero by series; ``there``: whether ``x`` is one already, as far as can be told."""
-    # The steps converge quadratically with series of order one in the last round, and cubically,
-    # but at the price of longer series, with order two.
-    order = 1 if there or len(x) - len(rounds[0].columns) > 2 else 2
-    return _follow_steps(lambda y: descend(system, digits, y, rounds, order), x, digits, last)
+    """The zero by series of all rounds, and what they say there; None if it is not found.
+
+    With series of order one in the last round steps converge quadratically. Those of order two are
+    longer: with them Newton's method converges from further away, and cubically.
+    """
+    few = len(x) - len(rounds[0].columns) <= 2
+    for order in (1, 2) if few else (1,):
+        found = _follow_steps(system, x, rounds, digits, order, last_stage)
+        if found is not None:
+            return found
+    return None
 
 
 def _follow_steps(
-    step: Callable[[Point], S | None], x: Point, digits: int, last_stage: bool
-) -> tuple[Point, S] | None:
+    system: ExactSystem,
+    x: Point,
+    rounds: Sequence[Round],
+    digits: int,
+    order: int,
+    last_stage: bool,
+) -> tuple[Point, Descent] | None:
     """Where steps of Newton's method lead, and the last of them; None if they do not converge.
 
     Args:
@@ -124,7 +108,7 @@ def _follow_steps(
     """
     last, point = inf, x
     for count in range(NEWTON_STEPS):
-        found = step(point)
+        found = descend(system, digits, point, rounds, order)
         if found is None or found.inverse > LARGEST_INVERSE:
             return None
         size = log_norm(found.displacement)
