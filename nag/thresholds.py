@@ -418,6 +418,6 @@ LEAST_SHARE; mechanism.mobility_at: LEAST_SECONDS;
 mechanism.moving_parts: LENGTH, ARRIVED; mechanism.nearly_mobile: STEP,
 SHORTEST_STEP, STRAIGHT, LONGEST_SLIDE, WEIGHT, COMPLEX_STEP, NO_STEP, TINY, SMALL;
 mechanism.operation_modes: NEARER; files.export: ROUNDED; files.json_values: AGREES;
-check.four_way: ROUNDING; report.singular: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:
+check.four_way: ROUNDING; decomposition.shown: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:
 PATIENCE; cli.running: INTERVAL.
 """

@@ -26,13 +26,19 @@ from nag.check.mechanisms import (
 )
 from nag.check.mechanisms import four_ways as mechanism_ways
 from nag.check.planar_mechanism import equal_sides
-from nag.check.statement import Statement, Verdict, VerdictKind, statement
+from nag.check.statement import (
+    DecidedStatement,
+    Statement,
+    Verdict,
+    VerdictKind,
+    statement,
+    summary,
+)
 from nag.check.subjects import BENNETT, SUBJECTS, recognised, same_mechanism
 from nag.cli import main
 from nag.files.cases import read_case
 from nag.mechanism.mobility_at import mobility
 from nag.mechanism.model import model
-from nag.report.statements import is_as_expected, summary
 
 ROOT = Path(__file__).parent.parent
 CASES = ROOT / "cases"
@@ -47,7 +53,7 @@ def decomposed(system):
 def test_every_statement_of_the_papers_is_decided_exactly(subject: str) -> None:
     for s in SUBJECTS[subject].statements:
         verdict = s.verdict()
-        assert is_as_expected(s, verdict), (s.place, s.text, verdict)
+        assert DecidedStatement(s, verdict).is_as_expected, (s.place, s.text, verdict)
         assert verdict.kind in (VerdictKind.EXACT, VerdictKind.FAILS)
         assert verdict.how
         assert bool(verdict.counterexample) is (verdict.kind is VerdictKind.FAILS)
@@ -92,10 +98,11 @@ def test_a_known_misprint_that_holds_is_not_settled() -> None:
     def one() -> Verdict:
         return Verdict(VerdictKind.EXACT, "counted")
 
-    assert not is_as_expected(one, one.verdict())
-    assert is_as_expected(replace(one, misprint=False), one.verdict())
-    assert not is_as_expected(one, Verdict(VerdictKind.OPEN, "too large"))
-    pairs = [(replace(one, misprint=False), Verdict(VerdictKind.FAILS, "", "x = 0"))]
+    assert not DecidedStatement(one, one.verdict()).is_as_expected
+    assert DecidedStatement(replace(one, misprint=False), one.verdict()).is_as_expected
+    assert not DecidedStatement(one, Verdict(VerdictKind.OPEN, "too large")).is_as_expected
+    fails = Verdict(VerdictKind.FAILS, "", "x = 0")
+    pairs = [DecidedStatement(replace(one, misprint=False), fails)]
     assert summary(pairs).endswith("1 fail and are not in cases/ERRATA.md")
 
 

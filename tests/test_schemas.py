@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Callable, Iterator
+import pkgutil
+from collections.abc import Callable, Iterator, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -110,14 +112,43 @@ def described(value: Any, node: dict, root: dict) -> Iterator[tuple[int, str]]:
 
 
 @pytest.fixture(scope="module")
-def written(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, int], list[Any]]:
+def asked(written_and_asked: tuple[Any, set[type]]) -> set[type]:
+    """Classes whose documents are in what the commands write."""
+    return written_and_asked[1]
+
+
+@pytest.fixture(scope="module")
+def written(written_and_asked: tuple[Any, set[type]]) -> dict[tuple[str, int], list[Any]]:
+    """What the commands write, by format and version."""
+    return written_and_asked[0]
+
+
+@pytest.fixture(scope="module")
+def written_and_asked(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, set[type]]:
+    asked: set[type] = set()
+
+    def recorded(made: type, document: Callable[..., Any]) -> Callable[..., Any]:
+        def tell(self: Any, *given: Any, **named: Any) -> Any:
+            asked.add(made)
+            return document(self, *given, **named)
+
+        return tell
+
+    with pytest.MonkeyPatch.context() as patch:
+        for made in classes_with_documents():
+            patch.setattr(made, "document", recorded(made, vars(made)["document"]))
+        return write_everything(tmp_path_factory), asked
+
+
+def write_everything(
+    tmp_path_factory: pytest.TempPathFactory,
+) -> dict[tuple[str, int], list[Any]]:
     """What the commands write, by format and version."""
     folder = tmp_path_factory.mktemp("written")
     found: dict[tuple[str, int], list[Any]] = {}
 
-    def ask(*words: str, running: bool = True) -> str:
+    def ask(*words: str, rest: Sequence[str] = ("--quiet", "--threads", "1")) -> str:
         target = folder / f"{len(list(folder.iterdir()))}.json"
-        rest = ["--quiet", *(["--threads", "1"] if running else [])]
         assert main([*words, *rest, "--json", str(target)]) in (0, 1)
         content = json.loads(target.read_text())
         found.setdefault((content["format"], content["version"]), []).append(content)
@@ -150,10 +181,29 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, int], l
     found["nag-operation-modes", 1].append(
         {**found["nag-operation-modes", 1][0], "spurious": SPURIOUS}
     )
-    ask("certify", export, "--paths", running=False)
-    ask("certify", solved, "--paths", running=False)
+    ask("certify", export, "--paths", rest=["--quiet"])
+    ask("certify", solved, "--paths", rest=["--quiet"])
+    for case in (whole, linkage, str(CASES / "spatial" / "rssr.toml")):
+        ask("model", case, rest=[])
+    ask("check", str(CASES / "four-bar.toml"))
     found["nag-decomposition", 2].append(json.loads(json.dumps(nag.decompose(SHEETS).document())))
     return found
+
+
+def classes_with_documents() -> list[type]:
+    """Those of results; what benchmarks write is read by the benchmarks alone."""
+    found = []
+    for module in pkgutil.walk_packages(nag.__path__, "nag."):
+        if not module.name.startswith(("nag.bench", "nag.cli", "nag.__main__")):
+            loaded = vars(import_module(module.name)).values()
+            found += [c for c in loaded if isinstance(c, type) and "document" in vars(c)]
+    return list(dict.fromkeys(found))
+
+
+def test_every_document_of_a_result_is_held_to_a_schema(asked: set[type]) -> None:
+    classes = classes_with_documents()
+    assert len(classes) > 20
+    assert [c.__name__ for c in classes if c not in asked] == []
 
 
 @pytest.mark.parametrize(("name", "version"), FORMATS)

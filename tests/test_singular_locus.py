@@ -24,7 +24,6 @@ from nag.decomposition.reduction import Reduction
 from nag.decomposition.singular_points import SingularLocus, singular_locus
 from nag.files.json_schema import schema
 from nag.numerics.tangent_cone import tangent_cone
-from nag.report.singular import set_lines
 from nag.tracking.run import Run
 
 
@@ -224,10 +223,10 @@ def test_it_is_said_that_a_tangent_cone_has_equations_of_higher_degree() -> None
     """The cone of x y = 0, z^3 = x^4 + y^4 is x y = 0, z^3 = 0."""
     equations = ["x*y", "z^3 - x^4 - y^4"]
     (origin,) = singular_locus(nag.decompose(equations)).sets
-    lines = [text for _, text in set_lines(origin, "xyz")]
+    lines = [text for _, text in origin.rows("xyz")]
     assert any("x*y = 0" in text and "further equations" in text for text in lines)
     (node,) = singular_locus(nag.decompose("y^2 - x^2*(x + 1)")).sets
-    assert not any("further" in text or "not found" in text for _, text in set_lines(node, "xy"))
+    assert not any("further" in text or "not found" in text for _, text in node.rows("xy"))
 
 
 def test_equations_of_the_tangent_space_are_those_of_first_order() -> None:

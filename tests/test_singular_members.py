@@ -12,7 +12,6 @@ import nag
 from nag.cli import main
 from nag.decomposition import singular_parameters
 from nag.decomposition.singular_members import SingularParameters
-from nag.report.singular import parameter_rows
 from nag.witness.witness import PathCounts
 
 # Equations, variables with the parameters last, how many these are, and for each set of parameters
@@ -140,7 +139,7 @@ def test_singular_points_that_are_excluded_do_not_count(nonzero: str, expected: 
 @pytest.mark.parametrize("complete", [False, True])
 def test_no_parameters_are_named_where_nothing_is_known(complete: bool) -> None:
     notes = () if complete else ("paths failed",)
-    rows = parameter_rows(SingularParameters(("a",), (), PathCounts(), complete, notes))
+    rows = SingularParameters(("a",), (), PathCounts(), complete, notes).rows()
     assert (("singular", "for no parameters") in rows) is complete
 
 

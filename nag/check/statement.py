@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 from nag.algebra.groebner import UnfinishedBasis
+from nag.text.table import label_lines, printable
+
+ERRATA = "cases/ERRATA.md"
 
 
 class VerdictKind(StrEnum):
@@ -57,6 +61,77 @@ class Statement:
             return self.decide()
         except UnfinishedBasis as error:
             return Verdict(VerdictKind.OPEN, str(error))
+
+
+@dataclass(frozen=True)
+class DecidedStatement:
+    """A statement and what became of it."""
+
+    statement: Statement
+    verdict: Verdict
+
+    @property
+    def label(self) -> str:
+        """The answer in a few words."""
+        if self.verdict.digits is not None:
+            return f"holds to {self.verdict.digits} digits"
+        if self.is_known_misprint:
+            return "fails, misprint"
+        return str(self.verdict.kind)
+
+    @property
+    def is_known_misprint(self) -> bool:
+        """Whether it fails, as `ERRATA` says."""
+        return self.statement.misprint and self.verdict.kind is VerdictKind.FAILS
+
+    @property
+    def is_as_expected(self) -> bool:
+        """Whether it is decided, and a failure is one of the known misprints."""
+        if self.verdict.kind is VerdictKind.OPEN:
+            return False
+        return (self.verdict.kind is VerdictKind.FAILS) == self.statement.misprint
+
+    def row(self) -> tuple[str, str]:
+        """The answer; place, text, and what the answer rests on."""
+        text = f"{self.statement.place}: {self.statement.text} [{self.verdict.how}]"
+        if self.verdict.counterexample:
+            text += f"; counterexample: {self.verdict.counterexample}"
+        return self.label, printable(text)
+
+    def document(self) -> dict[str, Any]:
+        """The statement and its answer as a JSON object."""
+        return {
+            "place": self.statement.place,
+            "text": self.statement.text,
+            "misprint": self.statement.misprint,
+            "verdict": str(self.verdict.kind),
+            "how": self.verdict.how,
+            "counterexample": self.verdict.counterexample,
+            "digits": self.verdict.digits,
+        }
+
+
+def summary(decided: Sequence[DecidedStatement]) -> str:
+    """Counts of the answers."""
+    kinds = [one.verdict.kind for one in decided]
+    known = sum(one.is_known_misprint for one in decided)
+    parts = [
+        f"{kinds.count(VerdictKind.EXACT)} hold exactly",
+        f"{kinds.count(VerdictKind.NUMERICAL)} hold numerically",
+        f"{known} fail as {ERRATA} says",
+    ]
+    unknown = kinds.count(VerdictKind.FAILS) - known
+    if unknown:
+        parts.append(f"{unknown} fail and are not in {ERRATA}")
+    if kinds.count(VerdictKind.OPEN):
+        parts.append(f"{kinds.count(VerdictKind.OPEN)} are not decided")
+    return f"{len(decided)} statements: {', '.join(parts)}"
+
+
+def section_lines(title: str, decided: Sequence[DecidedStatement]) -> list[str]:
+    """A title and its statements."""
+    lines = label_lines([one.row() for one in decided], len("holds numerically"))
+    return [printable(title), "", *lines, ""]
 
 
 def statement(

@@ -94,6 +94,11 @@ def add_formulation(parser: argparse.ArgumentParser) -> None:
 def add_running(parser: argparse.ArgumentParser) -> None:
     """The options of every command that tracks paths and exports its answer."""
     add_tracking(parser)
+    add_json(parser)
+
+
+def add_json(parser: argparse.ArgumentParser) -> None:
+    """The option of every command that exports its answer."""
     parser.add_argument("--json", metavar="FILE", help="write the answer to FILE as JSON")
 
 

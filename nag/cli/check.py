@@ -5,11 +5,13 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_parameters, add_tracking, read_case_file
-from nag.cli.running import CommandAnswer, Progress, chosen_run, run_row
+from nag.cli.arguments import UsageError, add_parameters, add_running, read_case_file
+from nag.cli.running import CommandAnswer, Progress, chosen_run, document_head, name_case, run_row
 
 if TYPE_CHECKING:
-    from nag.check.statement import Statement, Verdict
+    from nag.check.statement import DecidedStatement, Statement
+
+FORMAT = "nag-statements"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -19,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--all", action="store_true", help="all statements of both papers")
     add_parameters(parser)
-    add_tracking(parser)
+    add_running(parser)
 
 
 def run(options: argparse.Namespace) -> CommandAnswer:
@@ -32,13 +34,23 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     sections = _sections(case, options)
     decided = [(title, _decide(title, rows, options.progress)) for title, rows in sections]
 
-    from nag.report.statements import is_as_expected, section, summary
+    from nag.check.statement import section_lines, summary
     from nag.text.table import label_lines
 
-    lines = [line for title, pairs in decided for line in section(title, pairs)]
-    pairs = [pair for _, rows in decided for pair in rows]
-    lines += label_lines([("answer", summary(pairs)), run_row(options)])
-    return CommandAnswer(lines, all(is_as_expected(*pair) for pair in pairs))
+    lines = [line for title, rows in decided for line in section_lines(title, rows)]
+    everything = [one for _, rows in decided for one in rows]
+    lines += label_lines([("answer", summary(everything)), run_row(options)])
+    complete = all(one.is_as_expected for one in everything)
+    document = document_head(FORMAT, None if case is None else name_case(case)) | {
+        "seed": options.seed,
+        "settings": options.settings,
+        "complete": complete,
+        "sections": [
+            {"title": title, "statements": [one.document() for one in rows]}
+            for title, rows in decided
+        ],
+    }
+    return CommandAnswer(lines, complete, lambda: document)
 
 
 def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[Statement, ...]]]:
@@ -64,10 +76,12 @@ def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[S
 
 def _decide(
     title: str, statements: tuple[Statement, ...], progress: Progress | None
-) -> list[tuple[Statement, Verdict]]:
+) -> list[DecidedStatement]:
+    from nag.check.statement import DecidedStatement
+
     decided = []
     for i, statement in enumerate(statements):
         if progress is not None:
             progress(title, i, len(statements))
-        decided.append((statement, statement.verdict()))
+        decided.append(DecidedStatement(statement, statement.verdict()))
     return decided

@@ -153,7 +153,7 @@ def _all_modes(arguments: argparse.Namespace, case: Case) -> CommandAnswer:
     """Decompose one combination of modes of each class, as `run` does the one of the reference."""
     from nag.mechanism.mode_decomposition import decompose_modes
     from nag.mechanism.model import ModelError
-    from nag.report.modes import modes_lines
+    from nag.mechanism.shown import modes_lines
 
     try:
         answer = decompose_modes(

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from nag.mechanism.problem import Problem
     from nag.witness.witness import WitnessSet
 
-FORMAT = "nag-elimination"
 MOST_DEGREE = 100
 
 
@@ -73,13 +72,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError("--at: --component names a component already; give one of the two")
     from nag.interpolation.image_ideal import image_ideal
     from nag.interpolation.precise_samples import SourceError
+    from nag.interpolation.shown import checked_row, elimination_lines
     from nag.interpolation.vanishing import InterpolationError, NotRationalError
-    from nag.report.elimination import (
-        checked_row,
-        elimination_document,
-        elimination_lines,
-        head_rows,
-    )
 
     try:
         case, cloud, top, tail, alike = _begin(options)
@@ -97,10 +91,9 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError(f"{options.case}: {error}") from None
     complete = not found.note and not tail
     tail = [*([("open", found.note)] if found.note else []), *tail, checked_row(found)]
-    fields = {"format": FORMAT, **elimination_document(found)}
-    blocks = [*top, *head_rows(found)], elimination_lines(found)
+    blocks = [*top, *found.rows()], elimination_lines(found)
     said = f"coefficients recognised in {found.digits} digits" if found.digits else ""
-    return answer_of(options, case, blocks, tail, fields, complete, said=said)
+    return answer_of(options, case, blocks, tail, found.document(), complete, said=said)
 
 
 def _possible_conjugates(

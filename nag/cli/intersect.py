@@ -9,7 +9,6 @@ from nag.cli.arguments import UsageError
 from nag.cli.running import CommandAnswer, answer_of, chosen_run
 from nag.cli.witness_input import (
     add_input,
-    component_facts,
     component_number,
     component_of,
     numbered_row,
@@ -51,7 +50,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     fields = {
         "format": FORMAT,
         "notes": list(result.notes),
-        "of": [{"number": n, **component_facts(c)} for n, c in numbered],
+        "of": [c.facts(n) for n, c in numbered],
         "paths": asdict(result.paths),
         "system": {"variables": list(variables), "polynomials": result.system.text()},
         "components": [c.document(variables) for c in result.components],

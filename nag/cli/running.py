@@ -71,7 +71,7 @@ def answer_of(
     from nag.text.table import sheet
 
     chosen = {name: getattr(options, name) for name in rests_on}
-    head = {"format": fields["format"], "version": 1, "case": {"title": case[0], "file": case[1]}}
+    head = document_head(fields["format"], case)
     document = head | chosen | {"complete": complete} | fields
     lines = sheet(case[0], *blocks, [*tail, run_row(options, rests_on, said)], width=width)
     return CommandAnswer(lines[options.said :], complete, lambda: document)
@@ -93,6 +93,12 @@ def say_first(
         options.progress.erase()
     options.write(lines[options.said :])
     options.said = len(lines)
+
+
+def document_head(name: str, case: tuple[str, str] | None) -> dict[str, Any]:
+    """How the document of a format begins, for a case by its title and file."""
+    named = None if case is None else {"title": case[0], "file": case[1]}
+    return {"format": name, "version": 1, "case": named}
 
 
 def name_case(case: Case) -> tuple[str, str]:

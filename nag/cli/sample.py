@@ -3,28 +3,20 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from nag.cli.arguments import whole
 from nag.cli.running import CommandAnswer, answer_of, chosen_run
 from nag.cli.witness_input import (
     add_component,
     add_input,
-    component_facts,
     component_of,
     doubt_rows,
     numbered_row,
     read_components,
 )
 
-if TYPE_CHECKING:
-    from nag.witness.sampling import Samples
-
 FORMAT = "nag-samples"
 MOST_SAMPLES = 1_000_000
-# Longer lists and wider points are left to the export.
-MOST_ROWS, MOST_COLUMNS = 20, 4
 
 
 def _count(text: str) -> int:
@@ -44,9 +36,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> CommandAnswer:
     """Points of a component."""
-    from nag.text.json_text import pairs
-    from nag.text.table import magnitude
+    from nag.text.table import align, magnitude
     from nag.witness.sampling import SamplingError, sample
+    from nag.witness.shown import MOST_SAMPLES as SHOWN
 
     found = read_components(options)
     component = component_of(found, options.component, "--component")
@@ -56,31 +48,17 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         doubt = ""
     except SamplingError as error:
         samples, doubt = error.found, str(error)
-    more = len(samples.points) - MOST_ROWS
-    tail = [("points", f"{len(samples.points)}, the first {MOST_ROWS} are shown")] * (more > 0)
+    more = len(samples.points) - SHOWN
+    tail = [("points", f"{len(samples.points)}, the first {SHOWN} are shown")] * (more > 0)
     accuracy = f"{magnitude(samples.residual)}, accuracy {magnitude(samples.accuracy)}"
     tail += [("residual", accuracy), *([("open", doubt)] if doubt else []), *doubt_rows(found)]
     fields = {
         "format": FORMAT,
         "variables": list(system.variables),
-        "component": {"number": options.component, **component_facts(component)},
-        "residual": samples.residual,
-        "accuracy": samples.accuracy,
-        "points": pairs(samples.points),
+        "component": component.facts(options.component),
+        **samples.document(),
     }
-    blocks = [numbered_row(options.component, component)], _table(samples, system.variables)
+    blocks = [numbered_row(options.component, component)], align(samples.rows(system.variables))
     # A point of a component needs no other component to be known.
     complete = str(component.status) == "irreducible" and not doubt
     return answer_of(options, found.case, blocks, tail, fields, complete)
-
-
-def _table(samples: Samples, variables: Sequence[str]) -> list[str]:
-    """The first points in their first coordinates."""
-    from nag.text.table import align
-
-    dots = ["..."] if len(variables) > MOST_COLUMNS else []
-    rows = [["point", *variables[:MOST_COLUMNS], *dots]]
-    for i, point in enumerate(samples.points[:MOST_ROWS]):
-        cells = [f"{z.real:.6f}{z.imag:+.6f}i" for z in point[:MOST_COLUMNS]]
-        rows.append([str(i + 1), *cells, *dots])
-    return align(rows)

@@ -9,7 +9,6 @@ from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
 from nag.cli.witness_input import (
     add_component,
     add_input,
-    component_facts,
     component_of,
     doubt_rows,
     is_export,
@@ -18,7 +17,6 @@ from nag.cli.witness_input import (
 )
 
 FORMAT = "nag-singular"
-PARAMETERS_FORMAT = "nag-singular-parameters"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,7 +35,6 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if options.free is not None:
         return _for_parameters(options)
     from nag.decomposition.singular_points import singular_locus
-    from nag.report.singular import answer_rows, set_lines
     from nag.witness.shown import paths_text
 
     found = read_components(options)
@@ -55,12 +52,10 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         "format": FORMAT,
         "notes": list(locus.notes),
         "variables": list(variables),
-        "components": [
-            {"number": i, **component_facts(c)} for i, c in enumerate(whole.components, 1)
-        ],
+        "components": [c.facts(i) for i, c in enumerate(whole.components, 1)],
         **locus.document(variables),
     }
-    blocks = [answer_rows(locus, whole), *(set_lines(one, variables) for one in locus.sets)]
+    blocks = [locus.rows(len(whole.components)), *(one.rows(variables) for one in locus.sets)]
     tail = [("open", note) for note in locus.notes] + doubt_rows(found)
     tail.append(("paths", paths_text(locus.paths)))
     return answer_of(options, found.case, blocks, tail, fields, locus.complete and whole.complete)
@@ -70,7 +65,6 @@ def _for_parameters(options: argparse.Namespace) -> CommandAnswer:
     """For which parameters there are singular points: they are solved for as well."""
     from nag.decomposition.singular_members import singular_parameters
     from nag.files.cases import freed_system
-    from nag.report.singular import parameter_rows
     from nag.witness.shown import paths_text
 
     if is_export(options.case) or options.component is not None:
@@ -87,16 +81,5 @@ def _for_parameters(options: argparse.Namespace) -> CommandAnswer:
         found = singular_parameters(system, len(names), run=chosen_run(options))
     except ValueError as reason:
         raise UsageError(f"{options.case}: --free: {reason}") from None
-    fields = {
-        "format": PARAMETERS_FORMAT,
-        "proved": found.proved,
-        "notes": list(found.notes),
-        "parameters": names,
-        "conditions": [[f.text(names) for f in each] for each in found.conditions],
-        "sets": [
-            {"dimension": each.dimension, "degree": each.degree, "proof": each.proof}
-            for each in found.sets
-        ],
-    }
-    rows = [*parameter_rows(found), ("paths", paths_text(found.paths))]
-    return answer_of(options, name_case(case), (), rows, fields, found.complete)
+    rows = [*found.rows(), ("paths", paths_text(found.paths))]
+    return answer_of(options, name_case(case), (), rows, found.document(), found.complete)

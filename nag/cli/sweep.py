@@ -75,10 +75,18 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
     arguments.formulation = first.formulation
 
     from nag.decomposition.sweep import sweep
-    from nag.report.sweep import sweep_lines
+    from nag.text.table import align, sheet
 
     swept = sweep(
         lambda value: problem_at(value)[1].system, asked.values, run=chosen_run(arguments)
     )
-    lines = sweep_lines(case.title, asked.name, swept, run_row(arguments, ()))
+    followed = sum(each.followed for each in swept)
+    text = (
+        f"{followed} of {len(swept)} values, from the components for a general value; those that a "
+        "single value may have besides are not looked for there"
+    )
+    reasons = dict.fromkeys(each.reason for each in swept if each.reason)
+    tail = [("followed", text), *(("by itself", reason) for reason in reasons)]
+    rows = [[asked.name, "", "paths", "components"], *(each.row() for each in swept)]
+    lines = sheet(case.title, align(rows, (1, 3)), [*tail, run_row(arguments, ())])
     return CommandAnswer(lines, all(each.decomposition.complete for each in swept))

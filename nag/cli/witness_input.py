@@ -9,7 +9,7 @@ import argparse
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from nag.cli.arguments import (
     UsageError,
@@ -262,16 +262,6 @@ def numbered_row(number: int, component: WitnessSet) -> tuple[str, str]:
     """The line that says which component is meant."""
     kind = f"{number}: dimension {component.dimension}, degree {component.degree}"
     return "component", f"{kind}, {component.status}"
-
-
-def component_facts(component: WitnessSet) -> dict[str, Any]:
-    """What a document says of a component that it refers to."""
-    return {
-        "dimension": component.dimension,
-        "degree": component.degree,
-        "multiplicity": component.multiplicity,
-        "status": str(component.status),
-    }
 
 
 def doubt_rows(found: ReadComponents) -> list[tuple[str, str]]:

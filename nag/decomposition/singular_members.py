@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import groupby
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -106,6 +106,26 @@ class SingularParameters:
     def conditions(self) -> tuple[tuple[Polynomial, ...], ...]:
         """The equations of each set; none of the whole space."""
         return tuple(each.equations for each in self.sets)
+
+    def rows(self) -> list[tuple[str, str]]:
+        """For which parameters members are singular, what that rests on, and what is open."""
+        from nag.decomposition.shown import parameter_rows
+
+        return parameter_rows(self)
+
+    def document(self) -> dict[str, Any]:
+        """The sets as a JSON object, without its head."""
+        return {
+            "format": "nag-singular-parameters",
+            "proved": self.proved,
+            "notes": list(self.notes),
+            "parameters": list(self.parameters),
+            "conditions": [[f.text(self.parameters) for f in each] for each in self.conditions],
+            "sets": [
+                {"dimension": each.dimension, "degree": each.degree, "proof": each.proof}
+                for each in self.sets
+            ],
+        }
 
     def texts(self) -> list[str]:
         """Each set of parameters in one line."""

@@ -85,6 +85,12 @@ class SingularSet:
         """Whether several components meet there."""
         return len(self.multiplicities) > 1
 
+    def rows(self, variables: Sequence[str]) -> list[tuple[str, str]]:
+        """The point or set as labelled texts; components are numbered from 1."""
+        from nag.decomposition.shown import set_rows
+
+        return set_rows(self, variables)
+
     def document(self, variables: Sequence[str]) -> dict[str, Any]:
         """The set as a JSON object; components are numbered from 1."""
         cone = self.cone
@@ -133,6 +139,12 @@ class SingularLocus:
         """Indices of the components that have no singular points of their own."""
         singular = {i for one in self.sets for i in one.essential}
         return tuple(i for i in self.examined if i not in singular)
+
+    def rows(self, components: int) -> list[tuple[str, str]]:
+        """How much there is, as labelled texts; which of so many components are smooth."""
+        from nag.decomposition.shown import locus_rows
+
+        return locus_rows(self, components)
 
     def document(self, variables: Sequence[str]) -> dict[str, Any]:
         """The singular points as a JSON object; components are numbered from 1."""

@@ -18,6 +18,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.family import Family
 from nag.algebra.interpolation import family_of
+from nag.algebra.number import number_text
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.decompose import decompose
@@ -53,6 +54,16 @@ class Swept:
     followed: bool
     paths: int
     reason: str = ""
+
+    def row(self) -> list[str]:
+        """The value, how its components were found, paths, and the components."""
+        from nag.witness.shown import kinds, kinds_text
+
+        answer = kinds_text(kinds(self.decomposition.components))
+        if not self.decomposition.complete:
+            answer += " (INCOMPLETE)"
+        how = "followed" if self.followed else "by itself"
+        return [number_text(self.value), how, str(self.paths), answer]
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,6 +29,7 @@ from nag.interpolation.vanishing import (
     Interpolated,
     InterpolationError,
     next_degree,
+    primitive,
     start,
 )
 from nag.numerics.digits import in_bits
@@ -56,6 +57,18 @@ class VariableMap:
     @property
     def polynomial(self) -> bool:
         return self.denominator.degree == 0
+
+    def whole_fraction(self) -> tuple[Polynomial, Polynomial]:
+        """Numerator and denominator with whole coefficients, coprime ones together."""
+        k = self.numerator.n
+        # One polynomial that holds both: the denominator times a variable of its own, the first.
+        joined = {(0, *e): c for e, c in self.numerator.terms.items()}
+        power = 1 + max(0, self.numerator.degree)
+        joined |= {(power, *e): c for e, c in self.denominator.terms.items()}
+        terms = primitive(Polynomial(k + 1, joined)).terms
+        above = Polynomial(k, {e[1:]: c for e, c in terms.items() if not e[0]})
+        below = Polynomial(k, {e[1:]: c for e, c in terms.items() if e[0]})
+        return above, below
 
 
 def known_to(cloud: Cloud, known: Interpolated, degree: int) -> Interpolated:

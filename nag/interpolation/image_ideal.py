@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -110,6 +111,47 @@ class ImageIdeal:
     def names(self) -> tuple[str, ...]:
         """Names of the coordinates."""
         return tuple(self.variables[i] for i in self.coordinates)
+
+    def rows(self) -> list[tuple[str, str]]:
+        """What is said above the equations, as labelled texts."""
+        from nag.interpolation.shown import head_rows
+
+        return head_rows(self)
+
+    def document(self) -> dict[str, Any]:
+        """The equations and maps as a JSON object, without its head."""
+        maps = []
+        for m, proof in zip(self.maps, self.map_proofs, strict=True):
+            above, below = (f.text(self.names) for f in m.whole_fraction())
+            variable = self.variables[m.variable]
+            maps.append(
+                {"variable": variable, "numerator": above, "denominator": below, "proof": proof}
+            )
+        return {
+            "format": "nag-elimination",
+            "variables": list(self.variables),
+            "onto": list(self.names),
+            "dimension": self.dimension,
+            "component_dimension": self.component_dimension,
+            "degree": self.degree,
+            "equations": [
+                {"polynomial": f.text(self.names), "proof": proof}
+                for f, proof in zip(self.generators, self.generator_proofs, strict=True)
+            ],
+            "maps": maps,
+            "missing": [self.variables[i] for i in self.missing],
+            "zeros": {"dimension": self.zeros[0], "degree": self.zeros[1]},
+            "cuts": self.cuts,
+            "defines": self.defines,
+            "defines_union": self.defines_union,
+            "self_conjugate": self.self_conjugate,
+            "together": list(self.together),
+            "digits": self.digits,
+            "fresh": {"points": self.fresh[0], "digits": max(0, round(-self.fresh[1]))}
+            if self.generators or self.maps
+            else None,
+            "note": self.note,
+        }
 
 
 def image_ideal(

@@ -55,6 +55,12 @@ class ModesAnswer:
         """Whether every class is."""
         return all(c.decomposition.complete for c in self.classes)
 
+    def rows(self) -> list[list[str]]:
+        """Headings, and one row for each class of modes."""
+        from nag.mechanism.shown import mode_rows
+
+        return mode_rows(self)
+
     def document(self, title: str, file: str) -> dict[str, Any]:
         """The answer as a JSON object: for each class the decomposition of one of its modes.
 

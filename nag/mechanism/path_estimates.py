@@ -57,6 +57,19 @@ class Alternative:
             raise ModelError(f"formulation {self.formulation}: {self.problem}")
         return self.form.system if self.solved is None else self.solved
 
+    def document(self) -> dict[str, Any]:
+        """Its numbers, or why there are none, as a JSON object."""
+        if self.form is None:
+            return {"formulation": self.formulation, "problem": self.problem}
+        return {
+            "formulation": self.formulation,
+            "variables": self.system.n,
+            "equations": len(self.system.polynomials),
+            "bezout": self.bezout,
+            "bound": self.bound,
+            "paths": self.paths,
+        }
+
     @property
     def bezout(self) -> int:
         """Product of the degrees of as many equations as there are variables, the lowest."""

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from nag.algebra.from_python import system as system_of_equations
 from nag.algebra.given import check_listed, is_a
-from nag.algebra.number import Number
+from nag.algebra.number import Number, number_text
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import NamedPoint, PolynomialSystem
 from nag.errors import NagError, StartError
@@ -99,6 +99,30 @@ class Problem:
     def free(self) -> int:
         """How many freedoms every configuration has besides."""
         return sum(count for count, _ in self.freedoms_left_out)
+
+    def document(self) -> dict[str, Any]:
+        """The equations, and what they are those of, as a JSON object without its head."""
+        model = None
+        if self.model is not None:
+            left_out = [{"freedoms": n, "of": whose} for n, whose in self.freedoms_left_out]
+            model = {
+                "formulation": self.formulation,
+                "reason": self.model.reason,
+                "space": self.space,
+                "gruebler_kutzbach": self.model.gruebler_kutzbach,
+                "freedoms_left_out": left_out,
+                "alternatives": [each.document() for each in self.model.alternatives],
+            }
+        return {
+            "format": "nag-model",
+            "system": self.system.document(),
+            "symmetries": [g.text(self.system.variables) for g in self.symmetries],
+            "points": [
+                {"name": point.name, "at": [number_text(x) for x in point.at]}
+                for point in self.points
+            ],
+            "model": model,
+        }
 
     def lift(self, point: Sequence[Any]) -> Configuration:
         """All bodies' orientations and positions at a solution, as `nag.model`'s lift gives them.

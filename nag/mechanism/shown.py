@@ -1,7 +1,8 @@
-"""What mechanisms and models show at the prompt and in notebooks."""
+"""What mechanisms, models and all assembly modes show at the prompt and in commands."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
@@ -9,12 +10,22 @@ from typing import TYPE_CHECKING, Any
 from nag.algebra.number import Number, number_text
 from nag.algebra.system import system_line, values_text
 from nag.mechanism.graph import Joint
-from nag.text.table import align, count_text, html_table, lines_of, printable, shorten_text
+from nag.text.table import (
+    Row,
+    align,
+    count_text,
+    html_table,
+    lines_of,
+    printable,
+    sheet,
+    shorten_text,
+)
 from nag.text.table import number_text as rounded_text
 
 if TYPE_CHECKING:
     from nag.mechanism.configuration import Configuration
     from nag.mechanism.graph import Mechanism
+    from nag.mechanism.mode_decomposition import ModesAnswer
     from nag.mechanism.model import Model
 
 # Of mechanisms with more joints the first are shown.
@@ -109,3 +120,71 @@ def model_text(model: Model) -> str:
             ("counted", f"mobility {model.gruebler_kutzbach} by Gruebler-Kutzbach"),
         ],
     )
+
+
+def modes_lines(answer: ModesAnswer, title: str, run: Row) -> list[str]:
+    """The answer to ``nag decompose --modes all``, line by line."""
+    from nag.witness.shown import kinds, kinds_text, paths_text, remarks
+    from nag.witness.witness import PathCounts
+
+    members = sum(len(c.modes.members) for c in answer.classes)
+    first = answer.classes[0]
+    total: Counter = Counter()
+    for each in answer.classes:
+        for kind, count in kinds(each.decomposition.components).items():
+            total[kind] += count * len(each.modes.members)
+    head = [
+        ("modes", _modes_text(answer, members)),
+        ("model", f"formulation {first.model.formulation}: {first.model.reason}"),
+        ("answer", f"in all modes together {kinds_text(total)}"),
+    ]
+    if not answer.complete:
+        head.append(("", "INCOMPLETE, see below"))
+    paths = sum((c.decomposition.paths for c in answer.classes), PathCounts())
+    tail = [("meeting", _meeting_text(answer, {k.dimension for k in total}))]
+    for k, each in enumerate(answer.classes, 1):
+        tail += [("open", f"class {k}: {line}") for line in remarks(each.decomposition)]
+    tail += [("paths", paths_text(paths)), run]
+    return sheet(title, head, align(answer.rows(), (2, 3)), tail)
+
+
+def mode_rows(answer: ModesAnswer) -> list[list[str]]:
+    """Headings, and one row for each class of modes."""
+    from nag.witness.shown import kinds, kinds_text
+
+    rows = [["class", "modes", "changed joints", "components in each mode"]]
+    for k, each in enumerate(answer.classes, 1):
+        changed = ", ".join(_mode_text(name, m, answer) for name, m in each.modes.representative)
+        text = kinds_text(kinds(each.decomposition.components))
+        rows.append([str(k), str(len(each.modes.members)), printable(changed or "none"), text])
+    return rows
+
+
+def _modes_text(answer: ModesAnswer, members: int) -> str:
+    joints = [j for j in answer.structure.joints if j.of_type.modes > 1]
+    text = f"{members} combinations of the assembly modes of {len(joints)} joints"
+    if len(answer.classes) == members:
+        return f"{text}, each decomposed"
+    return (
+        f"{text}, in {len(answer.classes)} classes; half-turns of bodies carry the modes of a "
+        "class into each other, as linear maps of Euler parameters, checked exactly on the "
+        "equations; one of each class is decomposed"
+    )
+
+
+def _mode_text(name: str, mode: int, answer: ModesAnswer) -> str:
+    joint = next(j for j in answer.structure.joints if j.name == name)
+    return name if joint.of_type.modes == 2 else f"{name}:{mode}"
+
+
+def _meeting_text(answer: ModesAnswer, dimensions: set[int]) -> str:
+    text = "components of different modes do not meet: the equations of a joint's modes together "
+    text += "leave no orientation, by exact linear algebra"
+    if not answer.apart:
+        text = "whether components of different modes meet is not known"
+    if len(dimensions) < 2:
+        return text
+    if not answer.meetings:
+        return f"{text}; components of different dimensions do not meet, in any mode"
+    pairs = [f"dimensions {a} and {b} in class {k + 1}" for k, a, b in answer.meetings]
+    return f"{text}; components of different dimensions meet: {', '.join(pairs)}"

@@ -14,7 +14,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.from_python import coordinates
 from nag.algebra.given import check_error
-from nag.algebra.number import Number, is_zero
+from nag.algebra.number import Number, is_zero, number_text
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
@@ -52,6 +52,63 @@ class Membership(Enum):
     MEMBER = "member"
     FOREIGN = "foreign"
     UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, eq=False)
+class PointMembership:
+    """Which components of a decomposition a point lies on.
+
+    Attributes:
+        point: exact.
+        exact: whether it satisfies the equations exactly.
+        residual: largest relative residual of the equations there.
+        components: all of them, none for a whole orbit.
+        answers: one for each.
+    """
+
+    point: tuple[Number, ...]
+    exact: bool
+    residual: float
+    components: tuple[WitnessSet, ...]
+    answers: tuple[Membership, ...]
+
+    @property
+    def on(self) -> tuple[WitnessSet, ...]:
+        """The components that it lies on."""
+        pairs = zip(self.components, self.answers, strict=True)
+        return tuple(c for c, answer in pairs if answer is Membership.MEMBER)
+
+    @property
+    def open(self) -> tuple[int, ...]:
+        """Numbers, from 1, of the components for which that is not decided."""
+        return tuple(i for i, a in enumerate(self.answers, 1) if a is Membership.UNDECIDED)
+
+    @property
+    def complete(self) -> bool:
+        """Whether all is decided, and a zero of the equations lies on a component."""
+        return not self.open and (bool(self.on) or not self.exact)
+
+    def rows(self) -> list[list[str]]:
+        """Headings, and one row for each component; none where there are none."""
+        rows = [["component", "dimension", "degree", "multiplicity", "point"]]
+        for i, (c, answer) in enumerate(zip(self.components, self.answers, strict=True), 1):
+            said = {Membership.MEMBER: "on it", Membership.FOREIGN: "not on it"}.get(answer, "?")
+            multiplicity = str(c.multiplicity) if c.multiplicity else "?"
+            rows.append([str(i), str(c.dimension), str(c.degree), multiplicity, said])
+        return rows if self.components else []
+
+    def document(self) -> dict[str, Any]:
+        """The answer as a JSON object, without its head."""
+        pairs = zip(self.components, self.answers, strict=True)
+        return {
+            "point": [number_text(x) for x in self.point],
+            "exact": self.exact,
+            "residual": self.residual,
+            "components": [
+                component.facts(i) | {"answer": answer.value}
+                for i, (component, answer) in enumerate(pairs, 1)
+            ],
+        }
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -332,6 +389,35 @@ def memberships(
         answer = Membership.MEMBER if meet else Membership.UNDECIDED
         return tuple(answer if k in on else a for k, a in enumerate(answers))
     return answers
+
+
+def locate_point(
+    decomposition: Decomposition, point: Sequence[Number], *, run: Run
+) -> PointMembership:
+    """Which components of a decomposition an exact point lies on.
+
+    One that satisfies the equations to `ROUNDED` only is taken for a rounded one.
+
+    Args:
+        decomposition: with every component of each orbit.
+        point: exact, in the system's variables.
+        run: how it is worked out.
+    """
+    system, components = decomposition.system, decomposition.components
+    exact = all(is_zero(value) for value in system(point))
+    at = np.array([complex(float(value)) for value in point])
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    residual = float(evaluator.residuals(at[None]).max(initial=0.0))
+    answers = (Membership.FOREIGN,) * len(components)
+    if exact or residual < ROUNDED:
+        answers = memberships(
+            decomposition,
+            at,
+            accuracy=EXACT if exact else max(INEXACT, 10 * residual),
+            exact=tuple(point) if exact else (),
+            run=run,
+        )
+    return PointMembership(tuple(point), exact, residual, components, answers)
 
 
 def _meet_near(

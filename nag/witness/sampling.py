@@ -5,6 +5,7 @@ from __future__ import annotations
 import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from nag.errors import ComponentError, NagError
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.zero_values import ON
+from nag.text.json_text import pairs
 from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, carry_points, coordinates_of
@@ -48,6 +50,20 @@ class Samples:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", fixed_array(self.points))
+
+    def rows(self, variables: Sequence[str]) -> list[list[str]]:
+        """Headings, and a row for each of the first points, in their first coordinates."""
+        from nag.witness.shown import sample_rows
+
+        return sample_rows(self, variables)
+
+    def document(self) -> dict[str, Any]:
+        """The points as a JSON object, without its head."""
+        return {
+            "residual": self.residual,
+            "accuracy": self.accuracy,
+            "points": pairs(self.points),
+        }
 
     __repr__ = one_line
 

@@ -30,8 +30,10 @@ if TYPE_CHECKING:
 # Wider multidegrees are left to the JSON export.
 WIDEST_MULTIDEGREE = 32
 
-# Of longer lists of points a notebook shows the first.
+# Of longer lists of points a notebook shows the first; a command fewer, and of wider ones the first
+# coordinates.
 MOST_POINTS = 40
+MOST_SAMPLES, MOST_COLUMNS = 20, 4
 
 
 @dataclass(frozen=True)
@@ -267,6 +269,16 @@ def samples_text(samples: Samples) -> str:
     """Points of a component in three lines."""
     rows = [("points", _first_point(samples.points)), ("rests on", _samples_rest(samples))]
     return lines_of(_samples_title(samples), rows)
+
+
+def sample_rows(samples: Samples, variables: Sequence[str]) -> list[list[str]]:
+    """Headings, and a row for each of the first points, in their first coordinates."""
+    dots = ["..."] if len(variables) > MOST_COLUMNS else []
+    rows = [["point", *variables[:MOST_COLUMNS], *dots]]
+    for i, point in enumerate(samples.points[:MOST_SAMPLES]):
+        cells = [f"{z.real:.6f}{z.imag:+.6f}i" for z in point[:MOST_COLUMNS]]
+        rows.append([str(i + 1), *cells, *dots])
+    return rows
 
 
 def samples_html(samples: Samples) -> str:

@@ -196,6 +196,16 @@ class WitnessSet:
 
         return witness_set_html(self)
 
+    def facts(self, number: int) -> dict[str, Any]:
+        """What a document says of a component that it refers to by its number, as a JSON object."""
+        return {
+            "number": number,
+            "dimension": self.dimension,
+            "degree": self.degree,
+            "multiplicity": self.multiplicity,
+            "status": str(self.status),
+        }
+
     def document(self, variables: Sequence[str]) -> dict[str, Any]:
         """The component as a JSON object, without what cuts it."""
         orbit: dict[str, Any] = {"size": self.orbit}

@@ -1,4 +1,4 @@
-"""Singular points as text."""
+"""What singular points and swept components show in the commands."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from nag.decomposition.singular_members import SingularParameters
     from nag.decomposition.singular_points import SingularLocus, SingularSet
     from nag.numerics.tangent_cone import TangentCone
-    from nag.witness.witness import Decomposition
 
 # What is smaller than this, in a point that is known to rounding, is written as zero.
 NOTHING = 1e-13
@@ -53,8 +52,8 @@ def _numbers(indices: Sequence[int]) -> str:
     return ", ".join(str(i + 1) for i in indices)
 
 
-def answer_rows(locus: SingularLocus, decomposition: Decomposition) -> list[tuple[str, str]]:
-    """How many singular points and sets there are, and which components are smooth."""
+def locus_rows(locus: SingularLocus, count: int) -> list[tuple[str, str]]:
+    """How many singular points and sets there are, and which of the components are smooth."""
     points = [one for one in locus.sets if one.dimension == 0]
     larger = len(locus.sets) - len(points)
     parts = [count_text(len(points), "isolated singular point")] if points else []
@@ -66,7 +65,7 @@ def answer_rows(locus: SingularLocus, decomposition: Decomposition) -> list[tupl
     if locus.sets:
         kinds = f"essential: {essential}; where components meet: "
         rows.append(("kinds", kinds + str(sum(one.intersection for one in locus.sets))))
-    smooth, count = locus.smooth, len(decomposition.components)
+    smooth = locus.smooth
     if smooth:
         which = "the component" if count == 1 else f"component {_numbers(smooth)} of {count}"
         if len(smooth) > 1:
@@ -78,7 +77,7 @@ def answer_rows(locus: SingularLocus, decomposition: Decomposition) -> list[tupl
     return rows
 
 
-def set_lines(one: SingularSet, variables: Sequence[str]) -> list[tuple[str, str]]:
+def set_rows(one: SingularSet, variables: Sequence[str]) -> list[tuple[str, str]]:
     """One singular point or set, as labelled texts."""
     values = zip(variables, one.points[0].tolist(), strict=True)
     at = ", ".join(f"{name} = {coordinate_text(z)}" for name, z in values)

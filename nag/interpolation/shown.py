@@ -1,15 +1,15 @@
-"""The equations of a component's image and the maps to its other variables: printed, exported."""
+"""What equations of a component's image, and the maps to its other variables, show in commands."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
-from nag.algebra.polynomial import Polynomial
-from nag.interpolation.essential import VariableMap
-from nag.interpolation.image_ideal import ImageIdeal
-from nag.interpolation.vanishing import primitive
 from nag.text.table import join_words, label_lines
+
+if TYPE_CHECKING:
+    from nag.interpolation.essential import VariableMap
+    from nag.interpolation.image_ideal import ImageIdeal
 
 PROOFS = {
     "substitution": (
@@ -69,25 +69,13 @@ def map_text(found: ImageIdeal, m: VariableMap) -> str:
     if m.polynomial:
         (below,) = m.denominator.terms.values()
         return f"{name} = {(m.numerator / below).text(found.names)}"
-    above, below = whole_fraction(m)
+    above, below = m.whole_fraction()
     texts = [f.text(found.names) for f in (above, below)]
     shown = [
         f"({t})" if len(f.terms) > 1 or "*" in t else t
         for f, t in zip((above, below), texts, strict=True)
     ]
     return f"{name} = {shown[0]}/{shown[1]}"
-
-
-def whole_fraction(m: VariableMap) -> tuple[Polynomial, Polynomial]:
-    """Numerator and denominator with whole coefficients, coprime ones together."""
-    k = m.numerator.n
-    # One polynomial that holds both: the denominator times a variable of its own, the first one.
-    joined = {(0, *e): c for e, c in m.numerator.terms.items()}
-    joined |= {(1 + max(0, m.numerator.degree), *e): c for e, c in m.denominator.terms.items()}
-    terms = primitive(Polynomial(k + 1, joined)).terms
-    above = Polynomial(k, {e[1:]: c for e, c in terms.items() if not e[0]})
-    below = Polynomial(k, {e[1:]: c for e, c in terms.items() if e[0]})
-    return above, below
 
 
 def essential_text(found: ImageIdeal) -> str:
@@ -129,38 +117,3 @@ def image_text(found: ImageIdeal) -> str:
     if found.cuts:
         return f"{text}: a component of the equations' common zeros; there may be others"
     return f"{text}: equations of higher degree are missing"
-
-
-def elimination_document(found: ImageIdeal) -> dict[str, Any]:
-    """The export, below its head."""
-    maps = []
-    for m, proof in zip(found.maps, found.map_proofs, strict=True):
-        above, below = (f.text(found.names) for f in whole_fraction(m))
-        variable = found.variables[m.variable]
-        maps.append(
-            {"variable": variable, "numerator": above, "denominator": below, "proof": proof}
-        )
-    return {
-        "variables": list(found.variables),
-        "onto": list(found.names),
-        "dimension": found.dimension,
-        "component_dimension": found.component_dimension,
-        "degree": found.degree,
-        "equations": [
-            {"polynomial": f.text(found.names), "proof": proof}
-            for f, proof in zip(found.generators, found.generator_proofs, strict=True)
-        ],
-        "maps": maps,
-        "missing": [found.variables[i] for i in found.missing],
-        "zeros": {"dimension": found.zeros[0], "degree": found.zeros[1]},
-        "cuts": found.cuts,
-        "defines": found.defines,
-        "defines_union": found.defines_union,
-        "self_conjugate": found.self_conjugate,
-        "together": list(found.together),
-        "digits": found.digits,
-        "fresh": {"points": found.fresh[0], "digits": max(0, round(-found.fresh[1]))}
-        if found.generators or found.maps
-        else None,
-        "note": found.note,
-    }
