@@ -49,7 +49,7 @@ numerics.certified_points.EVIDENCE          60      Digits to which equations va
                                                     did not need: said to be evidence, not proof.
 numerics.point_claims.SAME                  1e-140  Distance in 150 digits from zeros of coordinates
                                                     that are said to be exact: evidence.
-numerics.clusters.ALIKE                     1e-5    Starts nearer to each other, beside the
+numerics.series_zeros.ALIKE                 1e-5    Starts nearer to each other, beside the
                                                     cluster's size, are followed once; their ends
                                                     are compared in all digits.
 numerics.curves.VANISHING                   0.75    Share of the digits that make a value zero.
@@ -371,16 +371,15 @@ check.four_way.RESIDUAL                     1e-8    Values at witness points of 
 Other values of these give the same answers, sooner or later: sizes of steps and work, bounds of
 rounding, digits that are taken, where random numbers come from.
 
-algebra.evaluation: HUGE; algebra.number: LARGEST_ANGLE; numerics.certified_points: FLAT, LEAST;
-numerics.ball_boxes: EXPANDING; numerics.close_zeros: EPS; numerics.curves: CLOSER,
-PATIENCE;
+algebra.evaluation: HUGE; algebra.number: LARGEST_ANGLE; numerics.certified_points: EPS, FLAT,
+LEAST; numerics.ball_boxes: EXPANDING; numerics.curves: CLOSER, PATIENCE;
 numerics.deflated_system: MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK;
 numerics.digits: LOG10_2, SMALLEST, LARGEST, ROUNDING; numerics.double_ranks: NOTHING;
-numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST, LEAST, GOOD;
+numerics.far_along: APART, SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST, LEAST, GOOD;
 numerics.discs: UNIT, PRODUCT, UP, LEAST;
 numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR,
 REACHES, ROUNDED;
-numerics.rounds_in_doubles: APART; numerics.natural_coordinates: FAR, SEVERAL_SIZES;
+numerics.natural_coordinates: FAR, SEVERAL_SIZES;
 numerics.newton: GAIN, FAST, LEFT, RESTS; numerics.precise_point: LEAST_ERROR, LARGEST_ERROR;
 numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
 numerics.sharpening: ROUNDING, NEARLY, GAIN, FURTHEST_STEP;

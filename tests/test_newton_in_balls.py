@@ -12,11 +12,11 @@ import nag
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_boxes import box_about
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.clusters import find_zeros_of_cluster
 from nag.numerics.deflation import deflate
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import find_zero, newton_step
 from nag.numerics.precise_point import PrecisePoint, precise_zero
+from nag.numerics.series_zeros import find_zeros_of_cluster
 from nag.numerics.singular_point import analyse
 from nag.numerics.zero_values import vanishes_at_point
 

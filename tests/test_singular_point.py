@@ -12,7 +12,7 @@ from singular_zeros import ISOLATED, ON_COMPONENTS, Zero, polynomials
 from nag.numerics.deflation import deflate
 from nag.numerics.digits import DIGITS, doubles, working_digits
 from nag.numerics.exact_system import ExactSystem
-from nag.numerics.rounds_in_doubles import RoundsInDoubles
+from nag.numerics.far_along import RoundsInDoubles
 from nag.numerics.sharpening import sharpen
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 

@@ -29,11 +29,13 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.read_only import equal_values, fixed_array
-from nag.text.table import one_line
+from nag.text.table import lines_of, one_line, point_text
 
 # Relative error that a point of doubles is taken to have; values of the equations, beside their
 # terms, at an exact point that is taken for a rounded one.
 ROUNDED = 1e-8
+# More coranks of a sequence are left to the export.
+MOST_CORANKS = 12
 
 
 class NoSolution(ComponentError):
@@ -77,15 +79,11 @@ class LocalDimension:
     __repr__ = one_line
 
     def __str__(self) -> str:
-        from nag.numerics.shown import local_dimension_text
-
-        return local_dimension_text(self)
+        return lines_of(f"LocalDimension at {point_text(self.point)}", self.rows())
 
     def rows(self) -> list[tuple[str, str]]:
         """The answer and what it rests on, as labelled texts."""
-        from nag.numerics.shown import local_rows
-
-        return local_rows(self)
+        return _local_rows(self)
 
     def document(self) -> dict[str, Any]:
         """The answer as a JSON object."""
@@ -122,6 +120,44 @@ class LocalDimension:
     def isolated(self) -> bool | None:
         """Whether the point is isolated; None if that is not decided."""
         return True if self.upper == 0 else False if self.lower > 0 else None
+
+
+def _dimension_text(found: LocalDimension) -> str:
+    """The answer in one sentence."""
+    if found.tangent_dimension is None:
+        return "undecided: no exact solution was found there"
+    tangent = f"tangent dimension {found.tangent_dimension}"
+    if not found.decided:
+        return f"undecided: local dimension {found.lower} to {found.upper}, {tangent}"
+    text = f"local dimension {found.lower}, {tangent}"
+    if found.lower == 0:
+        return f"{text}: isolated, of multiplicity {found.multiplicity}"
+    singular = found.tangent_dimension > found.lower
+    return f"{text}: {'a singular point of the equations' if singular else 'a regular point'}"
+
+
+def _matrices_text(found: LocalDimension) -> str:
+    """The corank sequence and what it was computed in; empty if there is none."""
+    if not found.coranks:
+        return ""
+    shown = ", ".join(map(str, found.coranks[:MOST_CORANKS]))
+    if len(found.coranks) > MOST_CORANKS:
+        shown += f", .. {found.coranks[-1]} in degree {len(found.coranks) - 1}"
+    k = found.hyperplanes
+    where = f" on {k} random hyperplane{'' if k == 1 else 's'} through the point" if k else ""
+    return f"coranks {shown} in degrees 0, 1, ..{where}, {found.arithmetic}"
+
+
+def _local_rows(found: LocalDimension) -> list[tuple[str, str]]:
+    """The answer and what it rests on, as labelled texts."""
+    rows = [("answer", _dimension_text(found))]
+    if found.tangent_dimension is not None:
+        bounds = f"at least {found.lower}, at most {found.upper}: {found.reason}"
+        rows.append(("bounds", bounds))
+    else:
+        rows.append(("open", found.reason))
+    matrices = _matrices_text(found)
+    return [*rows, ("matrices", matrices)] if matrices else rows
 
 
 def local_dimension(

@@ -13,7 +13,6 @@ import numpy as np
 from nag.algebra.exact_ranks import FIELDS, PrimeField
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_ranks import Digits, Field, UnclearRank
-from nag.numerics.clusters import find_zeros_of_cluster
 from nag.numerics.curves import curve_through, is_exact_zero, point_beside
 from nag.numerics.deflation import MOST_WORK, DeflatedPoint, NotDeflated, deflate
 from nag.numerics.descent import series_cost
@@ -33,6 +32,7 @@ from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.precise_point import POINT_DIGITS, PrecisePoint
+from nag.numerics.series_zeros import find_zeros_of_cluster
 from nag.numerics.sharpening import ZERO, sharpen
 from nag.numerics.singular_point import Place, SingularEnd
 
