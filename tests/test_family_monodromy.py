@@ -12,9 +12,10 @@ from evaluated import values
 from systems import family
 
 import nag
-from nag.algebra.family import Family, SymmetricFamily
+from nag.algebra.family import Family
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
+from nag.algebra.symmetric_family import SymmetricFamily
 from nag.cli import main
 from nag.errors import StartError
 from nag.files.solutions_export import export_text

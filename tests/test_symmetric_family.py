@@ -11,9 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
-from nag.algebra.family import Family, SymmetricFamily
+from nag.algebra.family import Family
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapError, MapGroup, RationalMap
+from nag.algebra.symmetric_family import SymmetricFamily
 from nag.files.cases import CaseError, read_case
 from nag.solving.parameter import solve_generic
 

@@ -7,6 +7,6 @@ data), with `flint_numbers` (FLINT's rationals); `tokens`, `bounded`, `expressio
 `factoring` (on `conjugate_factors`), `branches` (on `branch_search`, `branch_equations` and
 `consequences`), `algebraic_zeros` (with `bivariate`), `zero_count` and `generic_multiplicity` (what
 exact algebra decides before any path is tracked); `groebner`, `smoothness` and `multipliers`
-(ideals); `rational_function` and `interpolation`; `family` and `rational_map` (systems with
-parameters).
+(ideals); `rational_function` and `interpolation`; `family`, `rational_map` and `symmetric_family`
+(systems with parameters).
 """

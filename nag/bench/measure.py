@@ -23,7 +23,7 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.settings import Settings
 
 if TYPE_CHECKING:
-    from nag.algebra.family import FamilyMember
+    from nag.algebra.symmetric_family import FamilyMember
 
 Solver = Callable[[int], SolveResult]
 

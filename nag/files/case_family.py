@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from nag.algebra.family import Family, FamilyMember, SymmetricFamily
+from nag.algebra.family import Family
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapError, MapGroup, RationalMap
+from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.tokens import is_name, nearest, quote
 from nag.files.case_table import CaseTable, key_text, kind_of
 

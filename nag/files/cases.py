@@ -35,7 +35,7 @@ from nag.files.case_table import (
 from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
 
 if TYPE_CHECKING:
-    from nag.algebra.family import FamilyMember
+    from nag.algebra.symmetric_family import FamilyMember
     from nag.mechanism.assembly import AssemblyModel
     from nag.mechanism.graph import Mechanism
 

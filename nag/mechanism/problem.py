@@ -22,7 +22,7 @@ from nag.mechanism.assembly import AssemblyModel
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
-    from nag.algebra.family import FamilyMember
+    from nag.algebra.symmetric_family import FamilyMember
     from nag.mechanism.axes import Space
     from nag.mechanism.configuration import Configuration
     from nag.mechanism.model import Model

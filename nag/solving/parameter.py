@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.algebra.family import Family, FamilyMember, SymmetricFamily
+from nag.algebra.family import Family
 from nag.algebra.number import Number
 from nag.algebra.rational_map import MapError
+from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import Completeness
 from nag.errors import StartError

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.algebra.family import SymmetricFamily
+from nag.algebra.symmetric_family import SymmetricFamily
 from nag.numerics.coincidence import SAFETY, overlapping_pairs
 from nag.tracking.projective import ROUNDING
 

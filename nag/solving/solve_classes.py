@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.family import SymmetricFamily
 from nag.algebra.number import Number
 from nag.algebra.rational_map import MapError
+from nag.algebra.symmetric_family import SymmetricFamily
 from nag.numerics.coincidence import overlapping_pairs
 from nag.numerics.zero_values import NONZERO
 from nag.solving.kantorovich import Confirmation, Confirmed

@@ -18,7 +18,10 @@ from nag.bench.atlas.nine_points import CARRIED, NinePoints
 from nag.bench.atlas.points import KnownProblem, points
 from nag.bench.verdicts import Components
 from nag.files.cases import read_case
+from nag.mechanism import PLATFORM_ALONE
+from nag.mechanism.legs import parallel_robot
 from nag.mechanism.model import model
+from nag.mechanism.platform import platform_model
 
 CASES = Path("cases")
 
@@ -196,10 +199,17 @@ def nine_points_moved(name: str, rng: np.random.Generator) -> KnownProblem:
 
 
 def case_system(name: str) -> tuple[PolynomialSystem, Components]:
-    """The system of a case, for a mechanism that of the fewest paths, and what is known of it."""
+    """The system of a case, and what is known of it.
+
+    For a mechanism that of the fewest paths, for a parallel robot that of its platform's poses.
+    """
     case = read_case(CASES / f"{name}.toml")
     system, formulation = case.system, None
-    if case.mechanism is not None:
+    if any(item.formulation == PLATFORM_ALONE for item in case.truth):
+        robot = parallel_robot(case.described)
+        system = platform_model(robot, np.random.default_rng(0)).system
+        formulation = PLATFORM_ALONE
+    elif case.mechanism is not None:
         made = model(case.mechanism)
         system, formulation = made.system, made.formulation
     assert system is not None

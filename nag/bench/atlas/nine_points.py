@@ -16,9 +16,10 @@ from fractions import Fraction
 
 import numpy as np
 
-from nag.algebra.family import Family, FamilyMember, SymmetricFamily
+from nag.algebra.family import Family
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
+from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.bench.atlas.changes import mix_equations, power, small
 from nag.numerics.coincidence import overlapping_pairs
 from nag.solving.kantorovich import Confirmation

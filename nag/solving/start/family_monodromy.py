@@ -19,7 +19,8 @@ from functools import partial
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.family import Family, SymmetricFamily
+from nag.algebra.family import Family
+from nag.algebra.symmetric_family import SymmetricFamily
 from nag.errors import StartError
 from nag.numerics.double_ranks import NEARLY_SINGULAR, smallest_share
 from nag.solving.parameter_line import parameter_line
