@@ -80,10 +80,13 @@ def parse_number(
 def parse_polynomial(
     text: str,
     variables: Sequence[str],
-    parameters: Mapping[str, Number] | None = None,
+    parameters: Mapping[str, Value] | None = None,
     budget: Budget | None = None,
 ) -> Polynomial:
     """The polynomial in ``variables`` that ``text`` spells; ``lhs = rhs`` stands for lhs - rhs.
+
+    Args:
+        parameters: numbers, or polynomials in the same variables, by name.
 
     Raises:
         ExpressionError: if it spells none, or one beyond the limits of `nag.algebra.bounded`.
@@ -118,7 +121,7 @@ class _Parser:
         self,
         text: str,
         variables: Sequence[str],
-        parameters: Mapping[str, Number],
+        parameters: Mapping[str, Value],
         budget: Budget,
     ) -> None:
         self.tokens = tokenize(text)
@@ -155,7 +158,7 @@ class _Parser:
         return self.tokens[self.at - 1]
 
     def _fail(self, token: Token, message: str) -> NoReturn:
-        raise ExpressionError(f"column {token.column}: {message}")
+        raise ExpressionError(message, token.column)
 
     def _apply(self, token: Token, operation: Callable[..., Value], *arguments: Any) -> Value:
         try:

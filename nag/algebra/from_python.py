@@ -27,6 +27,7 @@ from nag.algebra.tokens import (
     imaginary_text,
     is_name,
     names_in,
+    natural_order,
     nearest,
     quote,
 )
@@ -166,7 +167,7 @@ def _names(
                 "variables: a nag.Polynomial has no names in it; give one for each variable"
             )
         found = {name for f, place in equations for name in _list_names(f, place, values)}
-        names = tuple(sorted(found - values.keys(), key=_natural))
+        names = tuple(sorted(found - values.keys(), key=natural_order))
     else:
         given = re.split(r"[\s,]+", variables.strip()) if isinstance(variables, str) else variables
         if not isinstance(given, Iterable):
@@ -175,8 +176,8 @@ def _names(
     for i, name in enumerate(names):
         if not is_name(name):
             raise ExpressionError(
-                f"variables: {quote(name)} cannot name a variable; use letters, digits and _, "
-                "not a function"
+                f"variables: {quote(name)} cannot name a variable; use letters, digits, _ and "
+                "indices as in x[1], not a function"
             )
         if name in names[:i]:
             raise ExpressionError(f"variables: {name!r} is there twice; name each variable once")
@@ -198,12 +199,6 @@ def _list_names(equation: Any, place: str, values: Mapping[str, Any]) -> Iterabl
         return symbol_names(equation)
     except ExpressionError as error:
         raise ExpressionError(f"{place}: {error}") from None
-
-
-def _natural(name: str) -> list[tuple[int, int | str]]:
-    """Alphabetical order, numbers by their values."""
-    parts = re.findall(r"\d+|\D+", name)
-    return [(0, int(part)) if part.isdigit() else (1, part) for part in parts]
 
 
 class _Reader:

@@ -17,17 +17,34 @@ RESERVED = frozenset(FUNCTION_NAMES) | {"pi"}
 IMAGINARY_UNITS = ("I", "i", "J", "j")
 ONLY_REAL = "only real numbers are read here"
 
+# A letter of any alphabet and what may follow it: digits, an index as in x_{12} or x[1,2], primes.
+# Not superscripts, which are powers.
+_WORD = (
+    r"[^\W\d\u00b2\u00b3\u00b9\u2070-\u207f][^\W\u00b2\u00b3\u00b9\u2070-\u207f]*"
+    r"(?:(?<=_)\{[0-9A-Za-z]+(?:,[0-9A-Za-z]+)*\})?(?:\[[0-9A-Za-z]+(?:,[0-9A-Za-z]+)*\])*'*"
+)
 _TOKEN = re.compile(
     r"(?:(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
-    r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)"
+    rf"|(?P<name>{_WORD})"
     r"|(?P<operator>\*\*|==|[-+*/^()=]))\s*"
 )
 _SPACE = re.compile(r"\s*")
-_NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
+_NAME = re.compile(_WORD)
+_PARTS = re.compile(r"\d+|\D+")
 
 
 class ExpressionError(EquationError):
-    """Text that is no number or polynomial; one line: where, what is wrong, what would be right."""
+    """Text that is no number or polynomial; one line: where, what is wrong, what would be right.
+
+    Attributes:
+        reason: the line without the place.
+        column: where in the text, from 1, or None.
+    """
+
+    def __init__(self, reason: str, column: int | None = None) -> None:
+        super().__init__(reason if column is None else f"column {column}: {reason}")
+        self.reason = reason
+        self.column = column
 
 
 class Token(NamedTuple):
@@ -53,8 +70,9 @@ def tokenize(text: str) -> list[Token]:
         match = _TOKEN.match(text, at)
         if match is None:
             raise ExpressionError(
-                f"column {at + 1}: {quote(text[at])} has no meaning here; "
-                "write numbers, names, + - * / ^ and parentheses"
+                f"{quote(text[at])} has no meaning here; "
+                "write numbers, names, + - * / ^ and parentheses",
+                at + 1,
             )
         kind = str(match.lastgroup)
         tokens.append(Token(kind, match[kind], at + 1))
@@ -74,6 +92,12 @@ def names_in(text: str) -> frozenset[str]:
 def is_name(text: str) -> bool:
     """Whether ``text`` can name a variable or a parameter."""
     return len(text) <= 100 and _NAME.fullmatch(text) is not None and text not in RESERVED
+
+
+def natural_order(name: str) -> list[tuple[int, int | str]]:
+    """A key that sorts names alphabetically, numbers in them by their values."""
+    parts = _PARTS.findall(name)
+    return [(0, int(part)) if part.isdecimal() else (1, part) for part in parts]
 
 
 def imaginary_text(name: str, mend: str) -> str:

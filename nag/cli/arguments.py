@@ -64,9 +64,26 @@ def _setting(text: str) -> tuple[str, str]:
 
 def add_case(parser: argparse.ArgumentParser) -> None:
     """The case file and the formulation of its model."""
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    parser.add_argument(
+        "case",
+        metavar="CASE",
+        help="case file (TOML), or a system in a file of Bertini, PHCpack, Macaulay2 or Singular, "
+        "or of one polynomial a line",
+    )
     add_formulation(parser)
     add_parameters(parser)
+
+
+def add_format(parser: argparse.ArgumentParser) -> None:
+    """The format of the case's file."""
+    from nag.files.formats import READ
+
+    parser.add_argument(
+        "--format",
+        choices=("auto", *READ),
+        default="auto",
+        help="format of the file (default: told by its content)",
+    )
 
 
 def add_parameters(parser: argparse.ArgumentParser) -> None:
@@ -142,19 +159,20 @@ def add_certify(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def read_case_file(path: str, values: Sequence[tuple[str, str]] = ()) -> Case:
-    """The case in a file, ``values`` given to its parameters."""
+def read_case_file(path: str, values: Sequence[tuple[str, str]] = (), format: str = "auto") -> Case:
+    """The case in a file of some format, ``values`` given to its parameters."""
     from nag.files.cases import read_case
 
     try:
-        return read_case(path, dict(values))
+        return read_case(path, dict(values), format=format)
     except OSError as error:
         raise UsageError(f"{path}: {error.strerror or error}") from None
 
 
 def read_problem(arguments: argparse.Namespace) -> tuple[Case, Problem]:
     """The case, and the problem that it describes in the formulation that is asked for."""
-    case = read_case_file(arguments.case, getattr(arguments, "set", ()))
+    values = getattr(arguments, "set", ())
+    case = read_case_file(arguments.case, values, getattr(arguments, "format", "auto"))
     return case, problem_of_case(case, arguments.formulation or "auto")
 
 

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import argparse
 
-from nag.cli.arguments import UsageError, add_case, add_certify, add_running, read_problem
+from nag.cli.arguments import (
+    UsageError,
+    add_case,
+    add_certify,
+    add_format,
+    add_running,
+    read_problem,
+)
 from nag.cli.certify import proof_asked_for
 from nag.cli.running import CommandAnswer, chosen_run, name_case, run_row
 from nag.solving.start import ASKED_FOR
@@ -13,6 +20,7 @@ from nag.solving.start import ASKED_FOR
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag solve``."""
     add_case(parser)
+    add_format(parser)
     add_running(parser)
     add_certify(parser)
     parser.add_argument(

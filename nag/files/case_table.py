@@ -38,7 +38,7 @@ class CaseError(InputError):
     """A case file that cannot be read: "file: table: key: what is wrong; what would be right"."""
 
 
-def _line(*parts: str | None) -> str:
+def line_of(*parts: str | None) -> str:
     """Parts of a message in one line that can be printed."""
     text = ": ".join(p for p in parts if p)
     return "".join(c if c.isprintable() else "?" for c in text)
@@ -60,7 +60,7 @@ class CaseTable:
 
     def fail(self, key: str | None, message: str) -> NoReturn:
         """Raise a `CaseError` about ``key``."""
-        raise CaseError(_line(self.file, self.place, key, message))
+        raise CaseError(line_of(self.file, self.place, key, message))
 
     @contextmanager
     def at(self, key: str) -> Iterator[None]:
@@ -178,15 +178,15 @@ def kind_of(value: Any) -> str:
     return names.get(type(value), "a date or time")
 
 
-def read_toml(path: Path) -> dict[str, Any]:
-    """What the file holds; decimals are kept as they are written, as `decimal.Decimal`.
+def read_case_text(path: Path) -> str:
+    """The text of a file.
 
     Raises:
-        CaseError: if it cannot be read, is too long, or is not TOML.
+        CaseError: if it cannot be read, is too long, or is not UTF-8.
     """
 
     def fail(message: str) -> NoReturn:
-        raise CaseError(_line(str(path), message))
+        raise CaseError(line_of(str(path), message))
 
     try:
         with open(path, "rb") as file:
@@ -198,10 +198,22 @@ def read_toml(path: Path) -> dict[str, Any]:
     if len(content) > MAX_BYTES:
         fail(f"is longer than {MAX_BYTES} bytes; a case file is shorter")
     try:
-        text = content.decode("utf-8-sig")
+        return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         fail(f"line {line}: byte {error.object[error.start]:#04x} is not UTF-8; save it as UTF-8")
+
+
+def parse_toml(path: Path, text: str) -> dict[str, Any]:
+    """What a text in TOML holds; decimals are kept as they are written, as `decimal.Decimal`.
+
+    Raises:
+        CaseError: if it is not TOML.
+    """
+
+    def fail(message: str) -> NoReturn:
+        raise CaseError(line_of(str(path), message))
+
     for number, line in enumerate(text.split("\n"), 1):
         if line.count(".") > MAX_KEY_PARTS and _QUOTED.sub("", line).count(".") > MAX_KEY_PARTS:
             fail(f"line {number}: more than {MAX_KEY_PARTS} dots outside of texts; shorten the key")

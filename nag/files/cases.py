@@ -1,12 +1,14 @@
 """Case files: a polynomial system or a mechanism, and what is known about it, in TOML.
 
-A case file is data: nothing in it is evaluated as code, and its size and the work that its
-expressions ask for are bounded before they are spent.
+Polynomial systems are read from other programs' files as well (`nag.files.formats`). A case file is
+data: nothing in it is evaluated as code, and its size and the work that its expressions ask for are
+bounded before they are spent.
 """
 
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -28,10 +30,12 @@ from nag.files.case_table import (
     CaseTable,
     ReadNumber,
     kind_of,
+    parse_toml,
+    read_case_text,
     read_parameters,
-    read_toml,
     with_values,
 )
+from nag.files.formats import READ
 from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
 
 if TYPE_CHECKING:
@@ -40,6 +44,8 @@ if TYPE_CHECKING:
     from nag.mechanism.graph import Mechanism
 
 __all__ = ["Case", "CaseError", "NamedPoint", "Truth", "read_case"]
+
+_TOML = re.compile(r"^[ \t]*(?:title|kind)[ \t]*=[ \t]*[\"']", re.MULTILINE)
 
 CaseKind = Literal["system", "mechanism", "dh", "framework", "linkage"]
 
@@ -145,12 +151,16 @@ class Case:
 
 
 def read_case(
-    path: str | os.PathLike[str], values: Mapping[str, str | Number] | None = None
+    path: str | os.PathLike[str],
+    values: Mapping[str, str | Number] | None = None,
+    *,
+    format: str = "auto",
 ) -> Case:
     """Read the case file at ``path``.
 
     Args:
         values: numbers or expressions for some of the parameters, in place of the file's.
+        format: one of `nag.files.formats.READ`; by default told by the content.
 
     Raises:
         CaseError: if it cannot be read or makes no sense; one line says where and what would be
@@ -163,7 +173,11 @@ def read_case(
     """
     check_path(path)
     path = Path(path)
-    top = CaseTable(str(path), "", read_toml(path))
+    text = read_case_text(path)
+    chosen = _format_of(path, text, format)
+    if chosen != "toml":
+        return _system_case(path, text, chosen, values)
+    top = CaseTable(str(path), "", parse_toml(path, text))
     for key in {"plate", "plates"} & top.values.keys():
         top.fail(key, 'plates are links of kind = "linkage": [[link]] with pins and their shape')
     top.allow(sorted({key for keys in _KEYS.values() for key in keys}))
@@ -201,6 +215,30 @@ def read_case(
     )
 
 
+def _format_of(path: Path, text: str, format: str) -> str:
+    """The format of a file that is asked for, else the one that its name or its text tells."""
+    if format != "auto":
+        if format not in READ:
+            raise CaseError(f"format: {quote(format)} is unknown; write one of {', '.join(READ)}")
+        return format
+    if path.suffix == ".toml" or _TOML.search(text):
+        return "toml"
+    if text.lstrip().startswith("{"):
+        raise CaseError(f"{path}: is JSON, as exports are; give the case file")
+    from nag.files.formats.reading import recognise_format
+
+    return recognise_format(text)
+
+
+def _system_case(
+    path: Path, text: str, format: str, values: Mapping[str, str | Number] | None
+) -> Case:
+    from nag.files.formats.reading import read_system_text
+
+    system, parameters = read_system_text(str(path), text, format, values)
+    return Case(path.name, "system", path, parameters, system=system)
+
+
 def freed_system(
     path: str | os.PathLike[str], names: Sequence[str], values: Mapping[str, str] | None = None
 ) -> PolynomialSystem:
@@ -222,7 +260,12 @@ def freed_system(
                 f"{path}: {quote(name)} is no parameter{nearest(name, case.parameters)}; it has "
                 f"{', '.join(case.parameters) or 'none'}"
             )
-    top = CaseTable(str(path), "", read_toml(Path(path)))
+    text = read_case_text(Path(path))
+    if (format := _format_of(Path(path), text, "auto")) != "toml":
+        from nag.files.formats.reading import read_system_text
+
+        return read_system_text(str(path), text, format, values, freed=names)[0]
+    top = CaseTable(str(path), "", parse_toml(Path(path), text))
     for other, text in with_values(top.table("parameters"), values or {}).values.items():
         used = sorted(names_in(text) & set(names)) if isinstance(text, str) else []
         if used and other not in names:

@@ -1,0 +1,128 @@
+"""Input files of Bertini 1: sections CONFIG and INPUT of declarations and definitions.
+
+The grammar is that of chapter 3 of Bates, Hauenstein, Sommese and Wampler, Numerically Solving
+Polynomial Systems with Bertini (2013). What CONFIG says is for Bertini's tracker and is left out.
+"""
+
+from __future__ import annotations
+
+import re
+
+from nag.algebra.tokens import quote
+from nag.files.formats.source import GivenSystem, Source, Statement, check_names
+
+_COMMENT = re.compile(r"%[^\n]*")
+_SECTION = re.compile(r"^[ \t]*(CONFIG|INPUT|END)[ \t]*;?[ \t]*$", re.MULTILINE)
+_RECOGNISED = re.compile(
+    r"^[ \t]*(?:CONFIG|INPUT)[ \t]*;?[ \t]*$|^[ \t]*(?:hom_)?variable_group\b", re.MULTILINE
+)
+_WORD = re.compile(r"\s*([A-Za-z_]+)\b")
+_ASSIGNED = re.compile(r"\s*([^\W\d][\w\[\],]*)\s*=(?!=)")
+_DECLARED = ("variable_group", "hom_variable_group", "variable", "function", "constant")
+_REFUSED = {
+    "pathvariable": "a homotopy of the user's own is not read; write the system at its end",
+    "random": "random numbers are not read; write the constant's value",
+    "random_real": "random numbers are not read; write the constant's value",
+    "definedSubfunction": "subfunctions with arguments are not read; write them out",
+}
+
+
+def recognise(text: str) -> bool:
+    """Whether a text has what only an input file of Bertini has."""
+    return _RECOGNISED.search(_COMMENT.sub("", text)) is not None
+
+
+def read(source: Source) -> GivenSystem:
+    """The system of an input file of Bertini.
+
+    A ``hom_variable_group`` gets an affine patch, a linear form of the group that is 1.
+
+    Raises:
+        CaseError: if something is declared twice, never or of a kind that is not read.
+    """
+    source = source.without(_COMMENT)
+    declared: dict[str, list[list[Statement]]] = {kind: [] for kind in _DECLARED}
+    assigned: dict[str, Statement] = {}
+    for statement in source.statements(_input_section(source)):
+        kind = (_WORD.match(statement.text) or [""])[0].strip()
+        if kind in _REFUSED:
+            source.fail(statement.offset, f"{quote(kind)}: {_REFUSED[kind]}")
+        if kind == "parameter":
+            _read_parameter(source, statement, declared, assigned)
+            continue
+        if kind in _DECLARED:
+            listed = statement.part(len(kind), len(statement.text))
+            declared[kind].append(source.statements(listed, ","))
+            continue
+        _assign(source, statement, assigned)
+    return _given(source, declared, assigned)
+
+
+def _input_section(source: Source) -> Statement:
+    marks = list(_SECTION.finditer(source.text))
+    begins = [m.end() for m in marks if m[1] == "INPUT"]
+    if not begins:
+        config = [m for m in marks if m[1] == "CONFIG"]
+        if config:
+            source.fail(config[0].start(), "CONFIG without INPUT; write the line INPUT after it")
+        return Statement(source.text, 0)
+    end = next((m.start() for m in marks if m[1] == "END" and m.start() > begins[0]), None)
+    return Statement(source.text[begins[0] : end], begins[0])
+
+
+def _read_parameter(
+    source: Source,
+    statement: Statement,
+    declared: dict[str, list[list[Statement]]],
+    assigned: dict[str, Statement],
+) -> None:
+    """``parameter a = 3`` (a number), and ``parameter a`` with its value in a later statement."""
+    listed = statement.part(len("parameter"), len(statement.text))
+    for item in source.statements(listed, ","):
+        name = item
+        if "=" in item.text:
+            name = _assign(source, item, assigned)
+        declared["constant"].append([name])
+
+
+def _assign(source: Source, statement: Statement, assigned: dict[str, Statement]) -> Statement:
+    match = _ASSIGNED.match(statement.text)
+    if match is None:
+        known = "variable_group, function, constant, or a name, '=' and an expression"
+        source.fail(statement.offset, f"{quote(statement.text)} is not understood; write {known}")
+    name = statement.part(match.start(1), match.end(1))
+    if name.text in assigned:
+        source.fail(name.offset, f"{quote(name.text)} is defined twice; define it once")
+    assigned[name.text] = statement.part(match.end(), len(statement.text))
+    return name
+
+
+def _given(
+    source: Source, declared: dict[str, list[list[Statement]]], assigned: dict[str, Statement]
+) -> GivenSystem:
+    groups = [*declared["variable_group"], *declared["variable"]]
+    projective = declared["hom_variable_group"]
+    variables = check_names(source, (n for group in (*groups, *projective) for n in group))
+    functions = [name for names in declared["function"] for name in names]
+    if not variables:
+        source.fail(0, "no variable_group is declared; write one with the variables")
+    if not functions:
+        source.fail(0, "no function is declared; write 'function f, g;' and what they are")
+    constants = [name for names in declared["constant"] for name in names]
+    for name in (*functions, *constants):
+        if name.text not in assigned:
+            source.fail(name.offset, f"{quote(name.text)} is declared and never defined; define it")
+    for name, text in assigned.items():
+        if name in variables:
+            source.fail(text.offset, f"{quote(name)} is a variable; it has no definition")
+    named = {name.text for name in constants}
+    called = {name.text for name in functions}
+    check_names(source, functions)
+    return GivenSystem(
+        variables,
+        tuple(assigned[name.text] for name in functions),
+        {name: text for name, text in assigned.items() if name in named},
+        {name: text for name, text in assigned.items() if name not in named | called},
+        tuple(tuple(n.text for n in group) for group in (*groups, *projective)),
+        tuple(tuple(n.text for n in group) for group in projective),
+    )

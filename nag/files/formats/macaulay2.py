@@ -1,0 +1,122 @@
+"""Ideals and lists of polynomials as Macaulay2 takes them: a ring, then polynomials in it."""
+
+from __future__ import annotations
+
+import itertools
+import re
+
+from nag.algebra.tokens import quote
+from nag.files.case_table import MAX_ENTRIES
+from nag.files.formats.source import GivenSystem, Source, Statement, check_names
+
+_COMMENT = re.compile(r"--[^\n]*|-\*.*?\*-", re.DOTALL)
+_RING = re.compile(r"\b(QQ|ZZ|RR|CC)(?:_\w+)?[ \t]*\[")
+_FINITE = re.compile(r"\b(?:ZZ\s*/\s*\w+|GF\b[^\[\n]*)\s*\[")
+_ASSIGNED = re.compile(r"\s*([A-Za-z]\w*)\s*=(?!=)\s*")
+_LISTED = re.compile(r"(?:(?:ideal|polySystem|matrix)\b\s*)?([({])")
+_SUBSCRIPT = re.compile(r"([A-Za-z]\w*)_\(([0-9]+(?:,[0-9]+)*)\)")
+_RANGE = re.compile(r"(.+?)\.\.(.+)")
+_INDEXED = re.compile(r"([A-Za-z]\w*?)_(?:([0-9]{1,6})|\{([0-9]{1,6}(?:,[0-9]{1,6})*)\})")
+
+
+def recognise(text: str) -> bool:
+    """Whether a text makes a ring as Macaulay2 does."""
+    plain = _COMMENT.sub("", text)
+    return bool(_RING.search(plain) or _FINITE.search(plain))
+
+
+def read(source: Source) -> GivenSystem:
+    """The system of the ring and the one ideal or list in a text for Macaulay2.
+
+    Raises:
+        CaseError: if there is no ring, or not one ideal.
+    """
+    source = source.without(_COMMENT)
+    # The same length, so that columns stay.
+    subscripts = _SUBSCRIPT.sub(lambda m: f"{m[1]}_{{{m[2]}}}", source.text)
+    source = Source(source.file, subscripts)
+    ring = _RING.search(source.text)
+    finite = _FINITE.search(source.text)
+    if finite:
+        source.fail(finite.start(), "a ring over a finite field; write QQ[...]")
+    if ring is None:
+        source.fail(0, "there is no ring; write R = QQ[x, y]")
+    end = _closing(source, ring.end() - 1)
+    listed = Statement(source.text[ring.end() : end], ring.end())
+    names = [n for item in source.statements(listed, ",") for n in _ring_names(source, item)]
+    variables = check_names(source, names)
+    definitions, ideals = {}, []
+    for statement in _statements(source, end + 1):
+        assigned = _ASSIGNED.match(statement.text)
+        right = statement.part(assigned.end(), len(statement.text)) if assigned else statement
+        polynomials = _polynomials(source, right)
+        if polynomials is not None:
+            ideals.append((statement, polynomials))
+        elif assigned:
+            definitions[assigned[1]] = right
+    if not ideals:
+        source.fail(len(source.text.rstrip()), "there is no ideal; write ideal(..., ...)")
+    if len(ideals) > 1:
+        source.fail(ideals[1][0].offset, "a second ideal or list; leave one in the file")
+    return GivenSystem(variables, ideals[0][1], {}, definitions)
+
+
+def _closing(source: Source, opening: int) -> int:
+    """Where the bracket at ``opening`` is closed."""
+    depth = 0
+    for i in range(opening, len(source.text)):
+        depth += (source.text[i] in "([{") - (source.text[i] in ")]}")
+        if depth == 0:
+            return i
+    source.fail(opening, f"{source.text[opening]!r} is never closed; close it")
+
+
+def _ring_names(source: Source, item: Statement) -> list[Statement]:
+    if "=>" in item.text:
+        return []
+    ends = _RANGE.fullmatch(item.text)
+    if ends is None:
+        return [item]
+    first, last = ends[1].strip(), ends[2].strip()
+    if len(first) == len(last) == 1 and first.isalpha() and first <= last:
+        letters = (chr(k) for k in range(ord(first), ord(last) + 1))
+        return [Statement(letter, item.offset) for letter in letters]
+    low, high = _INDEXED.fullmatch(first), _INDEXED.fullmatch(last)
+    if low is None or high is None or low[1] != high[1]:
+        source.fail(item.offset, f"the range {quote(item.text)} is not understood; list the names")
+    starts = [int(k) for k in (low[2] or low[3]).split(",")]
+    stops = [int(k) for k in (high[2] or high[3]).split(",")]
+    if len(starts) != len(stops):
+        source.fail(item.offset, f"the range {quote(item.text)} has unequal ends; list the names")
+    count = 1
+    for a, b in zip(starts, stops, strict=True):
+        count *= max(0, b - a + 1)
+        if count > MAX_ENTRIES:
+            source.fail(item.offset, f"more than {MAX_ENTRIES} variables; at most that many")
+    ranges = [range(a, b + 1) for a, b in zip(starts, stops, strict=True)]
+    pattern = "{0}_{1}" if low[2] else "{0}_{{{1}}}"
+    return [
+        Statement(pattern.format(low[1], ",".join(map(str, index))), item.offset)
+        for index in itertools.product(*ranges)
+    ]
+
+
+def _statements(source: Source, start: int) -> list[Statement]:
+    """Statements from ``start``: to a semicolon, or to a line's end outside of brackets."""
+    rest = Statement(source.text[start:], start)
+    return source.statements(rest, ";\n")
+
+
+def _polynomials(source: Source, text: Statement) -> tuple[Statement, ...] | None:
+    """The entries of ``ideal(...)``, ``ideal {...}`` or ``{...}``, or None."""
+    match = _LISTED.match(text.text)
+    if match is None or (match.group(0) == "(" and not text.text.startswith("{")):
+        return None
+    opening = text.offset + match.end() - 1
+    end = _closing(source, opening)
+    if source.text[end + 1 : text.offset + len(text.text)].strip():
+        return None
+    inside = Statement(source.text[opening + 1 : end], opening + 1).stripped()
+    if inside.text.startswith("{") and inside.text.endswith("}"):
+        return _polynomials(source, inside)
+    return tuple(source.statements(inside, ","))

@@ -1,0 +1,53 @@
+"""Which program's a file is, told by its content, and the system in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from nag.algebra.number import Number
+from nag.algebra.system import PolynomialSystem
+from nag.files.formats import bertini, macaulay2, phcpack, plain, singular
+from nag.files.formats.source import GivenSystem, Source, free_parameters, read_given
+
+READERS: Mapping[str, Callable[[Source], GivenSystem]] = {
+    "bertini": bertini.read,
+    "phc": phcpack.read,
+    "m2": macaulay2.read,
+    "singular": singular.read,
+    "text": plain.read,
+}
+_RECOGNISED: Mapping[str, Callable[[str], bool]] = {
+    "bertini": bertini.recognise,
+    "singular": singular.recognise,
+    "m2": macaulay2.recognise,
+    "phc": phcpack.recognise,
+}
+
+
+def recognise_format(text: str) -> str:
+    """The name of the format of a text, ``text`` where it is none of a program's."""
+    return next((name for name, is_one in _RECOGNISED.items() if is_one(text)), "text")
+
+
+def read_system_text(
+    file: str,
+    text: str,
+    format: str,
+    values: Mapping[str, str | Number] | None = None,
+    *,
+    freed: Sequence[str] = (),
+) -> tuple[PolynomialSystem, dict[str, Number]]:
+    """The system that a text in one of `READERS` gives, and the values of its parameters.
+
+    Args:
+        values: other values of some parameters.
+        freed: parameters that are its last variables instead.
+
+    Raises:
+        CaseError: if it cannot be read; one line says where, and what would be right.
+    """
+    source = Source(file, text.replace("\r\n", "\n").replace("\r", "\n"))
+    given = READERS[format](source)
+    if freed:
+        given = free_parameters(source, given, freed)
+    return read_given(source, given, values)

@@ -1,0 +1,117 @@
+"""Ideals as Singular takes them: a ring of characteristic 0, then polynomials in it."""
+
+from __future__ import annotations
+
+import itertools
+import re
+
+from nag.algebra.tokens import quote
+from nag.files.case_table import MAX_ENTRIES
+from nag.files.formats.source import GivenSystem, Source, Statement, check_names
+
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_RING = re.compile(r"\s*ring\s+\w+\s*=\s*")
+_RECOGNISED = re.compile(r"^[ \t]*ring\s+\w+\s*=", re.MULTILINE)
+_DEFINED = re.compile(r"\s*(poly|number|ideal)\s+(\w+)\s*=\s*")
+_ASSIGNMENT = re.compile(r"[^=<>!]=[^=]")
+_INDEXED = re.compile(r"(\w+)((?:\([0-9]{1,6}(?:\.\.[0-9]{1,6})?\))+)")
+_BOUNDS = re.compile(r"\(([0-9]+)(?:\.\.([0-9]+))?\)")
+# 3x2y stands for 3*x^2*y where all variables are single letters.
+_SHORT = re.compile(r"(?<![\w.])([0-9]*)((?:[A-Za-z][0-9]*)+)(?!\w)")
+_LETTER = re.compile(r"([A-Za-z])([0-9]*)")
+
+
+def recognise(text: str) -> bool:
+    """Whether a text makes a ring as Singular does."""
+    return _RECOGNISED.search(_COMMENT.sub("", text)) is not None
+
+
+def read(source: Source) -> GivenSystem:
+    """The system of the ring and the one ideal in a text for Singular.
+
+    Raises:
+        CaseError: if the ring is not of characteristic 0, or there is not one ideal.
+    """
+    source = source.without(_COMMENT)
+    statements = source.statements()
+    rings = [(s, m) for s in statements if (m := _RING.match(s.text))]
+    if not rings:
+        source.fail(0, "there is no ring; write ring r = 0, (x, y), dp;")
+    if len(rings) > 1:
+        source.fail(rings[1][0].offset, "a second ring; leave one in the file")
+    names, bases = _read_ring(source, rings[0][0].part(rings[0][1].end(), len(rings[0][0].text)))
+    definitions, ideals = {}, []
+    letters = all(len(name) == 1 for name in names)
+    for statement in statements:
+        defined = _DEFINED.match(statement.text)
+        if defined is None:
+            if _ASSIGNMENT.search(statement.text) and not _RING.match(statement.text):
+                message = f"{quote(statement.text)} is not read; write 'ideal i = ..., ...;'"
+                source.fail(statement.offset, message)
+            continue
+        right = statement.part(defined.end(), len(statement.text))
+        texts = [_names_indexed(t, bases) for t in source.statements(right, ",")]
+        texts = [_write_out(t, names) for t in texts] if letters else texts
+        if defined[1] == "ideal":
+            ideals.append((statement, tuple(texts)))
+        else:
+            definitions[defined[2]] = texts[0]
+    if not ideals:
+        source.fail(len(source.text.rstrip()), "there is no ideal; write ideal i = ..., ...;")
+    if len(ideals) > 1:
+        source.fail(ideals[1][0].offset, "a second ideal; leave one in the file")
+    return GivenSystem(names, ideals[0][1], {}, definitions)
+
+
+def _read_ring(source: Source, ring: Statement) -> tuple[tuple[str, ...], frozenset[str]]:
+    """The variables of a ring, and the names before their indices."""
+    parts = source.statements(ring, ",")
+    if len(parts) < 2:
+        source.fail(ring.offset, "a ring has a characteristic and variables; write 0, (x, y), dp")
+    field = parts[0].text
+    if field not in ("0", "QQ", "real", "complex") and not field.startswith(("(real", "(complex")):
+        message = f"a ring over {quote(field)}; characteristic 0 without parameters is read"
+        source.fail(parts[0].offset, message)
+    listed = parts[1]
+    if listed.text.startswith("(") and listed.text.endswith(")"):
+        listed = listed.part(1, len(listed.text) - 1)
+    names, bases = [], set()
+    for item in source.statements(listed, ","):
+        match = _INDEXED.fullmatch(item.text)
+        if match is None:
+            names.append(item)
+            continue
+        bases.add(match[1])
+        bounds = [(int(b[1]), int(b[2] or b[1])) for b in _BOUNDS.finditer(match[2])]
+        count = 1
+        for low, high in bounds:
+            count *= max(0, high - low + 1)
+            if count > MAX_ENTRIES:
+                source.fail(item.offset, f"more than {MAX_ENTRIES} variables; at most that many")
+        for index in itertools.product(*(range(low, high + 1) for low, high in bounds)):
+            names.append(Statement(match[1] + "".join(f"[{k}]" for k in index), item.offset))
+    return check_names(source, names), frozenset(bases)
+
+
+def _names_indexed(text: Statement, bases: frozenset[str]) -> Statement:
+    """The same with ``x[1]`` for ``x(1)``, of the same length, so that columns stay."""
+
+    def indexed(match: re.Match[str]) -> str:
+        if match[1] not in bases:
+            return match[0]
+        return match[1] + match[2].replace("(", "[").replace(")", "]")
+
+    return Statement(_INDEXED.sub(indexed, text.text), text.offset)
+
+
+def _write_out(text: Statement, names: tuple[str, ...]) -> Statement:
+    """The same with all products and powers written, where all variables are letters."""
+
+    def product(match: re.Match[str]) -> str:
+        letters = _LETTER.findall(match[2])
+        if match[2] in names or not all(letter in names for letter, _ in letters):
+            return match[0]
+        factors = [f"{letter}^{power}" if power else letter for letter, power in letters]
+        return "*".join([match[1], *factors] if match[1] else factors)
+
+    return Statement(_SHORT.sub(product, text.text), text.offset)

@@ -1,0 +1,228 @@
+"""The text of a file that knows its lines and columns, and the system that it is read to."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import NoReturn
+
+from nag.algebra.bounded import Budget, Value
+from nag.algebra.expression import parse_number, parse_polynomial
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import ExpressionError, is_name, names_in, quote
+from nag.files.case_table import MAX_ENTRIES, CaseError, line_of
+
+_BRACKETS = {"(": ")", "[": "]", "{": "}"}
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A part of a file: its text, and where it begins."""
+
+    text: str
+    offset: int
+
+    def stripped(self) -> Statement:
+        """Without the blanks around it."""
+        start = len(self.text) - len(self.text.lstrip())
+        return Statement(self.text.strip(), self.offset + start)
+
+    def part(self, start: int, end: int) -> Statement:
+        """The characters from ``start`` to ``end``."""
+        return Statement(self.text[start:end], self.offset + start).stripped()
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file's path and text."""
+
+    file: str
+    text: str
+
+    def fail(self, offset: int, message: str) -> NoReturn:
+        """Raise a `CaseError` about the place ``offset``."""
+        line = self.text.count("\n", 0, offset) + 1
+        column = offset - self.text.rfind("\n", 0, offset)
+        raise CaseError(line_of(self.file, f"line {line}, column {column}", message))
+
+    def fail_at_line(self, offset: int, message: str) -> NoReturn:
+        """Raise a `CaseError` about the line that ``offset`` is in."""
+        line = self.text.count("\n", 0, offset) + 1
+        raise CaseError(line_of(self.file, f"line {line}", message))
+
+    def without(self, comment: re.Pattern[str]) -> Source:
+        """The same with comments blanked out, so that columns stay."""
+        return replace(self, text=comment.sub(_blank, self.text))
+
+    def statements(self, whole: Statement | None = None, separator: str = ";") -> list[Statement]:
+        """The parts between separators outside of brackets, without empty ones.
+
+        Raises:
+            CaseError: if brackets do not match.
+        """
+        whole = whole or Statement(self.text, 0)
+        parts, open_at, start = [], [], 0
+        for i, c in enumerate(whole.text):
+            if c in _BRACKETS:
+                open_at.append(i)
+            elif c in ")]}":
+                if not open_at or _BRACKETS[whole.text[open_at[-1]]] != c:
+                    self.fail(whole.offset + i, f"{c!r} without its opening bracket; mend one")
+                open_at.pop()
+            elif c in separator and not open_at:
+                parts.append(whole.part(start, i))
+                start = i + 1
+            elif c == ";" and open_at:
+                break
+        if open_at:
+            self.fail(
+                whole.offset + open_at[-1],
+                f"{whole.text[open_at[-1]]!r} is never closed; write its "
+                f"{_BRACKETS[whole.text[open_at[-1]]]!r}",
+            )
+        parts.append(whole.part(start, len(whole.text)))
+        return [part for part in parts if part.text]
+
+
+def _blank(match: re.Match[str]) -> str:
+    return re.sub(r"[^\n]", " ", match[0])
+
+
+@dataclass(frozen=True)
+class GivenSystem:
+    """What a file says a system is.
+
+    Attributes:
+        variables: names, in order.
+        equations: each one polynomial, or two with ``=`` between them.
+        parameters: expressions for numbers that have names, each of names before it.
+        definitions: expressions of the variables that have names, each of names before it.
+        groups: groups of variables.
+        patches: groups of homogeneous variables, for each of which an affine patch is chosen.
+    """
+
+    variables: tuple[str, ...]
+    equations: tuple[Statement, ...]
+    parameters: Mapping[str, Statement] = field(default_factory=dict)
+    definitions: Mapping[str, Statement] = field(default_factory=dict)
+    groups: tuple[tuple[str, ...], ...] = ()
+    patches: tuple[tuple[str, ...], ...] = ()
+
+
+def check_names(source: Source, names: Iterable[Statement]) -> tuple[str, ...]:
+    """The names, if each is one and none is there twice.
+
+    Raises:
+        CaseError: otherwise.
+    """
+    seen: dict[str, None] = {}
+    for name in names:
+        if not is_name(name.text):
+            source.fail(name.offset, f"{quote(name.text)} cannot name a variable; rename it")
+        if name.text in seen:
+            source.fail(name.offset, f"{quote(name.text)} is there twice; name it once")
+        seen[name.text] = None
+        if len(seen) > MAX_ENTRIES:
+            source.fail(name.offset, f"more than {MAX_ENTRIES} variables; at most that many")
+    return tuple(seen)
+
+
+def read_given(
+    source: Source, given: GivenSystem, values: Mapping[str, str | Number] | None = None
+) -> tuple[PolynomialSystem, dict[str, Number]]:
+    """The exact system that a file gives, and the values of its parameters.
+
+    Args:
+        values: other values of some parameters.
+
+    Raises:
+        CaseError: if something in it is no number or polynomial; the line says where.
+    """
+    budget = Budget()
+    for name in values or {}:
+        if name not in given.parameters:
+            known = ", ".join(given.parameters) or "none"
+            raise CaseError(line_of(source.file, quote(name), f"is no parameter; it has {known}"))
+    parameters: dict[str, Number] = {}
+    for name, text in given.parameters.items():
+        if values and name in values:
+            try:
+                parameters[name] = parse_number(values[name], parameters, budget)
+            except ExpressionError as error:
+                raise CaseError(line_of(source.file, name, str(error))) from None
+            continue
+        parameters[name] = _number(source, text, parameters, budget)
+    read = _Reading(source, given, {**parameters}, budget)
+    for name, text in given.definitions.items():
+        read.known[name] = read.polynomial(text)
+    if not given.equations:
+        raise CaseError(line_of(source.file, "there is no equation in it; write at least one"))
+    if len(given.equations) > MAX_ENTRIES:
+        at = given.equations[MAX_ENTRIES].offset
+        source.fail(at, f"more than {MAX_ENTRIES} equations; at most that many are read")
+    equations = [read.polynomial(text) for text in given.equations]
+    equations += [_patch(given, group) for group in given.patches]
+    grouped = {name for group in given.groups for name in group}
+    whole = given.groups if grouped == set(given.variables) and len(given.groups) > 1 else ()
+    groups = tuple(tuple(given.variables.index(name) for name in group) for group in whole)
+    return PolynomialSystem(given.variables, tuple(equations), groups=groups), parameters
+
+
+def free_parameters(source: Source, given: GivenSystem, names: Sequence[str]) -> GivenSystem:
+    """The same with parameters as its last variables.
+
+    Raises:
+        CaseError: if one is no parameter, or another parameter depends on one.
+    """
+    for name in names:
+        if name not in given.parameters:
+            known = ", ".join(given.parameters) or "none"
+            raise CaseError(line_of(source.file, quote(name), f"is no parameter; it has {known}"))
+    kept = {name: text for name, text in given.parameters.items() if name not in names}
+    for name, text in kept.items():
+        used = sorted(names_in(text.text) & set(names))
+        if used:
+            source.fail(text.offset, f"{name} depends on {used[0]}; free it as well")
+    variables = (*given.variables, *names)
+    return replace(given, variables=variables, parameters=kept, groups=())
+
+
+def _number(source: Source, text: Statement, known: Mapping[str, Number], budget: Budget) -> Number:
+    try:
+        return parse_number(text.text, known, budget)
+    except ExpressionError as error:
+        source.fail(text.offset + (error.column or 1) - 1, error.reason)
+
+
+@dataclass(frozen=True)
+class _Reading:
+    """Reads polynomials on one budget, with the names that are known so far."""
+
+    source: Source
+    given: GivenSystem
+    known: dict[str, Value]
+    budget: Budget
+
+    def polynomial(self, text: Statement) -> Polynomial:
+        """The polynomial of a statement."""
+        try:
+            return parse_polynomial(text.text, self.given.variables, self.known, self.budget)
+        except ExpressionError as error:
+            self.source.fail(text.offset + (error.column or 1) - 1, error.reason)
+
+
+def _patch(given: GivenSystem, group: Sequence[str]) -> Polynomial:
+    """A linear form of the group, less 1: the affine patch on which its points are found.
+
+    Which one does not matter but for points on its hyperplane at infinity: coefficients are odd
+    and of no pattern, so that no equation that is written by hand has such points.
+    """
+    n = len(given.variables)
+    form = Polynomial.constant(n, -1)
+    for k, name in enumerate(group, 1):
+        coefficient = (k * 7919) % 101 + 11
+        form = form + (-1) ** k * coefficient * Polynomial.variable(n, given.variables.index(name))
+    return form

@@ -1,0 +1,256 @@
+"""A polynomial system as the text of another program."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+
+from nag.algebra.number import Number, binary, number_text
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
+from nag.files.formats import plain
+
+# Digits of irrational coefficients where a program takes decimals only: some more than a double.
+DECIMALS = 20
+
+_LETTERS = re.compile(r"[^A-Za-z0-9]+")
+_GREEK = (
+    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi omicron pi rho "
+    "varsigma sigma tau upsilon phi chi psi omega"
+)
+_LATIN = {chr(0x3B1 + k): name for k, name in enumerate(_GREEK.split())}
+_NUMBER = re.compile(r"(?<![\w.])[0-9]+")
+# What the names of variables must not be in a program besides.
+_TAKEN = frozenset(
+    "I i ii E D O S N Q C e pi Pi sin cos exp sqrt tan log lambda".split()  # noqa: SIM905
+)
+
+
+def _plain_names(names: Sequence[str], allowed: str) -> dict[str, str]:
+    """A name of letters and digits for each that does not match ``allowed``, no two the same."""
+    pattern = re.compile(allowed)
+    kept = {n for n in names if pattern.fullmatch(n) and n not in _TAKEN}
+    written: dict[str, str] = {n: n for n in kept}
+    used = set(kept)
+    for name in names:
+        if name in written:
+            continue
+        letters = "".join(_LATIN.get(c.lower(), c) for c in name).replace("'", "p")
+        base = _LETTERS.sub("_", letters).strip("_") or "x"
+        base = base.replace("_", "") if re.fullmatch(allowed, "a_1") is None else base
+        base = base if base[0].isalpha() else f"x{base}"
+        base = base if base not in _TAKEN else f"{base}v"
+        choice, k = base, 1
+        while choice in used:
+            k += 1
+            choice = f"{base}{'v' * (base[-1].isdigit())}{k}"
+        written[name] = choice
+        used.add(choice)
+    return {name: written[name] for name in names}
+
+
+def _renamed_lines(names: Mapping[str, str]) -> list[str]:
+    changed = [f"{new} is {old}" for old, new in names.items() if new != old]
+    return [f"names: {', '.join(changed)}"] if changed else []
+
+
+def _decimal(value: Number) -> str:
+    """An irrational number to `DECIMALS` digits, a rational one as it is."""
+    if not hasattr(value, "evaluate") and "sqrt" not in number_text(value):
+        return number_text(value)
+    mantissa, exponent = binary(value, DECIMALS)
+    import mpmath
+
+    with mpmath.workdps(DECIMALS + 5):
+        return mpmath.nstr(mpmath.ldexp(mantissa, exponent), DECIMALS, strip_zeros=False)
+
+
+def _texts(
+    system: PolynomialSystem, names: Sequence[str], number: Callable[[Number], str], power: str
+) -> list[str]:
+    """The polynomials with other names, numbers and powers."""
+    return [_polynomial_text(f, names, number, power) for f in system.polynomials]
+
+
+def _polynomial_text(
+    f: Polynomial, names: Sequence[str], number: Callable[[Number], str], power: str
+) -> str:
+    parts = []
+    for e in sorted(f.terms, key=lambda e: (-sum(e), tuple(-k for k in e))):
+        factors = [n if k == 1 else f"{n}{power}{k}" for n, k in zip(names, e, strict=True) if k]
+        sign, size = _sign_and_size(number(f.terms[e]))
+        if " " in size or "+" in size[1:] or "-" in size[1:].replace("e-", ""):
+            size = f"({size})"
+        if size != "1" or not factors:
+            factors.insert(0, size)
+        parts.append(f" {sign} {'*'.join(factors)}")
+    text = "".join(parts).removeprefix(" + ") or "0"
+    return f"-{text[3:]}" if text.startswith(" - ") else text
+
+
+def _sign_and_size(text: str) -> tuple[str, str]:
+    """A number's text as a sign and what follows it."""
+    whole = re.fullmatch(r"\(-([\w()]+)\)", text)
+    text = f"-{whole[1]}" if whole else text
+    return ("-", text[1:]) if text.startswith("-") else ("+", text)
+
+
+def _only_rational(system: PolynomialSystem, program: str) -> None:
+    if not system.exact:
+        raise NagError(
+            f"not all coefficients are rational, which a ring QQ[...] of {program} asks for; write "
+            "bertini, phc, sympy, hc or latex"
+        )
+
+
+def write_phc(system: PolynomialSystem, title: str) -> str:
+    """The system as PHCpack reads it; irrational numbers to `DECIMALS` digits."""
+    names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9_]*")
+    lines = [f"{len(system.polynomials)} {system.n}"]
+    # Unknowns are taken in the order of their first occurrence.
+    order = "".join(f"{names[v]} - {names[v]} + " for v in system.variables)
+    for text in _texts(system, list(names.values()), _decimal, "^"):
+        lines.append(f"{order}{text};")
+        order = ""
+    return "\n".join([*lines, "", f"TITLE : {title}", *_renamed_lines(names)]) + "\n"
+
+
+def write_bertini(system: PolynomialSystem, title: str) -> str:
+    """The system as an input file of Bertini 1; irrational numbers to `DECIMALS` digits."""
+    names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9_\[\]]*")
+    groups = system.groups or (tuple(range(system.n)),)
+    functions = [f"f{k}" for k in range(1, len(system.polynomials) + 1)]
+    functions = [f if f not in names.values() else f"nag_{f}" for f in functions]
+    lines = [f"% {line}" for line in (title, *_renamed_lines(names))]
+    lines += ["CONFIG", "END;", "INPUT"]
+    written = list(names.values())
+    lines += [f"variable_group {', '.join(written[i] for i in g)};" for g in groups]
+    lines.append(f"function {', '.join(functions)};")
+    texts = _texts(system, written, _decimal, "^")
+    lines += [f"{name} = {text};" for name, text in zip(functions, texts, strict=True)]
+    return "\n".join([*lines, "END;"]) + "\n"
+
+
+def write_macaulay2(system: PolynomialSystem, title: str) -> str:
+    """A ring over QQ and an ideal in it, for Macaulay2."""
+    _only_rational(system, "Macaulay2")
+    names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9]*(?:_[0-9]+)?")
+    lines = [f"-- {line}" for line in (title, *_renamed_lines(names))]
+    written = list(names.values())
+    texts = [_wide(t) for t in _texts(system, written, number_text, "^")]
+    lines.append(f"R = QQ[{', '.join(written)}]")
+    return "\n".join([*lines, "I = ideal(\n  " + ",\n  ".join(texts) + ")"]) + "\n"
+
+
+def _wide(text: str) -> str:
+    """A constant as an element of the ring."""
+    return f"{text}_R" if re.fullmatch(r"-?[0-9/]+", text) else text
+
+
+def write_singular(system: PolynomialSystem, title: str) -> str:
+    """A ring over QQ and an ideal in it, for Singular."""
+    _only_rational(system, "Singular")
+    names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9]*")
+    lines = [f"// {line}" for line in (title, *_renamed_lines(names))]
+    written = list(names.values())
+    texts = _texts(system, written, number_text, "^")
+    ring, ideal = "nagring", "nagideal"
+    lines.append(f"ring {ring} = 0, ({', '.join(written)}), dp;")
+    return "\n".join([*lines, f"ideal {ideal} =\n  " + ",\n  ".join(texts) + ";"]) + "\n"
+
+
+def write_sympy(system: PolynomialSystem, title: str) -> str:
+    """Lines of Python: symbols, and a list of expressions of sympy's."""
+    names = _plain_names(system.variables, r"[A-Za-z]\w*")
+    written = [f"{n}_" if n in ("lambda", "sqrt", "Rational") else n for n in names.values()]
+    symbols = ", ".join(repr(n) for n in system.variables)
+    texts = _texts(system, written, lambda c: _NUMBER.sub(r"S(\g<0>)", number_text(c)), "**")
+    lines = [f"# {line}" for line in (title, *_renamed_lines(names))]
+    lines += ["from sympy import S, Symbol, cos, pi, sin, sqrt", ""]
+    lines.append(f"{', '.join(written)}, = (Symbol(name) for name in ({symbols},))")
+    return "\n".join([*lines, "equations = ["] + [f"    {t}," for t in texts] + ["]"]) + "\n"
+
+
+def write_julia(system: PolynomialSystem, title: str) -> str:
+    """Lines of Julia for HomotopyContinuation.jl."""
+    names = _plain_names(system.variables, r"[A-Za-z]\w*")
+    written = list(names.values())
+    texts = _texts(system, written, lambda c: number_text(c).replace("/", "//"), "^")
+    lines = [f"# {line}" for line in (title, *_renamed_lines(names))]
+    lines += ["using HomotopyContinuation", f"@var {' '.join(written)}", "F = System(["]
+    return "\n".join([*lines, *(f"    {t}," for t in texts)]) + (
+        f"\n], variables = [{', '.join(written)}])\n"
+    )
+
+
+def write_latex(system: PolynomialSystem, title: str) -> str:
+    """The equations in an ``align*`` of LaTeX."""
+    names = [_latex_name(name) for name in system.variables]
+    lines = []
+    for f in system.polynomials:
+        text = "".join(_latex_term(e, f.terms[e], names) for e in _ordered(f)) or " + 0"
+        text = text.removeprefix(" + ")
+        lines.append(f"  {'-' + text[3:] if text.startswith(' - ') else text} &= 0")
+    return f"% {title}\n\\begin{{align*}}\n" + " \\\\\n".join(lines) + "\n\\end{align*}\n"
+
+
+def _ordered(f: Polynomial) -> list[tuple[int, ...]]:
+    return sorted(f.terms, key=lambda e: (-sum(e), tuple(-k for k in e)))
+
+
+def _latex_term(e: Sequence[int], c: Number, names: Sequence[str]) -> str:
+    sign, size = _sign_and_size(number_text(c))
+    if match := re.fullmatch(r"([0-9]+)/([0-9]+)", size):
+        size = rf"\tfrac{{{match[1]}}}{{{match[2]}}}"
+    else:
+        size = re.sub(r"sqrt\(([^()]*)\)", r"\\sqrt{\1}", size).replace("*", " ")
+        size = re.sub(r"\b(pi|sin|cos)\b", r"\\\1", size)
+        size = f"({size})" if "+" in size or " - " in size else size
+    powers = [n if k == 1 else f"{n}^{{{k}}}" for n, k in zip(names, e, strict=True) if k]
+    body = [*([size] if size != "1" or not powers else []), *powers]
+    return f" {sign} {' '.join(body)}"
+
+
+def _latex_name(name: str) -> str:
+    match = re.fullmatch(r"([^\W\d_]+)_?[\[{]?([0-9A-Za-z,]*)[\]}]?('*)", name)
+    if match is None:
+        return rf"\mathit{{{name.replace('_', chr(92) + '_')}}}"
+    base = "".join(rf"\{_LATIN[c]}" if c in _LATIN else c for c in match[1])
+    base = base if len(match[1]) == 1 else rf"\mathit{{{base}}}"
+    return base + (f"_{{{match[2]}}}" if match[2] else "") + match[3]
+
+
+WRITERS: Mapping[str, Callable[[PolynomialSystem, str], str]] = {
+    "bertini": write_bertini,
+    "phc": write_phc,
+    "m2": write_macaulay2,
+    "singular": write_singular,
+    "text": plain.write,
+    "sympy": write_sympy,
+    "hc": write_julia,
+    "latex": write_latex,
+}
+
+
+def write_system(system: PolynomialSystem, format: str, title: str = "") -> str:
+    """The system as the text of another program, one of `WRITERS`.
+
+    Names that the program does not take are changed, which a comment tells. What must not vanish
+    is no part of it.
+
+    Raises:
+        NagError: if the format is unknown, or has no numbers that the system has.
+
+    >>> import nag
+    >>> print(write_system(nag.system(["x^2 - y/2"]), "singular", "a parabola"), end="")
+    // a parabola
+    ring nagring = 0, (x, y), dp;
+    ideal nagideal =
+      x^2 - 1/2*y;
+    """
+    if format not in WRITERS:
+        raise NagError(f"format: {format!r} is unknown; write one of {', '.join(WRITERS)}")
+    if not system.polynomials:
+        raise NagError("there is no equation to write")
+    return WRITERS[format](system, " ".join(title.split()) or "a polynomial system")

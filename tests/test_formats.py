@@ -1,0 +1,303 @@
+"""Systems in the files of other programs: read, written, and the same after both."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import nag
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.cli import main
+from nag.files.cases import CaseError, read_case
+from nag.files.formats import READ, WRITTEN
+from nag.files.formats.reading import READERS, read_system_text, recognise_format
+from nag.files.formats.writing import WRITERS, write_system
+
+BERTINI = """\
+% a curve and a line
+CONFIG
+  TrackTolBeforeEG: 1e-8;  % left out
+END;
+INPUT
+variable_group x, y;
+variable_group z;
+function f, g;
+constant a, b;
+a = 1/2;
+b = 2*a;
+s = x^2 + y^2;   % a subfunction
+f = s - b;
+g = (x - y)*z
+    - a;
+END;
+1 2 3
+"""
+PHC = """\
+2
+ 3.5*x**2 + y^2 - 1;
+ x*y - 1.5E-01 ;
+
+THE SOLUTIONS :
+"""
+MACAULAY2 = """\
+-- a ring and an ideal
+R = QQ[x_1..x_3, a, MonomialOrder => Lex];
+f = x_1^2 + x_2  -- named
+I = ideal(f, x_1*x_2 -
+   a/3,
+   x_3)
+dim I
+"""
+SINGULAR = """\
+LIB "primdec.lib";
+ring r = 0, (x(1..2), y), dp;  // names with an index
+poly f = x(1)^2 - 3;
+ideal i = f, x(1)*x(2) - y;
+primdecGTZ(i);
+"""
+PLAIN = """\
+# two circles
+x^2 + y^2 = 1,
+(x - 1)^2 + y^2 = 1/4;   # with an end
+"""
+
+
+def read_text(text: str, format: str = "auto") -> PolynomialSystem:
+    format = recognise_format(text) if format == "auto" else format
+    return read_system_text("file", text, format)[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "format", "variables", "equations"),
+    [
+        (
+            BERTINI,
+            "bertini",
+            ("x", "y", "z"),
+            ["x^2 + y^2 - 1", "x*z - y*z - 1/2"],
+        ),
+        (PHC, "phc", ("x", "y"), ["7/2*x^2 + y^2 - 1", "x*y - 3/20"]),
+        (
+            MACAULAY2,
+            "m2",
+            ("x_1", "x_2", "x_3", "a"),
+            ["x_1^2 + x_2", "x_1*x_2 - 1/3*a", "x_3"],
+        ),
+        (SINGULAR, "singular", ("x[1]", "x[2]", "y"), ["x[1]^2 - 3", "x[1]*x[2] - y"]),
+        (PLAIN, "text", ("x", "y"), ["x^2 + y^2 - 1", "x^2 + y^2 - 2*x + 3/4"]),
+    ],
+)
+def test_files_are_told_by_their_content_and_read_exactly(
+    text: str, format: str, variables: tuple[str, ...], equations: list[str]
+) -> None:
+    assert recognise_format(text) == format
+    system = read_text(text)
+    assert system.variables == variables
+    assert system.text() == equations
+
+
+def test_groups_and_parameters_of_bertini_are_kept() -> None:
+    system, parameters = read_system_text("file", BERTINI, "bertini")
+    assert system.groups == ((0, 1), (2,))
+    assert parameters == {"a": Fraction(1, 2), "b": 1}
+    assert read_system_text("file", BERTINI, "bertini", {"a": "3"})[1] == {"a": 3, "b": 6}
+
+
+def test_homogeneous_groups_are_met_by_a_patch() -> None:
+    text = "hom_variable_group x, y, z;\nfunction f, g;\nf = x^2 - y*z; g = x - y;\n"
+    system = read_text(text)
+    assert [f.degree for f in system.polynomials] == [2, 1, 1]
+    # A conic and a line meet in two points of the plane.
+    assert len(nag.solve(system).solutions) == 2
+
+
+@pytest.mark.parametrize(
+    ("ring", "names"),
+    [
+        ("R = QQ[a..d]", ("a", "b", "c", "d")),
+        ("R = QQ[x_(1,1)..x_(2,2)]", ("x_{1,1}", "x_{1,2}", "x_{2,1}", "x_{2,2}")),
+        ("R = CC_53[x, y_0..y_1]", ("x", "y_0", "y_1")),
+    ],
+)
+def test_ranges_of_macaulay2_are_written_out(ring: str, names: tuple[str, ...]) -> None:
+    first = names[0].replace("_{", "_(").replace("}", ")")
+    assert read_text(f"{ring}\nI = ideal({first}^2 - 1)").variables == names
+
+
+def test_products_without_a_sign_are_read_where_singular_prints_them() -> None:
+    system = read_text("ring r=0,(x,y),dp;\nideal i=3x2y-1,xy+y10;")
+    assert system.text() == ["3*x^2*y - 1", "y^10 + x*y"]
+
+
+@pytest.mark.parametrize("name", ["x[0]", "x[1,2]", "φ", "x_{12}", "x'", "x₁", "größe", "θ_1''"])
+def test_names_are_written_as_people_write_them(name: str) -> None:
+    system = nag.system([f"{name}^2 - 2*{name} + y"], variables=[name, "y"])
+    assert system.variables == (name, "y")
+    assert system.text() == [f"{name}^2 - 2*{name} + y"]
+    assert nag.system([f"y = 2*{name}"]).n == 2
+
+
+def test_a_superscript_is_no_part_of_a_name() -> None:
+    with pytest.raises(nag.EquationError, match="column 2: '²' has no meaning here"):
+        nag.system(["x² - 1"], variables=["x"])
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "reason"),
+    [
+        ("x^2 + y\nx*(y - 1\n", "line 2, column 3", "'(' is never closed"),
+        ("x^2 + I*y\n", "line 1, column 7", "looks like the imaginary unit"),
+        ("2\nx^2 - 1;\n", "line 2, column 9", "1 of 2 polynomials end with ';'"),
+        ("1 2\nx^2 - 1;\n", "line 1, column 3", "2 unknowns are said, and 1 occur"),
+        ("2\nx^2 - 1;\nx/y;\n", "line 3, column 2", "the divisor contains a variable"),
+        ("variable_group x;\nfunction f;\nf = x + t;\n", "line 3, column 9", "unknown name 't'"),
+        ("variable_group x;\nfunction f, g;\nf = x;\n", "line 2, column 13", "never defined"),
+        (
+            "variable_group x;\npathvariable t;\n",
+            "line 2, column 1",
+            "a homotopy of the user's own is not read",
+        ),
+        ("R = ZZ/101[x]\nI = ideal(x)\n", "line 1, column 5", "a ring over a finite field"),
+        ("R = QQ[x]\n", "line 1, column 10", "there is no ideal"),
+        ("R = QQ[x]\nI = ideal(x)\nJ = ideal(x^2)\n", "line 3, column 1", "a second ideal"),
+        ("R = QQ[x, x]\nI = ideal(x)\n", "line 1, column 11", "is there twice"),
+        ("ring r = 32003, (x), dp;\nideal i = x;\n", "line 1, column 10", "a ring over '32003'"),
+        ("ring r = 0, (x), dp;\nideal i = x;\ni = i + 1;\n", "line 3, column 1", "is not read"),
+        ("ring r = 0, (x(1..999999)), dp;\n", "line 1, column 14", "more than 500"),
+    ],
+)
+def test_a_mistake_is_told_by_line_and_column(text: str, place: str, reason: str) -> None:
+    with pytest.raises(CaseError) as raised:
+        read_text(text)
+    message = str(raised.value)
+    assert message.startswith(f"file: {place}: ")
+    assert reason in message
+    assert "\n" not in message
+
+
+def test_a_format_that_is_asked_for_is_taken(tmp_path: Path) -> None:
+    path = tmp_path / "one"
+    path.write_text("2\nx - 1;\nx - 1;\n")
+    assert read_case(path).system.text() == ["x - 1", "x - 1"]
+    # One polynomial a line: the number 2, and twice x - 1.
+    assert read_case(path, format="text").system.text() == ["2", "x - 1", "x - 1"]
+    with pytest.raises(CaseError, match="'matlab' is unknown; write one of toml"):
+        read_case(path, format="matlab")
+
+
+NAMES = ("x", "y_1", "z[2]", "θ", "w_{1,2}")
+
+
+@st.composite
+def systems(draw: st.DrawFn) -> PolynomialSystem:
+    n = draw(st.integers(1, 4))
+    fractions = st.fractions(max_denominator=30).filter(lambda q: abs(q) < 10**6 and q != 0)
+    exponents = st.tuples(*[st.integers(0, 3)] * n)
+    terms = st.dictionaries(exponents, fractions, min_size=1, max_size=6)
+    polynomials = draw(st.lists(terms, min_size=1, max_size=4))
+    return PolynomialSystem(NAMES[:n], tuple(Polynomial(n, t) for t in polynomials))
+
+
+@settings(max_examples=40, deadline=None)
+@given(systems(), st.sampled_from(sorted(READERS)))
+def test_what_is_written_is_read_back(system: PolynomialSystem, format: str) -> None:
+    text = write_system(system, format, "a system")
+    assert recognise_format(text) == format
+    read = read_text(text)
+    # Names may have been changed; their order has not.
+    assert read.n == system.n
+    assert read.polynomials == system.polynomials
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    st.sampled_from([BERTINI, PHC, MACAULAY2, SINGULAR, PLAIN]),
+    st.integers(0, 200),
+    st.integers(0, 12),
+    st.text(alphabet="xyIi0123456789.()[]{};,=+-*/^%_\n '\"QRé²", max_size=6),
+)
+def test_damaged_files_are_read_or_refused_in_one_line(
+    text: str, at: int, removed: int, inserted: str
+) -> None:
+    damaged = text[:at] + inserted + text[at + removed :]
+    for format in ("auto", *READERS):
+        try:
+            read_text(damaged, format)
+        except CaseError as error:
+            assert "\n" not in str(error)
+
+
+def test_irrational_numbers_are_written_where_they_can_be() -> None:
+    system = nag.system(["sqrt(2)*x^2 - pi*y"])
+    assert "1.4142135623730950488*x^2" in write_system(system, "bertini")
+    assert r"\sqrt{2} x^{2} - \pi y &= 0" in write_system(system, "latex")
+    with pytest.raises(nag.NagError, match="not all coefficients are rational"):
+        write_system(system, "m2")
+
+
+def test_sympy_takes_what_is_written() -> None:
+    system = nag.system(["sqrt(2)*x^2 - 1/3*y + pi", "x*y - 4"])
+    lines: dict[str, object] = {}
+    exec(write_system(system, "sympy"), lines)
+    again = nag.system(lines["equations"])
+    assert again.variables == system.variables
+    assert again.text() == system.text()
+
+
+def test_the_lists_of_formats_are_those_of_the_functions() -> None:
+    assert ("toml", *READERS) == READ
+    assert tuple(WRITERS) == WRITTEN
+
+
+@pytest.mark.parametrize("format", [f for f in READ if f != "toml"])
+def test_a_case_is_the_same_by_each_format(
+    format: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["model", "cases/slider-crank.toml", "--format", format]) == 0
+    path = tmp_path / "case"
+    path.write_text(capsys.readouterr().out)
+    case = read_case("cases/slider-crank.toml")
+    assert read_case(path).system.polynomials == case.system.polynomials
+    assert main(["decompose", str(path), "--quiet"]) == 0
+    assert "irreducible" in capsys.readouterr().out
+
+
+PEERS = {
+    "m2": ("M2", ["M2", "--silent", "--stop", "-q", "{}"], "\nprint toString degree I\nexit 0\n"),
+    "singular": (
+        "Singular",
+        ["Singular", "-q", "--no-rc", "{}"],
+        "\nmult(std(nagideal));\nquit;\n",
+    ),
+}
+
+
+@pytest.mark.parametrize("format", sorted(PEERS))
+def test_the_program_reads_what_is_written(format: str, tmp_path: Path) -> None:
+    program, command, question = PEERS[format]
+    if shutil.which(program) is None:
+        pytest.skip(f"{program} is not installed")
+    system = nag.system(["x[1]^2 + θ'^2 - 1", "x[1]^3 - 2*θ'/3"])
+    path = tmp_path / "system"
+    path.write_text(write_system(system, format, "a circle and a cubic") + question)
+    done = subprocess.run(
+        [part.format(path) for part in command], capture_output=True, text=True, timeout=60
+    )
+    assert done.stdout.split()[-1] == "6", done.stdout + done.stderr
+
+
+def test_phcpack_reads_what_is_written(tmp_path: Path) -> None:
+    if shutil.which("phc") is None:
+        pytest.skip("phc is not installed")
+    system = nag.system(["x_1^2 + y'^2 - 1", "x_1^3 - 2*y'/3"], variables=["y'", "x_1"])
+    path, out = tmp_path / "system", tmp_path / "out"
+    path.write_text(write_system(system, "phc", "a circle and a cubic"))
+    subprocess.run(["phc", "-b", str(path), str(out)], check=True, timeout=60)
+    assert "THE SOLUTIONS :\n6 2" in out.read_text()
