@@ -54,8 +54,11 @@ def read(source: Source) -> GivenSystem:
         texts = [_write_out(t, names) for t in texts] if letters else texts
         if defined[1] == "ideal":
             ideals.append((statement, tuple(texts)))
-        else:
+        elif len(texts) == 1:
             definitions[defined[2]] = texts[0]
+        else:
+            message = f"{quote(defined[2])} is {len(texts)} polynomials; write one"
+            source.fail(right.offset, message)
     if not ideals:
         source.fail(len(source.text.rstrip()), "there is no ideal; write ideal i = ..., ...;")
     if len(ideals) > 1:
