@@ -166,7 +166,8 @@ def test_real_and_complex_zeros_are_told_apart() -> None:
     equations = [(x**2 - 2) * (x**2 + Fraction(1, 10**18)), y - x**2 + 1]
     points[2, 1] = points[2, 0] ** 2 - 1
     boxes = prove_boxes(equations, NO_SLICE, points, np.full(3, 1e-6))
-    real, complex_ = tell_real_zeros(boxes)
+    system = PolynomialSystem(("x", "y"), tuple(equations))
+    real, complex_ = tell_real_zeros(boxes, system)
     assert boxes.proved.all()
     assert real.tolist() == [True, True, False]
     assert complex_.tolist() == [False, False, True]

@@ -164,7 +164,7 @@ def test_nothing_that_is_given_loads_sympy_or_networkx() -> None:
     ("equations", "message"),
     [
         (["x^2 + I", "y - x"], r"equations\[0\]: 'I' looks like the imaginary unit"),
-        (["y - x", "x^2 + 1+2*i"], r"equations\[1\]: 'i' looks like .* list all of them"),
+        (["y - x", "x^2 + 1+2*i"], r"equations\[1\]: 'i' looks like .* or list all variables"),
         (["x^2 - 2i"], "'i' looks like"),
         (["x^2 + j", "y - x"], r"equations\[0\]: 'j' looks like the imaginary unit"),
         (["x^2 + J", "y - x"], r"equations\[0\]: 'J' looks like the imaginary unit"),
@@ -183,10 +183,10 @@ def test_the_imaginary_unit_is_never_taken_for_a_variable(equations: Any, messag
 def test_the_imaginary_unit_is_refused_wherever_numbers_are_read() -> None:
     with pytest.raises(ValueError, match=r"nonzero\[0\]: 'I' looks like"):
         nag.system(["x^2 - 1"], nonzero=["x - I"])
-    with pytest.raises(ValueError, match=r"parameters\['a'\]: 1j is complex"):
-        nag.system(["x^2 - a"], parameters={"a": 1j})
-    with pytest.raises(ValueError, match=r"'I' looks like .* goes among the variables"):
-        nag.system(["x^2 - I"], ["x"])
+    with pytest.raises(ValueError, match=r"parameters\['a'\]: .*'i' looks like .* only real"):
+        nag.system(["x^2 - a"], parameters={"a": "i"})
+    with pytest.raises(ValueError, match=r"'i' looks like .* or list it among the variables"):
+        nag.system(["x^2 - i"], ["x"])
     with pytest.raises(ValueError, match="terms: give a dict"):
         nag.Polynomial(1, {(1,): 1j})
 

@@ -185,6 +185,11 @@ def write_everything(
     ask("certify", solved, "--paths", rest=["--quiet"])
     for case in (whole, linkage, str(CASES / "spatial" / "rssr.toml")):
         ask("model", case, rest=[])
+    complex_case = folder / "complex.txt"
+    complex_case.write_text("imaginary I\nx^2 + I*y\ny - 2\n")
+    for command in ("decompose", "solve"):
+        ask("certify", ask(command, str(complex_case)), rest=["--quiet"])
+    ask("model", str(complex_case), rest=[])
     ask("check", str(CASES / "four-bar.toml"))
     found["nag-decomposition", 2].append(json.loads(json.dumps(nag.decompose(SHEETS).document())))
     return found

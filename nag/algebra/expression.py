@@ -185,7 +185,7 @@ class _Parser:
             )
         if before.kind == "number" and token.text in IMAGINARY_UNITS:
             text = before.text + token.text
-            self._fail(before, imaginary_text(text, "write '*' for a product with a variable"))
+            self._fail(before, imaginary_text(text, "write '*' for a product"))
         self._fail(
             token,
             f"{quote(token.text)} follows {quote(before.text)}; "
@@ -282,8 +282,10 @@ class _Parser:
         if self.token.text == "(":
             self._fail(token, f"{quote(name)} is not a function; write sqrt, sin or cos")
         if name in IMAGINARY_UNITS:
-            what = "variables" if self.variables else "parameters"
-            self._fail(token, imaginary_text(name, f"a name of your own goes among the {what}"))
+            mend = f"{ONLY_REAL}; a name of your own goes among the parameters"
+            if self.variables:
+                mend = f"write imaginary = {name!r} if it is, or list it among the variables"
+            self._fail(token, imaginary_text(name, mend))
         known = [*self.variables, *self.parameters]
         kinds = "variables and parameters" if self.variables else "parameters"
         listed = ", ".join(known[:12]) + (", ..." if len(known) > 12 else "") or "none"

@@ -8,16 +8,19 @@ how it prints: 0.1 is 1/10, not 3602879701896397/36028797018963968.
 from __future__ import annotations
 
 import re
+import sys
 from cmath import isfinite
 from collections.abc import Iterable, Mapping, Sequence
+from decimal import Decimal
 from fractions import Fraction
 from numbers import Complex, Integral, Rational, Real
-from typing import Any
+from typing import Any, NamedTuple
 
 from nag.algebra.bounded import Budget, Value, representable
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.from_sympy import is_sympy, symbol_names, sympy_value
 from nag.algebra.given import check_listed, check_type, value_text
+from nag.algebra.imaginary_unit import adjoin_unit, name_unit, reduce_unit
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -91,6 +94,7 @@ def system(
     parameters: Mapping[Any, Any] | None = None,
     nonzero: Any = (),
     groups: Iterable[Iterable[Any]] = (),
+    imaginary: str | None = None,
 ) -> PolynomialSystem:
     """The exact polynomial system that equations define.
 
@@ -99,11 +103,14 @@ def system(
             expression is zero), sympy's expressions, ``Eq`` or ``Poly``, or `Polynomial`.
         variables: their names, or sympy's symbols, in order; a text of names will do. By default
             all names that occur and are no parameters, in alphabetical order (x2 before x10). A
-            variable that is called ``I``, ``i``, ``J`` or ``j`` in a text has to be given:
-            coefficients are real, and it might be meant as the imaginary unit.
-        parameters: values of further names.
+            variable that is called ``I``, ``i``, ``J`` or ``j`` in a text has to be given, as it
+            might be meant as the imaginary unit.
+        parameters: values of further names, real or complex.
         nonzero: expressions that must not vanish; written like ``equations``.
         groups: groups of variables in which multidegrees are counted, by name or index.
+        imaginary: the name of the imaginary unit in texts; ``I``, where variables are given and it
+            is none of them. Where coefficients are complex the unit is the last variable, `I`, of
+            the system (`nag.algebra.imaginary_unit`).
 
     Raises:
         ValueError: if something is no polynomial; the message says which argument and what would
@@ -122,7 +129,7 @@ def system(
     check_type({} if parameters is None else parameters, Mapping, "parameters", advice)
     check_listed(groups, "groups", "a list of groups, each a list of variables")
     values = {
-        str(name): exact_number(value, f"parameters[{str(name)!r}]")
+        str(name): _parameter(value, f"parameters[{str(name)!r}]")
         for name, value in (parameters or {}).items()
     }
     occurring = [
@@ -130,14 +137,53 @@ def system(
         for place, equations in (("equations", given), ("nonzero", apart))
         for i, equation in enumerate(equations)
     ]
-    names = _names(variables, occurring, values)
-    read = _Reader(names, values)
-    return PolynomialSystem(
-        names,
-        tuple(read.polynomial(f, f"equations[{i}]") for i, f in enumerate(given)),
-        tuple(read.polynomial(f, f"nonzero[{i}]") for i, f in enumerate(apart)),
-        tuple(_group(group, names, f"groups[{i}]") for i, group in enumerate(groups)),
+    if imaginary is not None and not is_name(imaginary):
+        raise ExpressionError(f"imaginary: {quote(str(imaginary))} is no name; write a letter")
+    if imaginary is None and variables is not None:
+        imaginary = "I"
+    names = _names(variables, occurring, values, imaginary)
+    unit = imaginary if imaginary not in (*names, *values) else None
+    is_complex = any(isinstance(value, _Complex) for value in values.values()) or any(
+        _is_complex(f, unit) for f, _ in occurring
     )
+    read = _Reader(names, values, unit, name_unit((*names, *values)) if is_complex else None)
+    parts = (
+        [read.polynomial(f, f"equations[{i}]") for i, f in enumerate(given)],
+        [read.polynomial(f, f"nonzero[{i}]") for i, f in enumerate(apart)],
+        [_group(group, names, f"groups[{i}]") for i, group in enumerate(groups)],
+    )
+    return adjoin_unit(read.names, *parts) if is_complex else PolynomialSystem(names, *parts)
+
+
+class _Complex(NamedTuple):
+    """A complex number, exact."""
+
+    real: Number
+    imaginary: Number
+
+
+def _parameter(value: Any, place: str) -> Number | _Complex:
+    """The exact number that a parameter is, real or complex; ``I`` in a text is the unit."""
+    if isinstance(value, str) and "I" in names_in(value):
+        try:
+            whole = reduce_unit(parse_polynomial(value, ["I"]))
+        except ExpressionError as error:
+            raise ExpressionError(f"{place}: {error}") from None
+        return _Complex(whole.terms.get((0,), Fraction(0)), whole.terms.get((1,), Fraction(0)))
+    if is_sympy(value) and value.is_number and value.has(sys.modules["sympy"].I):
+        parts = value.expand(complex=True).as_real_imag()
+    elif not isinstance(value, str | Real | Decimal) and isinstance(value, Complex):
+        parts = value.real, value.imag
+    else:
+        return exact_number(value, place)
+    return _Complex(*(exact_number(part, place) for part in parts))
+
+
+def _is_complex(equation: Any, unit: str | None) -> bool:
+    """Whether the imaginary unit occurs in an equation."""
+    if isinstance(equation, str):
+        return unit is not None and unit in names_in(equation)
+    return is_sympy(equation) and equation.has(sys.modules["sympy"].I)
 
 
 def _listed(equations: Any, place: str) -> list[Any]:
@@ -158,7 +204,10 @@ def _listed(equations: Any, place: str) -> list[Any]:
 
 
 def _names(
-    variables: Any, equations: Sequence[tuple[Any, str]], values: Mapping[str, Any]
+    variables: Any,
+    equations: Sequence[tuple[Any, str]],
+    values: Mapping[str, Any],
+    imaginary: str | None,
 ) -> tuple[str, ...]:
     """The variables' names: those given, else those that occur in the equations."""
     if variables is None:
@@ -166,8 +215,9 @@ def _names(
             raise ExpressionError(
                 "variables: a nag.Polynomial has no names in it; give one for each variable"
             )
-        found = {name for f, place in equations for name in _list_names(f, place, values)}
-        names = tuple(sorted(found - values.keys(), key=natural_order))
+        listed = (_list_names(f, place, values, imaginary) for f, place in equations)
+        found = {name for names in listed for name in names}
+        names = tuple(sorted(found - values.keys() - {imaginary}, key=natural_order))
     else:
         given = re.split(r"[\s,]+", variables.strip()) if isinstance(variables, str) else variables
         if not isinstance(given, Iterable):
@@ -186,13 +236,15 @@ def _names(
     return names
 
 
-def _list_names(equation: Any, place: str, values: Mapping[str, Any]) -> Iterable[str]:
+def _list_names(
+    equation: Any, place: str, values: Mapping[str, Any], imaginary: str | None
+) -> Iterable[str]:
     """The names in an equation; sympy's symbols are variables whatever they are called."""
     if not is_sympy(equation):
         names = names_in(equation) if isinstance(equation, str) else frozenset()
         for unit in IMAGINARY_UNITS:
-            if unit in names - values.keys():
-                mend = "rename the variable, or list all of them in `variables`"
+            if unit in names - values.keys() - {imaginary}:
+                mend = f"write imaginary={unit!r} if it is, or list all variables in `variables`"
                 raise ExpressionError(f"{place}: {imaginary_text(unit, mend)}")
         return names
     try:
@@ -204,14 +256,34 @@ def _list_names(equation: Any, place: str, values: Mapping[str, Any]) -> Iterabl
 class _Reader:
     """Reads equations in known names."""
 
-    def __init__(self, names: tuple[str, ...], values: Mapping[str, Number]) -> None:
-        self.names, self.values = names, values
-        variables = Polynomial.variables(len(names))
-        self.known: dict[str, Value] = {**values, **dict(zip(names, variables, strict=True))}
+    def __init__(
+        self,
+        names: tuple[str, ...],
+        values: Mapping[str, Number | _Complex],
+        unit: str | None,
+        adjoined: str | None,
+    ) -> None:
+        self.names = names if adjoined is None else (*names, adjoined)
+        variables = Polynomial.variables(len(self.names))
+        self.values: dict[str, Value] = {
+            name: value.real + value.imaginary * variables[-1]
+            if isinstance(value, _Complex)
+            else value
+            for name, value in values.items()
+        }
+        if adjoined is not None and unit is not None:
+            self.values[unit] = variables[-1]
+        self.known: dict[str, Value] = {
+            **self.values,
+            **dict(zip(names, variables[: len(names)], strict=True)),
+        }
+        self.unit = variables[-1] if adjoined is not None else None
 
     def polynomial(self, equation: Any, place: str) -> Polynomial:
         n = len(self.names)
         if isinstance(equation, Polynomial):
+            if self.unit is not None and equation.n == n - 1:
+                return equation.with_variables(n, range(n - 1))
             if equation.n != n:
                 raise ExpressionError(
                     f"{place}: a polynomial in {equation.n} variables; {n} are named"
@@ -219,11 +291,12 @@ class _Reader:
             return equation
         try:
             if isinstance(equation, str):
-                return parse_polynomial(equation, self.names, self.values)
+                known = {k: v for k, v in self.values.items() if k not in self.names}
+                return parse_polynomial(equation, self.names, known)
             if not is_sympy(equation):
                 return Polynomial.constant(n, parse_number(_plain(equation)))
             symbol_names(equation)
-            value = sympy_value(equation, self.known, n, Budget())
+            value = sympy_value(equation, self.known, n, Budget(), self.unit)
         except ValueError as error:
             raise ExpressionError(f"{place}: {error}") from None
         return value if isinstance(value, Polynomial) else Polynomial.constant(n, value)

@@ -47,19 +47,26 @@ def symbol_names(value: Any) -> dict[str, Any]:
     return found
 
 
-def sympy_value(value: Any, known: Mapping[str, Value], n: int, budget: Budget) -> Value:
+def sympy_value(
+    value: Any,
+    known: Mapping[str, Value],
+    n: int,
+    budget: Budget,
+    unit: Polynomial | None = None,
+) -> Value:
     """The number or polynomial in ``n`` variables that an expression stands for.
 
     An equation ``Eq(lhs, rhs)`` stands for ``lhs - rhs``.
 
     Args:
         known: what the symbols stand for, by name.
+        unit: what the imaginary unit stands for, if it may occur.
 
     Raises:
         ExpressionError: if it stands for none, or one beyond the limits of `nag.algebra.bounded`.
     """
     sympy = sys.modules["sympy"]
-    walk = _Walk(sympy, known, BoundedArithmetic(n, budget))
+    walk = _Walk(sympy, known, BoundedArithmetic(n, budget), unit)
     if isinstance(value, sympy.Poly):
         value = value.as_expr()
     if isinstance(value, sympy.Equality):
@@ -78,6 +85,7 @@ class _Walk:
     sympy: Any
     known: Mapping[str, Value]
     arithmetic: BoundedArithmetic
+    unit: Polynomial | None
 
     def value(self, e: Any, depth: int) -> Value:
         sympy, arithmetic = self.sympy, self.arithmetic
@@ -109,6 +117,8 @@ class _Walk:
                     "c and s with c^2 + s^2 = 1"
                 )
             return check_size(sine(angle) if isinstance(e, sympy.sin) else cosine(angle))
+        if e == sympy.I and self.unit is not None:
+            return self.unit
         if e == sympy.I:
             raise ExpressionError(f"it holds sympy's I; {ONLY_REAL}")
         if e == sympy.nan or e.is_infinite:

@@ -44,12 +44,16 @@ class PolynomialSystem:
         groups: a partition of the variables' indices into groups in which multidegrees are
             counted, or empty. A group is one affine chart of a projective space; a group of one
             variable is a chart of a projective line.
+        imaginary: whether the last variable is the imaginary unit, whose square is -1 by the last
+            equation: zeros where it is -i are those of the conjugate system, and left out
+            (`nag.algebra.imaginary_unit`).
     """
 
     variables: tuple[str, ...]
     polynomials: tuple[Polynomial, ...]
     nonzero: tuple[Polynomial, ...] = ()
     groups: tuple[tuple[int, ...], ...] = ()
+    imaginary: bool = False
 
     def __post_init__(self) -> None:
         for name in ("variables", "polynomials", "nonzero"):
@@ -69,6 +73,10 @@ class PolynomialSystem:
             raise NagError(
                 "groups: they are no partition of the variables; give each variable once"
             )
+        if self.imaginary:
+            unit = Polynomial.variable(self.n, self.n - 1) if self.n else None
+            if unit is None or not self.polynomials or self.polynomials[-1] != unit**2 + 1:
+                raise NagError("imaginary: the last equation is not that of the imaginary unit")
 
     @property
     def n(self) -> int:
@@ -102,12 +110,14 @@ class PolynomialSystem:
 
     def document(self) -> dict[str, Any]:
         """The system as a JSON object."""
+        unit = {"imaginary": self.variables[-1]} if self.imaginary else {}
         return {
             "variables": list(self.variables),
             "polynomials": self.text(),
             "nonzero": [f.text(self.variables) for f in self.nonzero],
             "groups": [[self.variables[i] for i in group] for group in self.groups],
             "exact": self.exact,
+            **unit,
         }
 
     __repr__ = one_line
@@ -147,4 +157,5 @@ def system_line(system: PolynomialSystem) -> str:
         f"{count_text(system.n, 'variable')}{f' ({names})' if 0 < len(names) <= 60 else ''}, "
         f"{count_text(len(system.polynomials), 'equation')}{f': {listed}' if listed else ''}"
     )
-    return text if system.exact else f"{text}; not all coefficients are rational"
+    text = text if system.exact else f"{text}; not all coefficients are rational"
+    return f"{text}; {system.variables[-1]} is the imaginary unit" if system.imaginary else text

@@ -102,7 +102,7 @@ def natural_order(name: str) -> list[tuple[int, int | str]]:
 
 def imaginary_text(name: str, mend: str) -> str:
     """What to say where a name looks like the imaginary unit."""
-    return f"{quote(name)} looks like the imaginary unit, but {ONLY_REAL}; {mend}"
+    return f"{quote(name)} looks like the imaginary unit; {mend}"
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

@@ -7,10 +7,12 @@ two take a system apart and ask the next ones for its parts.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from nag.algebra.given import check_listed
+from nag.algebra.imaginary_unit import as_real, has_unit
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_components import decompose_apart
@@ -66,7 +68,15 @@ def decompose(
     check_listed(symmetries, "symmetries", "a list of nag.SignedPermutation")
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
-    return decompose_by(tuple(METHODS), Task(SystemFacts(system), tuple(symmetries), run))
+    task = Task(SystemFacts(as_real(system)), tuple(symmetries), run)
+    answer = decompose_by(tuple(METHODS), task)
+    return leave_out_conjugate(answer, system) if system.imaginary else answer
+
+
+def leave_out_conjugate(answer: Decomposition, system: PolynomialSystem) -> Decomposition:
+    """The components on which the imaginary unit is i; those with -i are the conjugate system's."""
+    kept = tuple(c for c in answer.components if has_unit(c.points).any())
+    return replace(answer, system=system, components=kept)
 
 
 def by_variables(task: Task, others: Others) -> Attempt:

@@ -19,6 +19,7 @@ from nag.algebra.bounded import Budget
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.family import Family
 from nag.algebra.given import check_path
+from nag.algebra.imaginary_unit import adjoin_unit
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
@@ -55,6 +56,7 @@ _KEYS = {
         "kind",
         "variables",
         "equations",
+        "imaginary",
         "groups",
         "parameters",
         "family",
@@ -370,9 +372,24 @@ def _read_system(top: CaseTable, numbers: _Numbers) -> tuple[PolynomialSystem, F
         polynomials = family.symmetric.original.at(family.values).polynomials
         groups = _read_groups(top, variables)
         return PolynomialSystem(tuple(variables), polynomials, groups=groups), family
-    equations = _read_equations(top, numbers, variables)
     groups = _read_groups(top, variables)
-    return PolynomialSystem(tuple(variables), equations, groups=groups), None
+    unit = _read_unit(top, [*variables, *numbers.parameters])
+    if unit is None:
+        equations = _read_equations(top, numbers, variables)
+        return PolynomialSystem(tuple(variables), equations, groups=groups), None
+    names = [*variables, unit]
+    return adjoin_unit(names, _read_equations(top, numbers, names), groups=groups), None
+
+
+def _read_unit(top: CaseTable, taken: list[str]) -> str | None:
+    """The name of the imaginary unit, if it occurs in the equations: ``I``, or what is said."""
+    said = "imaginary" in top.values
+    unit = top.text("imaginary") if said else "I"
+    if said and (not is_name(unit) or unit in taken):
+        top.fail("imaginary", f"{quote(unit)} is no name, or taken; write a letter of its own")
+    texts = top.texts("equations", "equations")
+    used = unit not in taken and any(unit in names_in(text) for text in texts)
+    return unit if used else None
 
 
 def _read_equations(top: CaseTable, numbers: _Numbers, names: list[str]) -> tuple[Polynomial, ...]:

@@ -144,7 +144,10 @@ def parse_system(table: Mapping[str, Any], place: str) -> PolynomialSystem:
         for key in ("polynomials", "nonzero")
     ]
     try:
-        return PolynomialSystem(variables, *parts, groups)
+        unit = table.get("imaginary")
+        if unit is not None and [unit] != variables[-1:]:
+            raise ExportError(f"{place}.imaginary: {unit!r} is not the last variable")
+        return PolynomialSystem(variables, *parts, groups, imaginary=unit is not None)
     except ValueError as error:
         raise ExportError(f"{place}: {error}") from None
 

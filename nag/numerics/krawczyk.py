@@ -21,6 +21,7 @@ import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
 from nag.numerics.ball_boxes import FineBox, box_about, holds_conjugate, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import neighbours
@@ -265,20 +266,25 @@ def fine_box(boxes: Boxes, i: int) -> FineBox:
     )
 
 
-def tell_real_zeros(boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
-    """Which zeros are proved real, and which not real; of equations with real coefficients.
+def tell_real_zeros(boxes: Boxes, system: PolynomialSystem) -> tuple[np.ndarray, np.ndarray]:
+    """Which zeros are proved real, and which not real.
 
     The conjugate of a zero is one too, so a box with one zero that holds the conjugate has a real
-    zero.
+    zero. Where coefficients are not real the conjugate says nothing, so none is proved real; all
+    coordinates count but the imaginary unit itself.
     """
     imaginary = np.abs(boxes.centres.imag)
+    counting = slice(0, system.n - system.imaginary)
     # Points that are not proved may be of any size.
     with np.errstate(over="ignore"):
         real = boxes.proved & ((2 * imaginary + boxes.inner) * UP < boxes.outer).all(axis=1)
-    complex_ = boxes.proved & (imaginary > boxes.inner * UP).any(axis=1)
+    real &= not system.imaginary
+    off_axis = imaginary > boxes.inner * UP
+    complex_ = boxes.proved & off_axis[:, counting].any(axis=1)
     for i in boxes.fine:
         box = boxes.fine[i]
-        real[i] = holds_conjugate(box)
+        real[i] = not system.imaginary and holds_conjugate(box)
         off = [abs(z.imag) for z in box.centre]
-        complex_[i] = any(d > r for d, r in zip(off, box.inner, strict=True))
+        beyond = [d > r for d, r in zip(off, box.inner, strict=True)]
+        complex_[i] = any(beyond[counting])
     return real, complex_

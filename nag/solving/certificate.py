@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nag.algebra.combinations import of_lowest_degrees
+from nag.algebra.imaginary_unit import as_real
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.certified_points import (
@@ -234,12 +235,13 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
         places = np.array([s.point for s in solutions], dtype=complex).reshape(-1, system.n)
         accuracy = np.array([s.accuracy for s in solutions], dtype=float)
         multiple = np.array([s.multiplicity > 1 for s in solutions], dtype=bool)
-        said_real = np.array([s.real for s in solutions], dtype=bool)
+        # A zero that is alone with its conjugate in a box is real only if coefficients are.
+        said_real = np.array([s.real and not system.imaginary for s in solutions], dtype=bool)
         return certify_points(system.polynomials, none, places, accuracy, multiple, said_real)
 
     points = proved(result.solutions)
     same, unknown = find_overlaps(points.boxes)
-    real, not_real = tell_real_zeros(points.boxes)
+    real, not_real = tell_real_zeros(points.boxes, system)
     real |= points.real
     bound, name = bound_of_zeros(system)
     excluded = proved(result.excluded_solutions)
@@ -263,8 +265,11 @@ def bound_of_zeros(system: PolynomialSystem) -> tuple[int | None, str]:
 
     The product of the degrees, or the coefficient that belongs to groups of variables (Morgan &
     Sommese 1987), of the equations or of combinations of theirs; integers that are computed
-    exactly.
+    exactly. Where the imaginary unit is a variable, half of them are zeros of the conjugate system.
     """
+    if system.imaginary:
+        number, name = bound_of_zeros(as_real(system))
+        return None if number is None else number // 2, f"half of {name}"
     equations = [f for f in system.polynomials if f]
     if not equations or len(equations) != system.n:
         return None, ""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.imaginary_unit import has_unit
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import Completeness, most_zeros
 from nag.numerics.certified_points import (
@@ -85,7 +86,7 @@ def _claims_of_points(
         ),
         "real": (
             ["that it is real" if s.real else "that it is not real" for s in solutions],
-            _reality(points, [s.real for s in solutions]),
+            _reality(points, [s.real for s in solutions], system),
         ),
     }
     return [
@@ -95,9 +96,11 @@ def _claims_of_points(
     ]
 
 
-def _reality(points: CertifiedPoints, said: Sequence[bool]) -> list[Standing]:
+def _reality(
+    points: CertifiedPoints, said: Sequence[bool], system: PolynomialSystem
+) -> list[Standing]:
     """That zeros are real, or are not."""
-    real, not_real = tell_real_zeros(points.boxes)
+    real, not_real = tell_real_zeros(points.boxes, system)
     real |= points.real
     found = []
     for i, (claimed, evidence) in enumerate(zip(said, points.on_evidence, strict=True)):
@@ -200,10 +203,12 @@ def _completeness(certificate: SolutionsCertificate) -> Claim:
     left_out = result.excluded and not result.excluded_solutions
     listed = _zeros_by_multiplicity(certificate)
     count = None if left_out or listed is None else most_zeros(result.system.polynomials, -1, False)
-    verdict = Completeness.UNKNOWN if count is None else count.judge(listed)
+    # Of a system with the imaginary unit the zeros of its conjugate system are counted as well.
+    sides = 1 + result.system.imaginary
+    verdict = Completeness.UNKNOWN if count is None else count.judge(sides * listed)
     if count is None or verdict is Completeness.UNKNOWN:
         return Claim("complete", text, Standing.UNSEEN)
-    text = f"{text}: {count.bound} zeros are counted modulo two primes"
+    text = f"{text}: {count.bound // sides} zeros are counted modulo two primes"
     if verdict is Completeness.ALL:
         return Claim("complete", text, Standing.EVIDENCE)
     return Claim("complete", f"{text}, {listed} are listed", Standing.DOUBTED)
@@ -225,6 +230,8 @@ def claims_of_paths(certificate: SolutionsCertificate, others: np.ndarray) -> tu
         others: these, shape ``(k, n)``.
     """
     system = certificate.result.system
+    if system.imaginary:
+        others = others[has_unit(others)]
     none = np.zeros((0, 1 + system.n), dtype=complex)
     found = certify_regular_points(system.polynomials, none, others, np.zeros(len(others)))
     equations = [f for f in system.polynomials if f]

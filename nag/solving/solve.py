@@ -15,8 +15,10 @@ from functools import partial
 
 import numpy as np
 
+from nag.algebra.imaginary_unit import as_real, has_unit
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import Completeness, ZeroCount
+from nag.numerics.coincidence import SAFETY
 from nag.numerics.system_facts import SystemFacts
 from nag.solving.branch_solutions import solve_branches, solve_exactly
 from nag.solving.missing_zeros import find_at_lost_paths, find_by_sizes
@@ -70,7 +72,41 @@ def solve(
     """
     check_kind(start)
     run.tell("solve", 0, 1)
+    if system.imaginary:
+        result = solve(as_real(system), start=start, run=run, finite=finite)
+        return leave_out_conjugate(result, system)
     return solve_by(tuple(METHODS), SolveTask(facts or SystemFacts(system), start, run, finite))
+
+
+def leave_out_conjugate(result: SolveResult, system: PolynomialSystem) -> SolveResult:
+    """The solutions in which the imaginary unit is i; those with -i are the conjugate system's."""
+
+    def chosen(solutions: Sequence[Solution]) -> tuple[Solution, ...]:
+        kept = (s for s in solutions if s.point[-1].imag > 0)
+        return tuple(replace(s, real=_is_real(s)) for s in kept)
+
+    def points(found: np.ndarray | None) -> np.ndarray | None:
+        return None if found is None else found[has_unit(found)]
+
+    excluded = chosen(result.excluded_solutions)
+    return replace(
+        result,
+        system=system,
+        solutions=chosen(result.solutions),
+        excluded=len(excluded),
+        excluded_solutions=excluded,
+        on_components=points(result.on_components),
+        undecided=points(result.undecided),
+        on_excluded=points(result.on_excluded),
+        on_doubtful=points(result.on_doubtful),
+    )
+
+
+def _is_real(solution: Solution) -> bool:
+    """Whether all coordinates but the imaginary unit are real, to within the accuracy."""
+    x = solution.point[:-1]
+    size = 1 + np.abs(x).max(initial=0.0)
+    return bool(np.abs(x.imag).max(initial=0.0) <= SAFETY * size * solution.accuracy)
 
 
 def solve_without_paths(task: SolveTask) -> SolveResult | None:

@@ -215,6 +215,9 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
         if signature is not None:
             bounds[dimension] += max(map(distinct_simple, slices.values()))
     most, surfaces = prod(f.degree for f in equations), hypersurface_degree(system)
+    if system.imaginary:
+        # The other half belongs to the conjugate system.
+        most //= 2
     if len(equations) == 1 and surfaces is not None:
         most = surfaces
     return DecompositionCertificate(

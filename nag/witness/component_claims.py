@@ -214,10 +214,12 @@ def _counted(certificate: DecompositionCertificate, text: str) -> Claim | None:
     if system.nonzero or certificate.same or certificate.unknown or not all(known):
         return None
     count = most_zeros(system.polynomials, -1, False)
-    verdict = Completeness.UNKNOWN if count is None else count.judge(sum(known))
+    # Of a system with the imaginary unit the zeros of its conjugate system are counted as well.
+    sides = 1 + system.imaginary
+    verdict = Completeness.UNKNOWN if count is None else count.judge(sides * sum(known))
     if count is None or verdict is Completeness.UNKNOWN:
         return None
-    text = f"{text}: {count.bound} zeros are counted modulo two primes"
+    text = f"{text}: {count.bound // sides} zeros are counted modulo two primes"
     if verdict is Completeness.ALL:
         return Claim("complete", text, Standing.EVIDENCE)
     return Claim("complete", f"{text}, {sum(known)} are listed", Standing.DOUBTED)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from nag.algebra.tokens import quote
+from nag.algebra.tokens import names_in, quote
 from nag.files.formats.source import GivenSystem, Source, Statement, check_names
 
 _COMMENT = re.compile(r"%[^\n]*")
@@ -18,6 +18,7 @@ _RECOGNISED = re.compile(
 )
 _WORD = re.compile(r"\s*([A-Za-z_]+)\b")
 _ASSIGNED = re.compile(r"\s*([^\W\d][\w\[\],]*)\s*=(?!=)")
+IMAGINARY = ("I", "i")
 _DECLARED = ("variable_group", "hom_variable_group", "variable", "function", "constant")
 _REFUSED = {
     "pathvariable": "a homotopy of the user's own is not read; write the system at its end",
@@ -115,7 +116,7 @@ def _given(
     for name, text in assigned.items():
         if name in variables:
             source.fail(text.offset, f"{quote(name)} is a variable; it has no definition")
-    named = {name.text for name in constants}
+    named = _real_constants([name.text for name in constants], assigned)
     called = {name.text for name in functions}
     check_names(source, functions)
     return GivenSystem(
@@ -125,4 +126,16 @@ def _given(
         {name: text for name, text in assigned.items() if name not in named | called},
         tuple(tuple(n.text for n in group) for group in (*groups, *projective)),
         tuple(tuple(n.text for n in group) for group in projective),
+        IMAGINARY,
     )
+
+
+def _real_constants(names: list[str], assigned: dict[str, Statement]) -> set[str]:
+    """The constants whose values are real numbers: no imaginary unit is behind them."""
+    kept = set(names)
+    while True:
+        complex_ = {*IMAGINARY, *(set(names) - kept)}
+        others = {name for name in kept if names_in(assigned[name].text) & complex_}
+        if not others:
+            return kept
+        kept -= others

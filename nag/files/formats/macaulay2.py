@@ -58,7 +58,7 @@ def read(source: Source) -> GivenSystem:
         source.fail(len(source.text.rstrip()), "there is no ideal; write ideal(..., ...)")
     if len(ideals) > 1:
         source.fail(ideals[1][0].offset, "a second ideal or list; leave one in the file")
-    return GivenSystem(variables, ideals[0][1], {}, definitions)
+    return GivenSystem(variables, ideals[0][1], {}, definitions, imaginary=("ii",))
 
 
 def _closing(source: Source, opening: int) -> int:

@@ -50,7 +50,7 @@ def read(source: Source) -> GivenSystem:
             f"{unknowns} unknowns are said, and {len(names)} occur ({', '.join(names[:9])}); "
             "write their number",
         )
-    return GivenSystem(names, tuple(equations))
+    return GivenSystem(names, tuple(equations), imaginary=IMAGINARY)
 
 
 def _names_in_order(source: Source, equations: list[Statement]) -> tuple[str, ...]:

@@ -16,14 +16,16 @@ from nag.algebra.tokens import (
 from nag.files.formats.source import GivenSystem, Source, Statement, check_names
 
 _COMMENT = re.compile(r"(?:#|//|%|--)[^\n]*")
-_VARIABLES = re.compile(r"\s*variables?\s*[:=]?\s+", re.IGNORECASE)
+_HEAD = re.compile(r"(variables?|imaginary)\s*:?\s+", re.IGNORECASE)
 _END = re.compile(r"[\s,;]+$")
 
 
 def read(source: Source) -> GivenSystem:
     """A system, one polynomial or equation a line; lines may end with a comma or a semicolon.
 
-    A first line ``variables x, y`` gives their order, else it is alphabetical (x2 before x10).
+    A first line ``variables x, y`` gives their order, else it is alphabetical (x2 before x10); a
+    first line ``imaginary I`` says what the imaginary unit is called, and ``I`` is it where
+    variables are given and it is none of them.
     Comments begin with ``#``, ``//``, ``%`` or ``--``.
 
     Raises:
@@ -35,16 +37,26 @@ def read(source: Source) -> GivenSystem:
         lines.append(Statement(_END.sub("", line), offset).stripped())
         offset += len(line) + 1
     lines = [line for line in lines if line.text]
-    if lines and (head := _VARIABLES.match(lines[0].text)):
-        listed = lines[0].part(head.end(), len(lines[0].text))
+    names: tuple[str, ...] | None = None
+    units: tuple[str, ...] | None = None
+    while lines and (head := _HEAD.match(lines[0].text)):
+        line = lines.pop(0)
+        listed = line.part(head.end(), len(line.text))
         separator = "," if "," in listed.text else " \t"
-        names = check_names(source, source.statements(listed, separator))
-        return GivenSystem(names, tuple(lines[1:]))
-    names = _occurring(source, lines)
-    return GivenSystem(tuple(sorted(names, key=natural_order)), tuple(lines))
+        given = check_names(source, source.statements(listed, separator))
+        if head[1].lower() == "imaginary":
+            units = given
+        else:
+            names = given
+    if names is None:
+        occurring = _occurring(source, lines, units or ())
+        names = tuple(sorted(occurring, key=natural_order))
+    elif units is None:
+        units = ("I",)
+    return GivenSystem(names, tuple(lines), imaginary=units or ())
 
 
-def _occurring(source: Source, lines: list[Statement]) -> set[str]:
+def _occurring(source: Source, lines: list[Statement], units: tuple[str, ...]) -> set[str]:
     names: set[str] = set()
     for line in lines:
         try:
@@ -52,15 +64,21 @@ def _occurring(source: Source, lines: list[Statement]) -> set[str]:
         except ExpressionError as error:
             source.fail(line.offset + (error.column or 1) - 1, error.reason)
         for token in tokens:
-            if token.kind == "name" and token.text in IMAGINARY_UNITS:
-                mend = "rename the variable, or begin with a line 'variables ...' that lists it"
+            if token.kind != "name" or token.text in units:
+                continue
+            if token.text in IMAGINARY_UNITS:
+                mend = "begin with a line 'imaginary I' if it is, or 'variables ...' that lists it"
                 source.fail(line.offset + token.column - 1, imaginary_text(token.text, mend))
-            if token.kind == "name" and token.text not in RESERVED:
+            if token.text not in RESERVED:
                 names.add(token.text)
     return names
 
 
 def write(system: PolynomialSystem, title: str) -> str:
     """The system, one polynomial a line."""
-    lines = [f"# {title}", f"variables {', '.join(system.variables)}", *system.text()]
+    names, texts = system.variables, system.text()
+    unit = []
+    if system.imaginary:
+        names, texts, unit = names[:-1], texts[:-1], [f"imaginary {names[-1]}"]
+    lines = [f"# {title}", f"variables {', '.join(names)}", *unit, *texts]
     return "\n".join(lines) + "\n"

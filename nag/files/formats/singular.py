@@ -39,7 +39,9 @@ def read(source: Source) -> GivenSystem:
         source.fail(0, "there is no ring; write ring r = 0, (x, y), dp;")
     if len(rings) > 1:
         source.fail(rings[1][0].offset, "a second ring; leave one in the file")
-    names, bases = _read_ring(source, rings[0][0].part(rings[0][1].end(), len(rings[0][0].text)))
+    names, bases, units = _read_ring(
+        source, rings[0][0].part(rings[0][1].end(), len(rings[0][0].text))
+    )
     definitions, ideals = {}, []
     letters = all(len(name) == 1 for name in names)
     for statement in statements:
@@ -63,11 +65,13 @@ def read(source: Source) -> GivenSystem:
         source.fail(len(source.text.rstrip()), "there is no ideal; write ideal i = ..., ...;")
     if len(ideals) > 1:
         source.fail(ideals[1][0].offset, "a second ideal; leave one in the file")
-    return GivenSystem(names, ideals[0][1], {}, definitions)
+    return GivenSystem(names, ideals[0][1], {}, definitions, imaginary=units)
 
 
-def _read_ring(source: Source, ring: Statement) -> tuple[tuple[str, ...], frozenset[str]]:
-    """The variables of a ring, and the names before their indices."""
+def _read_ring(
+    source: Source, ring: Statement
+) -> tuple[tuple[str, ...], frozenset[str], tuple[str, ...]]:
+    """The variables of a ring, the names before their indices, and the imaginary unit."""
     parts = source.statements(ring, ",")
     if len(parts) < 2:
         source.fail(ring.offset, "a ring has a characteristic and variables; write 0, (x, y), dp")
@@ -93,7 +97,9 @@ def _read_ring(source: Source, ring: Statement) -> tuple[tuple[str, ...], frozen
                 source.fail(item.offset, f"more than {MAX_ENTRIES} variables; at most that many")
         for index in itertools.product(*(range(low, high + 1) for low, high in bounds)):
             names.append(Statement(match[1] + "".join(f"[{k}]" for k in index), item.offset))
-    return check_names(source, names), frozenset(bases)
+    units = (field.rstrip(")").split(",")[-1].strip(),) if "," in field else ("i",)
+    is_complex = field.lstrip("(").startswith("complex")
+    return check_names(source, names), frozenset(bases), units if is_complex else ()
 
 
 def _names_indexed(text: Statement, bases: frozenset[str]) -> Statement:

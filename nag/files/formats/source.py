@@ -9,6 +9,7 @@ from typing import NoReturn
 
 from nag.algebra.bounded import Budget, Value
 from nag.algebra.expression import parse_number, parse_polynomial
+from nag.algebra.imaginary_unit import adjoin_unit, name_unit
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -101,6 +102,7 @@ class GivenSystem:
         parameters: expressions for numbers that have names, each of names before it.
         definitions: expressions of the variables that have names, each of names before it.
         groups: groups of variables.
+        imaginary: names of the imaginary unit.
         patches: groups of homogeneous variables, for each of which an affine patch is chosen.
     """
 
@@ -110,6 +112,7 @@ class GivenSystem:
     definitions: Mapping[str, Statement] = field(default_factory=dict)
     groups: tuple[tuple[str, ...], ...] = ()
     patches: tuple[tuple[str, ...], ...] = ()
+    imaginary: tuple[str, ...] = ()
 
 
 def check_names(source: Source, names: Iterable[Statement]) -> tuple[str, ...]:
@@ -155,7 +158,12 @@ def read_given(
                 raise CaseError(line_of(source.file, name, str(error))) from None
             continue
         parameters[name] = _number(source, text, parameters, budget)
-    read = _Reading(source, given, {**parameters}, budget)
+    unit = _unit_name(given)
+    names = given.variables if unit is None else (*given.variables, unit)
+    read = _Reading(source, names, {**parameters}, budget)
+    if unit is not None:
+        variable = Polynomial.variable(len(names), len(names) - 1)
+        read.known.update(dict.fromkeys(given.imaginary, variable))
     for name, text in given.definitions.items():
         read.known[name] = read.polynomial(text)
     if not given.equations:
@@ -164,11 +172,22 @@ def read_given(
         at = given.equations[MAX_ENTRIES].offset
         source.fail(at, f"more than {MAX_ENTRIES} equations; at most that many are read")
     equations = [read.polynomial(text) for text in given.equations]
-    equations += [_patch(given, group) for group in given.patches]
+    equations += [_patch(names, group) for group in given.patches]
     grouped = {name for group in given.groups for name in group}
     whole = given.groups if grouped == set(given.variables) and len(given.groups) > 1 else ()
     groups = tuple(tuple(given.variables.index(name) for name in group) for group in whole)
-    return PolynomialSystem(given.variables, tuple(equations), groups=groups), parameters
+    if unit is not None:
+        return adjoin_unit(names, equations, groups=groups), parameters
+    return PolynomialSystem(names, tuple(equations), groups=groups), parameters
+
+
+def _unit_name(given: GivenSystem) -> str | None:
+    """A name for the imaginary unit, if it occurs."""
+    units = set(given.imaginary) - {*given.variables, *given.parameters, *given.definitions}
+    texts = (*given.equations, *given.definitions.values())
+    if not any(names_in(text.text) & units for text in texts):
+        return None
+    return name_unit((*given.variables, *given.parameters, *given.definitions))
 
 
 def free_parameters(source: Source, given: GivenSystem, names: Sequence[str]) -> GivenSystem:
@@ -202,27 +221,27 @@ class _Reading:
     """Reads polynomials on one budget, with the names that are known so far."""
 
     source: Source
-    given: GivenSystem
+    names: tuple[str, ...]
     known: dict[str, Value]
     budget: Budget
 
     def polynomial(self, text: Statement) -> Polynomial:
         """The polynomial of a statement."""
         try:
-            return parse_polynomial(text.text, self.given.variables, self.known, self.budget)
+            return parse_polynomial(text.text, self.names, self.known, self.budget)
         except ExpressionError as error:
             self.source.fail(text.offset + (error.column or 1) - 1, error.reason)
 
 
-def _patch(given: GivenSystem, group: Sequence[str]) -> Polynomial:
+def _patch(names: Sequence[str], group: Sequence[str]) -> Polynomial:
     """A linear form of the group, less 1: the affine patch on which its points are found.
 
     Which one does not matter but for points on its hyperplane at infinity: coefficients are odd
     and of no pattern, so that no equation that is written by hand has such points.
     """
-    n = len(given.variables)
+    n = len(names)
     form = Polynomial.constant(n, -1)
     for k, name in enumerate(group, 1):
         coefficient = (k * 7919) % 101 + 11
-        form = form + (-1) ** k * coefficient * Polynomial.variable(n, given.variables.index(name))
+        form = form + (-1) ** k * coefficient * Polynomial.variable(n, names.index(name))
     return form

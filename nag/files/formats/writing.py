@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 
+from nag.algebra.imaginary_unit import as_real
 from nag.algebra.number import Number, binary, number_text
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -66,11 +67,26 @@ def _decimal(value: Number) -> str:
         return mpmath.nstr(mpmath.ldexp(mantissa, exponent), DECIMALS, strip_zeros=False)
 
 
+def _variables(system: PolynomialSystem) -> tuple[str, ...]:
+    """The names of the variables but the imaginary unit."""
+    return system.variables[: system.n - system.imaginary]
+
+
+def _polynomials(system: PolynomialSystem) -> tuple[Polynomial, ...]:
+    """The polynomials but that of the imaginary unit."""
+    return system.polynomials[: len(system.polynomials) - system.imaginary]
+
+
 def _texts(
-    system: PolynomialSystem, names: Sequence[str], number: Callable[[Number], str], power: str
+    system: PolynomialSystem,
+    names: Sequence[str],
+    number: Callable[[Number], str],
+    power: str,
+    unit: str,
 ) -> list[str]:
-    """The polynomials with other names, numbers and powers."""
-    return [_polynomial_text(f, names, number, power) for f in system.polynomials]
+    """The polynomials with other names, numbers, powers and imaginary unit."""
+    names = [*names, unit]
+    return [_polynomial_text(f, names[: f.n], number, power) for f in _polynomials(system)]
 
 
 def _polynomial_text(
@@ -106,11 +122,12 @@ def _only_rational(system: PolynomialSystem, program: str) -> None:
 
 def write_phc(system: PolynomialSystem, title: str) -> str:
     """The system as PHCpack reads it; irrational numbers to `DECIMALS` digits."""
-    names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9_]*")
-    lines = [f"{len(system.polynomials)} {system.n}"]
+    variables = _variables(system)
+    names = _plain_names(variables, r"[A-Za-z][A-Za-z0-9_]*")
+    lines = [f"{len(_polynomials(system))} {len(variables)}"]
     # Unknowns are taken in the order of their first occurrence.
-    order = "".join(f"{names[v]} - {names[v]} + " for v in system.variables)
-    for text in _texts(system, list(names.values()), _decimal, "^"):
+    order = "".join(f"{names[v]} - {names[v]} + " for v in variables)
+    for text in _texts(system, list(names.values()), _decimal, "^", "i"):
         lines.append(f"{order}{text};")
         order = ""
     return "\n".join([*lines, "", f"TITLE : {title}", *_renamed_lines(names)]) + "\n"
@@ -118,27 +135,28 @@ def write_phc(system: PolynomialSystem, title: str) -> str:
 
 def write_bertini(system: PolynomialSystem, title: str) -> str:
     """The system as an input file of Bertini 1; irrational numbers to `DECIMALS` digits."""
-    names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9_\[\]]*")
-    groups = system.groups or (tuple(range(system.n)),)
-    functions = [f"f{k}" for k in range(1, len(system.polynomials) + 1)]
+    variables = _variables(system)
+    names = _plain_names(variables, r"[A-Za-z][A-Za-z0-9_\[\]]*")
+    groups = [[i for i in g if i < len(variables)] for g in system.groups or [range(system.n)]]
+    functions = [f"f{k}" for k in range(1, len(_polynomials(system)) + 1)]
     functions = [f if f not in names.values() else f"nag_{f}" for f in functions]
     lines = [f"% {line}" for line in (title, *_renamed_lines(names))]
     lines += ["CONFIG", "END;", "INPUT"]
     written = list(names.values())
-    lines += [f"variable_group {', '.join(written[i] for i in g)};" for g in groups]
+    lines += [f"variable_group {', '.join(written[i] for i in g)};" for g in groups if g]
     lines.append(f"function {', '.join(functions)};")
-    texts = _texts(system, written, _decimal, "^")
+    texts = _texts(system, written, _decimal, "^", "I")
     lines += [f"{name} = {text};" for name, text in zip(functions, texts, strict=True)]
     return "\n".join([*lines, "END;"]) + "\n"
 
 
 def write_macaulay2(system: PolynomialSystem, title: str) -> str:
-    """A ring over QQ and an ideal in it, for Macaulay2."""
+    """A ring over QQ and an ideal in it, for Macaulay2; the imaginary unit is a variable of it."""
     _only_rational(system, "Macaulay2")
     names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9]*(?:_[0-9]+)?")
     lines = [f"-- {line}" for line in (title, *_renamed_lines(names))]
     written = list(names.values())
-    texts = [_wide(t) for t in _texts(system, written, number_text, "^")]
+    texts = [_wide(t) for t in _texts(as_real(system), written, number_text, "^", "")]
     lines.append(f"R = QQ[{', '.join(written)}]")
     return "\n".join([*lines, "I = ideal(\n  " + ",\n  ".join(texts) + ")"]) + "\n"
 
@@ -149,12 +167,12 @@ def _wide(text: str) -> str:
 
 
 def write_singular(system: PolynomialSystem, title: str) -> str:
-    """A ring over QQ and an ideal in it, for Singular."""
+    """A ring over QQ and an ideal in it, for Singular; the imaginary unit is a variable of it."""
     _only_rational(system, "Singular")
     names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9]*")
     lines = [f"// {line}" for line in (title, *_renamed_lines(names))]
     written = list(names.values())
-    texts = _texts(system, written, number_text, "^")
+    texts = _texts(as_real(system), written, number_text, "^", "")
     ring, ideal = "nagring", "nagideal"
     lines.append(f"ring {ring} = 0, ({', '.join(written)}), dp;")
     return "\n".join([*lines, f"ideal {ideal} =\n  " + ",\n  ".join(texts) + ";"]) + "\n"
@@ -162,21 +180,21 @@ def write_singular(system: PolynomialSystem, title: str) -> str:
 
 def write_sympy(system: PolynomialSystem, title: str) -> str:
     """Lines of Python: symbols, and a list of expressions of sympy's."""
-    names = _plain_names(system.variables, r"[A-Za-z]\w*")
+    names = _plain_names(_variables(system), r"[A-Za-z]\w*")
     written = [f"{n}_" if n in ("lambda", "sqrt", "Rational") else n for n in names.values()]
-    symbols = ", ".join(repr(n) for n in system.variables)
-    texts = _texts(system, written, lambda c: _NUMBER.sub(r"S(\g<0>)", number_text(c)), "**")
+    symbols = ", ".join(repr(n) for n in names)
+    texts = _texts(system, written, lambda c: _NUMBER.sub(r"S(\g<0>)", number_text(c)), "**", "I")
     lines = [f"# {line}" for line in (title, *_renamed_lines(names))]
-    lines += ["from sympy import S, Symbol, cos, pi, sin, sqrt", ""]
+    lines += ["from sympy import I, S, Symbol, cos, pi, sin, sqrt", ""]
     lines.append(f"{', '.join(written)}, = (Symbol(name) for name in ({symbols},))")
     return "\n".join([*lines, "equations = ["] + [f"    {t}," for t in texts] + ["]"]) + "\n"
 
 
 def write_julia(system: PolynomialSystem, title: str) -> str:
     """Lines of Julia for HomotopyContinuation.jl."""
-    names = _plain_names(system.variables, r"[A-Za-z]\w*")
+    names = _plain_names(_variables(system), r"[A-Za-z]\w*")
     written = list(names.values())
-    texts = _texts(system, written, lambda c: number_text(c).replace("/", "//"), "^")
+    texts = _texts(system, written, lambda c: number_text(c).replace("/", "//"), "^", "im")
     lines = [f"# {line}" for line in (title, *_renamed_lines(names))]
     lines += ["using HomotopyContinuation", f"@var {' '.join(written)}", "F = System(["]
     return "\n".join([*lines, *(f"    {t}," for t in texts)]) + (
@@ -186,10 +204,10 @@ def write_julia(system: PolynomialSystem, title: str) -> str:
 
 def write_latex(system: PolynomialSystem, title: str) -> str:
     """The equations in an ``align*`` of LaTeX."""
-    names = [_latex_name(name) for name in system.variables]
+    names = [*(_latex_name(name) for name in _variables(system)), r"\mathrm{i}"]
     lines = []
-    for f in system.polynomials:
-        text = "".join(_latex_term(e, f.terms[e], names) for e in _ordered(f)) or " + 0"
+    for f in _polynomials(system):
+        text = "".join(_latex_term(e, f.terms[e], names[: f.n]) for e in _ordered(f)) or " + 0"
         text = text.removeprefix(" + ")
         lines.append(f"  {'-' + text[3:] if text.startswith(' - ') else text} &= 0")
     return f"% {title}\n\\begin{{align*}}\n" + " \\\\\n".join(lines) + "\n\\end{align*}\n"

@@ -1,0 +1,136 @@
+"""Systems with complex coefficients: zeros of these and not of their conjugates."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import nag
+from nag.cli import main
+from nag.files.formats import WRITTEN
+from nag.files.formats.reading import READERS, read_system_text
+from nag.files.formats.writing import write_system
+
+
+def points_of(result: nag.SolveResult) -> np.ndarray:
+    """Solutions without the imaginary unit, in the order of their parts."""
+    points = np.array([s.point[:-1] for s in result.solutions])
+    return points[np.lexsort(np.round([points[:, 0].imag, points[:, 0].real], 6))]
+
+
+def test_a_square_root_of_an_imaginary_number_has_two_values() -> None:
+    result = nag.solve("x^2 + I", "x")
+    assert result.complete
+    root = np.sqrt(-1j)
+    assert np.allclose(points_of(result)[:, 0], sorted([root, -root], key=lambda z: z.real))
+    assert not result.real
+
+
+@settings(max_examples=12, deadline=None)
+@given(
+    st.lists(st.tuples(st.integers(-9, 9), st.integers(-9, 9)), min_size=3, max_size=6).filter(
+        lambda c: c[0] != (0, 0)
+    )
+)
+def test_zeros_of_one_polynomial_are_those_of_its_companion_matrix(
+    coefficients: list[tuple[int, int]],
+) -> None:
+    numbers = [complex(*c) for c in coefficients]
+    degree = len(numbers) - 1
+    text = " + ".join(f"({a} + {b}*I)*x^{degree - k}" for k, (a, b) in enumerate(coefficients))
+    result = nag.solve([text], "x")
+    assert result.complete
+    assert sum(s.multiplicity for s in result.solutions) == degree
+    for solution in result.solutions:
+        assert solution.point[-1] == pytest.approx(1j)
+        value = np.polyval(numbers, solution.point[0])
+        scale = np.polyval(np.abs(numbers), abs(solution.point[0]))
+        assert abs(value) <= 1e-6 * scale
+
+
+def test_components_of_the_conjugate_system_are_left_out() -> None:
+    system = nag.system("(x + I*y)*(x - 3*I*z)^2*(z^2 - x*I + 1)", "x y z")
+    answer = nag.decompose(system)
+    assert answer.complete
+    found = [(c.dimension, c.degree, c.multiplicity) for c in answer.components]
+    assert sorted(found) == [(2, 1, 1), (2, 1, 2), (2, 2, 1)]
+    for component in answer.components:
+        assert np.allclose(component.points[:, -1], 1j)
+    line = answer.components[0] if answer.components[0].multiplicity == 1 else answer.components[1]
+    assert line.contains([-1j, 1, 0.3, 1j])
+    assert not line.contains([1j, 1, 0.3, 1j])
+
+
+def test_real_solutions_are_told_from_others() -> None:
+    result = nag.solve(["(x^2 - 4)*(x - I)", "y + I*x - 2*I"], "x y")
+    assert [np.round(s.point[:2], 12).tolist() for s in result.real] == [[2, 0]]
+
+
+@pytest.mark.parametrize("given", [1 + 2j, "numpy", "sympy", "1 + 2*I"])
+def test_complex_numbers_of_python_are_parameters(given: object) -> None:
+    value = {"numpy": np.complex128(1 + 2j), "sympy": 1 + 2 * sympy.I}.get(str(given), given)
+    system = nag.system(["x^2 - a"], parameters={"a": value})
+    assert system.text() == ["x^2 - 2*I - 1", "I^2 + 1"]
+    assert system.imaginary
+
+
+def test_sympys_imaginary_unit_is_read() -> None:
+    x, y = sympy.symbols("x y")
+    system = nag.system([sympy.I**3 * x + y, (1 + sympy.I) * x * y - 1])
+    assert system.text() == ["-x*I + y", "x*y*I + x*y - 1", "I^2 + 1"]
+
+
+def test_a_variable_called_like_the_unit_is_asked_about() -> None:
+    with pytest.raises(nag.EquationError, match="write imaginary='I' if it is, or list"):
+        nag.system(["x^2 + I"])
+    assert nag.system(["x^2 + I"], ["x", "I"]).n == 2
+    assert not nag.system(["x^2 + I"], ["x", "I"]).imaginary
+    assert nag.system(["x^2 + i"], imaginary="i").text() == ["x^2 + I", "I^2 + 1"]
+    # A variable may be called I where the unit is sympy's: the unit has another name then.
+    x, letter = sympy.symbols("x I")
+    assert nag.system([x**2 + sympy.I * letter]).variables == ("I", "x", "imaginary_unit")
+
+
+@pytest.mark.parametrize("format", [f for f in READERS if f not in ("m2", "singular")])
+def test_complex_systems_are_read_back(format: str) -> None:
+    system = nag.system(["(3/2 + 2*I)*x^2 - y", "x*y - I"], "x y")
+    text = write_system(system, format)
+    again = read_system_text("file", text, format)[0]
+    assert again.imaginary
+    assert again.polynomials == system.polynomials
+    assert set(WRITTEN) > {format}
+
+
+def test_certificates_count_the_zeros_of_one_side(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text(
+        'title = "t"\nkind = "system"\nvariables = ["x", "y"]\nimaginary = "i"\n'
+        'equations = ["(3 + 4*i)*x^2 - y", "x*y - i*x - 2"]\n'
+    )
+    export = tmp_path / "solutions.json"
+    assert main(["solve", str(case), "--json", str(export), "--quiet", "--certify"]) == 0
+    said = capsys.readouterr().out
+    assert "3 isolated solutions, 0 real" in said
+    assert "certified  3 of 3 solutions" in said
+    assert "there are no more isolated zeros than half of Bezout's number" in said
+    again = nag.read_solutions(export)
+    assert again.result.system.imaginary
+    assert len(again.result.solutions) == 3
+
+
+def test_an_imaginary_unit_that_is_a_variable_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text(
+        'title = "t"\nkind = "system"\nvariables = ["x"]\nimaginary = "x"\nequations = ["x"]\n'
+    )
+    assert main(["solve", str(case)]) == 2
+    assert "imaginary: 'x' is no name, or taken" in capsys.readouterr().err
