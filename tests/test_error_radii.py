@@ -16,7 +16,7 @@ from nag.bench.reference import Reference
 from nag.decomposition import witness_at
 from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
-from nag.witness.exact_points import sharpen_fibre
+from nag.witness.exact_points import sharpen_points
 from nag.witness.fibres import Fibre
 from nag.witness.frame import expand_orbits
 from nag.witness.slices import random_rows, to_slice
@@ -106,8 +106,8 @@ def circle_and_slice(error: float) -> tuple[PolynomialSystem, WitnessSet, Fibre]
 def test_points_that_are_off_become_the_doubles_next_to_the_zeros(error: float) -> None:
     system, component, fibre = circle_and_slice(error)
     reference = Reference.of(system, fibre.points, component.slice.rows)
-    sharp = sharpen_fibre(fibre)
-    assert (off(reference, sharp.fibre.points) <= sharp.radii).all()
+    sharp = sharpen_points([fibre])
+    assert (off(reference, sharp.fibres[0].points) <= sharp.radii).all()
     assert (sharp.radii < 1e-15).all() and (sharp.digits > 16).all()
 
 

@@ -38,7 +38,7 @@ from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut
-from nag.witness.exact_points import carry_radii, exact_zeros, sharpen_fibre
+from nag.witness.exact_points import carry_radii, exact_zeros, sharpen_points
 from nag.witness.fibres import Fibre
 from nag.witness.frame import Frame
 from nag.witness.membership import Membership, is_on_one_of
@@ -99,7 +99,7 @@ class BranchComponent(GenericPoint):
         if fibre is None:
             # Doubles do not see that the points are regular, or are of a zero known to 100 digits.
             return vanishes_at_all(self.zeros, f)
-        (answer,) = find_vanishing(fibre.only(np.arange(len(fibre)) == 0), f)
+        (answer,) = find_vanishing(fibre.only([0]), f)
         return vanishes_at_all(self.zeros, f) if answer is None else answer
 
     def in_digits(self) -> PointWithError:
@@ -282,8 +282,8 @@ def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchCo
     d = elimination.system.n
     rows = random_rows(rng, d, d)
     point = np.linalg.solve(rows[:, 1:], -rows[:, 0])[None]
-    sharp = sharpen_fibre(Fibre(Cut(d, 0, ()), rows, point))
-    x = frame.points(sharp.fibre.x)
+    sharp = sharpen_points([Fibre(Cut(d, 0, ()), rows, point)])
+    x = frame.points(sharp.x)
     evaluator = Evaluator.of(system.polynomials, system.n)
     cut = Cut(system.n, 0, tuple(independent_polynomials(system.polynomials)))
     own = frame.slice(rows)
@@ -293,7 +293,7 @@ def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchCo
         multiplicity=1,
         status=Status.IRREDUCIBLE,
         residual=float(evaluator.residuals(x).max(initial=0.0)),
-        radii=carry_radii(frame, sharp.fibre.x, sharp.radii),
+        radii=carry_radii(frame, sharp.x, sharp.radii),
         digits=sharp.digits,
         corank=d,
         fibres=(Fibre(cut, own.rows, x),),

@@ -18,7 +18,7 @@ from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, CLOSE_AFAR, close_pairs, follow_slice
 from nag.witness.confirm import is_confirmed, zero_in_digits
 from nag.witness.cutting import Equations
-from nag.witness.exact_points import SharpFibre, carry_radii, order_points, sharpen_fibre
+from nag.witness.exact_points import SharpPoints, carry_radii, sharpen_points
 from nag.witness.fibres import Fibre, move
 from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity
@@ -107,48 +107,40 @@ def _coranks(equations: Equations, fibre: Fibre, rng: np.random.Generator) -> li
 
 
 @dataclass(frozen=True, eq=False)
-class _CheckedPoints:
-    """Points with the same cut, to rounding, and what is checked of each.
-
-    Attributes:
-        own: their indices among all points.
-        sharp: in the coordinates in which equations are solved.
-        lifted: in the original ones.
-    """
-
-    own: np.ndarray
-    sharp: SharpFibre
-    lifted: SharpFibre
-    coranks: np.ndarray
-    residuals: np.ndarray
-
-    def only(self, indices: Sequence[int]) -> _CheckedPoints:
-        """Those that have one of these indices, in an order that does not depend on them."""
-        asked = np.zeros(1 + max(self.own.max(initial=-1), max(indices, default=-1)), dtype=bool)
-        asked[np.asarray(indices, dtype=int)] = True
-        places = np.flatnonzero(asked[self.own])
-        places = places[order_points(self.sharp.fibre.points[places])]
-        return _CheckedPoints(
-            self.own[places],
-            self.sharp.only(places),
-            self.lifted.only(places),
-            self.coranks[places],
-            self.residuals[places],
-        )
-
-
-@dataclass(frozen=True, eq=False)
 class Examined:
     """Points on one slice, examined together before they are reported as those of components.
 
     Attributes:
         rows: the slice, in the coordinates in which equations are solved; cut: in the original.
+        own: indices of the points among all of their dimension, shape ``(P,)``.
+        inner: the points in the coordinates in which equations are solved.
+        lifted: in the original ones.
+        coranks, residuals: of the points, shape ``(P,)``.
     """
 
     reduction: Reduction
     rows: np.ndarray
     cut: Slice
-    parts: tuple[_CheckedPoints, ...]
+    own: np.ndarray
+    inner: SharpPoints
+    lifted: SharpPoints
+    coranks: np.ndarray
+    residuals: np.ndarray
+
+    def only(self, indices: np.ndarray) -> Examined:
+        """Those that have one of these indices, in an order that does not depend on them."""
+        asked = np.zeros(1 + max(self.own.max(initial=-1), indices.max(initial=-1)), dtype=bool)
+        asked[indices] = True
+        places = np.flatnonzero(asked[self.own])
+        places = places[self.inner.only(places).order()]
+        return replace(
+            self,
+            own=self.own[places],
+            inner=self.inner.only(places),
+            lifted=self.lifted.only(places),
+            coranks=self.coranks[places],
+            residuals=self.residuals[places],
+        )
 
     @classmethod
     def of(
@@ -165,30 +157,28 @@ class Examined:
         follow it in their digits.
         """
         frame = reduction.frame
-        cut, parts = frame.slice(points.rows), []
+        cut = frame.slice(points.rows)
         close = CLOSE if frame.exact else CLOSE_AFAR
         if not frame.is_plain:
             far = frame.points(points.x)
             near = reduction.natural.without_scales.points(far)
             points = points.with_digits([*close_pairs(near), *close_pairs(far, close)])
         by_cuts = points.fibres(np.concatenate([each.indices for each in classes]))
-        inner = [sharpen_fibre(fibre, points.exact.only(own)) for fibre, own in by_cuts]
-        lifted = [_lifted(sharp.fibre, cut.rows, reduction) for sharp in inner]
+        own = np.concatenate([indices for _, indices in by_cuts])
+        inner = sharpen_points([fibre for fibre, _ in by_cuts], points.exact.only(own))
+        there = [_lifted(fibre, cut.rows, reduction) for fibre in inner.fibres]
         if not frame.is_plain:
-            lifted = with_fine(lifted, close)
-        for (_, own), sharp, fibre in zip(by_cuts, inner, lifted, strict=True):
-            if not frame.exact:
-                fibre = _on_slice(fibre)
-            if not frame.is_plain:
-                there = sharpen_fibre(fibre)
-            else:
-                there = SharpFibre(
-                    fibre, carry_radii(frame, sharp.fibre.x, sharp.radii), sharp.digits
-                )
-            coranks = np.array(_coranks(reduction.equations, sharp.fibre, rng))
-            residuals = reduction.original.residuals(there.fibre.x).max(axis=1, initial=0.0)
-            parts.append(_CheckedPoints(own, sharp, there, coranks, residuals))
-        return cls(reduction, points.rows, cut, tuple(parts))
+            there = with_fine(there, close)
+        if not frame.exact:
+            there = [_on_slice(fibre) for fibre in there]
+        if frame.is_plain:
+            radii = carry_radii(frame, inner.x, inner.radii)
+            lifted = SharpPoints(tuple(there), radii, inner.digits)
+        else:
+            lifted = sharpen_points(there)
+        coranks = np.array([k for f in inner.fibres for k in _coranks(reduction.equations, f, rng)])
+        residuals = reduction.original.residuals(lifted.x).max(axis=1, initial=0.0)
+        return cls(reduction, points.rows, cut, own, inner, lifted, coranks, residuals)
 
 
 def _on_slice(fibre: Fibre) -> Fibre:
@@ -227,13 +217,10 @@ def check_class(
     multiplicity is 1 if it is a reduced one, and 0, not known, otherwise.
     """
     reduction, rows, counts = examined.reduction, examined.rows, PathCounts()
+    examined = examined.only(found.indices)
     d, reduced, groups = len(rows), reduction.equations, reduction.system.groups
-    parts = [
-        part for part in (each.only(found.indices) for each in examined.parts) if len(part.own)
-    ]
-    chosen, lifted = [part.sharp.fibre for part in parts], [part.lifted for part in parts]
-    residual = float(max(part.residuals.max(initial=0.0) for part in parts))
-    coranks = [int(k) for part in parts for k in part.coranks]
+    chosen, lifted, coranks = examined.inner.fibres, examined.lifted, examined.coranks.tolist()
+    residual = float(examined.residuals.max(initial=0.0))
     reasons = [found.reason] if found.reason else []
     if residual > ON:
         reasons.append("a point does not satisfy all equations")
@@ -256,16 +243,16 @@ def check_class(
     return (
         WitnessSet(
             slice=examined.cut,
-            points=np.vstack([each.fibre.x for each in lifted]),
+            points=lifted.x,
             multiplicity=multiple,
             status=Status.UNDECIDED if reasons else Status.IRREDUCIBLE,
             residual=residual,
-            radii=np.vstack([each.radii for each in lifted]),
-            digits=np.concatenate([each.digits for each in lifted]),
+            radii=lifted.radii,
+            digits=lifted.digits,
             corank=coranks[0],
             multidegree=multidegree,
             note="; ".join(reasons),
-            fibres=tuple(each.fibre for each in lifted),
+            fibres=lifted.fibres,
         ),
         counts,
     )

@@ -275,7 +275,7 @@ def group_into_orbits(
 
 def _first_point(component: WitnessSet) -> WitnessSet:
     """A witness set with one of its points only, to be moved."""
-    fibres = tuple(fibre.only(np.arange(len(fibre)) == 0) for fibre in component.fibres[:1])
+    fibres = tuple(fibre.only([0]) for fibre in component.fibres[:1])
     own = {name: getattr(component, name)[:1] for name in ("points", "radii", "digits")}
     return replace(component, **own, fibres=fibres)
 

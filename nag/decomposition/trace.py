@@ -117,7 +117,7 @@ class Trace:
             middle = _numbered(fibre, (0.0,), target)
             for k, i in enumerate(own.tolist()):
                 sides = there.fibre([2 * k, 2 * k + 1])
-                ends[i] = join_fibres([middle.only(np.arange(len(own)) == k), sides])
+                ends[i] = join_fibres([middle.only([k]), sides])
         return replace(self, ends=ends)._found(points, new, DIGITS[0]), counts
 
     def _slices(self, fibre: Fibre) -> np.ndarray:

@@ -85,8 +85,8 @@ class RationalSlice:
         target[:r, [0, *(1 + i for i in self.coordinates)]] = self.rows
         sizes = source.fibres[0].sizes
         target[r:] = random_rows(rng, source.dimension - r, n) / sizes
-        there = move_and_sharpen(source.fibres, target, rng, run)
-        if there.irregular or not there.accuracy < SHARP:
+        there, paths = move_and_sharpen(source.fibres, target, rng, run)
+        if paths.failed or not there.accuracy < SHARP:
             raise SourceError("a path to a rational slice failed")
         found = []
         for fibre in there.fibres:

@@ -31,7 +31,7 @@ from nag.witness.close_points import (
     follow_slice,
 )
 from nag.witness.cutting import Cut
-from nag.witness.exact_points import EPS, sharpen_fibre
+from nag.witness.exact_points import EPS, sharpen_points
 from nag.witness.fibres import Fibre
 from nag.witness.points import Points, with_fine
 from nag.witness.slices import to_slice
@@ -71,13 +71,11 @@ def carry_component(
     digits = component.digits
     fibres = carry_fibres(component.fibres, natural, rows, back)
     if not natural.is_exact_in_doubles and fibres:
-        sharp = [sharpen_fibre(fibre) for fibre in fibres]
-        known = np.vstack([each.radii for each in sharp])
-        good = np.isfinite(known).all(axis=1)
-        fibres = [each.fibre for each in sharp]
-        points = np.where(good[:, None], np.vstack([fibre.x for fibre in fibres]), points)
-        radii = np.where(good[:, None], known, radii)
-        digits = np.where(good, np.concatenate([each.digits for each in sharp]), digits)
+        sharp = sharpen_points(fibres)
+        good, fibres = np.isfinite(sharp.radii).all(axis=1), list(sharp.fibres)
+        points = np.where(good[:, None], sharp.x, points)
+        radii = np.where(good[:, None], sharp.radii, radii)
+        digits = np.where(good, sharp.digits, digits)
     return replace(
         component,
         slice=to_slice(rows) if cut is None else cut,

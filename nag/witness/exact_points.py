@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import flint
@@ -24,7 +25,7 @@ from nag.numerics.precise_point import PrecisePoint, precise_zero
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import WRITTEN, choose_alike, possible_zeros
 from nag.tracking.newton import Refined, refine
-from nag.witness.close_points import PointInWords, select_fine, zero_from
+from nag.witness.close_points import PointInWords, zero_from
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Cut, sharpen
 from nag.witness.fibres import Fibre, homogeneous
@@ -210,39 +211,71 @@ ESTIMATE, CORRECTION = 2.0, 1e2
 
 
 @dataclass(frozen=True, eq=False)
-class SharpFibre:
-    """A fibre's points to rounding, and what is known of them.
+class SharpPoints:
+    """Points of a set on a slice to rounding, and what is known of them.
 
     Attributes:
-        fibre: the points.
+        fibres: the points, with what cuts them.
         radii: errors of the coordinates, without added unknowns, shape ``(P, n)``; inf where
             Newton's method did not converge.
         digits: of the arithmetic that they rest on, shape ``(P,)``.
     """
 
-    fibre: Fibre
+    fibres: tuple[Fibre, ...]
     radii: np.ndarray
     digits: np.ndarray
 
+    def __len__(self) -> int:
+        return len(self.digits)
+
+    @cached_property
+    def x(self) -> np.ndarray:
+        """The points without added unknowns, shape ``(P, n)``."""
+        return np.vstack([fibre.x for fibre in self.fibres])
+
     @property
-    def errors(self) -> np.ndarray:
-        """Errors of the points, relative to one and their sizes, shape ``(P,)``."""
-        return relative_errors(self.fibre.x, self.radii)
+    def accuracy(self) -> float:
+        """Largest relative error, infinite where Newton's method did not converge."""
+        return float(relative_errors(self.x, self.radii).max(initial=EPS))
 
-    def only(self, places: np.ndarray) -> SharpFibre:
-        """Some of the points."""
-        fine = select_fine(self.fibre.fine, places)
-        points = self.fibre.points[places]
-        fibre = replace(self.fibre, points=points, fine=fine)
-        return SharpFibre(fibre, self.radii[places], self.digits[places])
+    def only(self, places: np.ndarray) -> SharpPoints:
+        """Some of the points, in this order but for its going from one fibre to the next."""
+        fibres, chosen, first = [], [np.zeros(0, dtype=int)], 0
+        for fibre in self.fibres:
+            own = places[(places >= first) & (places < first + len(fibre))]
+            if len(own):
+                fibres.append(fibre.only(own - first))
+                chosen.append(own)
+            first += len(fibre)
+        order = np.concatenate(chosen)
+        return SharpPoints(tuple(fibres), self.radii[order], self.digits[order])
+
+    def order(self) -> np.ndarray:
+        """Places of the points, fibre by fibre in an order that does not depend on their own."""
+        places, first = [np.zeros(0, dtype=int)], 0
+        for fibre in self.fibres:
+            places.append(first + _order_points(fibre.points))
+            first += len(fibre)
+        return np.concatenate(places)
 
 
-def sharpen_fibre(fibre: Fibre, known: ExactPoints | None = None) -> SharpFibre:
-    """The regular points of a fibre, to rounding.
+def sharpen_points(fibres: Sequence[Fibre], known: ExactPoints | None = None) -> SharpPoints:
+    """The regular points of fibres on one slice, to rounding.
 
     Args:
         known: the points in as many digits as `nag.witness.points.Points.exact` has.
     """
+    parts, first = [], 0
+    for fibre in fibres:
+        own = None if known is None else known.only(range(first, first + len(fibre)))
+        parts.append(_sharpen(fibre, own))
+        first += len(fibre)
+    sharp, radii, digits = zip(*parts, strict=True)
+    return SharpPoints(sharp, np.vstack(radii), np.concatenate(digits))
+
+
+def _sharpen(fibre: Fibre, known: ExactPoints | None) -> tuple[Fibre, np.ndarray, np.ndarray]:
+    """The points of one fibre, the errors of their coordinates, and digits."""
     exact = _exact(fibre, known)
     good = np.isfinite(exact.radii)
     points = np.array(fibre.points)
@@ -262,7 +295,7 @@ def sharpen_fibre(fibre: Fibre, known: ExactPoints | None = None) -> SharpFibre:
     radii, digits = _radii(fibre, exact)
     rough = CORRECTION * np.maximum(steps, EPS) * (1 + np.linalg.norm(points, axis=1))
     radii[~good] = rough[~good, None]
-    return SharpFibre(fibre, radii, digits)
+    return fibre, radii, digits
 
 
 def exact_zeros(
@@ -303,7 +336,7 @@ def _close_in_digits(component: WitnessSet, index: int) -> PrecisePoint | None:
     return None
 
 
-def order_points(points: np.ndarray) -> np.ndarray:
+def _order_points(points: np.ndarray) -> np.ndarray:
     """Places of points, shape ``(P, n)``, in an order that does not depend on their own."""
     if not points.shape[1]:
         return np.arange(len(points))

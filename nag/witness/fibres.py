@@ -126,10 +126,11 @@ class Fibre:
             z[n:] -= np.linalg.lstsq(slopes, values[0], rcond=None)[0]
         return z
 
-    def only(self, mask: np.ndarray) -> Fibre:
-        """The fibre's points where ``mask`` holds."""
-        fine = select_fine(self.fine, np.flatnonzero(mask)) if self.fine else self.fine
-        return replace(self, points=self.points[mask], fine=fine)
+    def only(self, which: np.ndarray | Sequence[int]) -> Fibre:
+        """Some of the points: at places, in this order, or where a mask holds."""
+        places = np.arange(len(self))[which]
+        fine = select_fine(self.fine, places) if self.fine else self.fine
+        return replace(self, points=self.points[places], fine=fine)
 
 
 @dataclass(frozen=True, eq=False)

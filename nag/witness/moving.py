@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,11 +16,11 @@ from nag.numerics.zero_values import ON
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
-from nag.witness.exact_points import SharpFibre, order_points, sharpen_fibre
+from nag.witness.exact_points import SharpPoints, sharpen_points
 from nag.witness.fibres import Fibre, move
 from nag.witness.given_component import check_component
 from nag.witness.slices import to_slice, unit_complex
-from nag.witness.witness import Slice, WitnessSet
+from nag.witness.witness import PathCounts, Slice, WitnessSet
 
 
 class SliceError(ComponentError):
@@ -43,59 +43,27 @@ def orthonormal_rows(rows: np.ndarray) -> np.ndarray:
     return np.hstack([(u.conj().T @ rows[:, :1]) / s[:, None], vh])
 
 
-@dataclass(frozen=True, eq=False)
-class Arrival:
-    """Points on the slice that they were carried to, sharpened there.
-
-    Attributes:
-        sharp: the regular ends of the paths, by fibres, with their error radii.
-        infinite, irregular: numbers of paths that ended at infinity, and of those that failed or
-            ended where the slice cuts no regular point.
-    """
-
-    sharp: list[SharpFibre]
-    infinite: int
-    irregular: int
-
-    @property
-    def fibres(self) -> list[Fibre]:
-        """The points with the equations that cut them."""
-        return [each.fibre for each in self.sharp]
-
-    @property
-    def x(self) -> np.ndarray:
-        """The points without added unknowns, shape ``(P, n)``."""
-        return np.vstack([fibre.x for fibre in self.fibres])
-
-    @property
-    def radii(self) -> np.ndarray:
-        """Errors of the points' coordinates, shape ``(P, n)``."""
-        return np.vstack([each.radii for each in self.sharp])
-
-    @property
-    def accuracy(self) -> float:
-        """Largest relative error, infinite where Newton's method did not converge."""
-        errors = np.concatenate([each.errors for each in self.sharp])
-        return float(errors.max(initial=np.finfo(float).eps))
-
-
 def move_and_sharpen(
     fibres: Sequence[Fibre],
     target: np.ndarray,
     rng: np.random.Generator,
     run: Run,
     endgame: bool = True,
-) -> Arrival:
-    """What becomes of fibres when their slice moves to ``target``."""
+) -> tuple[SharpPoints, PathCounts]:
+    """What becomes of the points of fibres when their slice moves to ``target``.
+
+    Returns:
+        The regular ends of the paths, sharpened. Paths count as failed also where the slice cuts no
+        regular point.
+    """
     if not len(target):
-        return Arrival([sharpen_fibre(fibre) for fibre in fibres], 0, 0)
-    found, infinite, irregular = [], 0, 0
-    gamma = complex(unit_complex(rng))
+        return sharpen_points(fibres), PathCounts()
+    found, counts, gamma = [], PathCounts(), complex(unit_complex(rng))
     for ends in move(fibres, target, gamma, run, endgame=endgame):
-        infinite += ends.counts.at_infinity
-        irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
-        found.append(sharpen_fibre(ends.fibre(np.flatnonzero(ends.regular))))
-    return Arrival(found, infinite, irregular)
+        regular, infinite = np.flatnonzero(ends.regular), ends.counts.at_infinity
+        counts += PathCounts(len(ends), len(ends) - len(regular) - infinite, infinite)
+        found.append(ends.fibre(regular))
+    return sharpen_points(found), counts
 
 
 def _check_slice(target: Slice, component: WitnessSet) -> None:
@@ -149,23 +117,23 @@ def witness_at(
     here = carry_component(component, natural, own)
     fibres, rows = component_fibres(own, here), natural.rows(goal)
     evaluator = Evaluator.of(own.polynomials, own.n)
-    there = move_and_sharpen(fibres, rows, rng, run)
-    found = [each.only(order_points(each.fibre.points)) for each in there.sharp]
-    points = np.vstack([each.fibre.x for each in found])
-    residual = float(evaluator.residuals(points).max(initial=0.0))
-    if len(points) < component.degree or not np.isfinite(there.accuracy) or residual >= ON:
+    there, paths = move_and_sharpen(fibres, rows, rng, run)
+    residual = float(evaluator.residuals(there.x).max(initial=0.0))
+    if len(there) < component.degree or not np.isfinite(there.accuracy) or residual >= ON:
         raise SliceError(
-            f"of the {component.degree} points of the component, the slice meets {there.infinite} "
-            f"at infinity and {there.irregular} where the intersection is not transversal"
+            f"of the {component.degree} points of the component, the slice meets "
+            f"{paths.at_infinity} at infinity and {paths.failed} where the intersection is not "
+            "transversal"
         )
+    there = there.only(there.order())
     moved = replace(
         here,
         slice=to_slice(rows),
-        points=points,
+        points=there.x,
         residual=residual,
-        radii=np.vstack([each.radii for each in found]),
-        digits=np.concatenate([each.digits for each in found]),
-        fibres=tuple(each.fibre for each in found),
+        radii=there.radii,
+        digits=there.digits,
+        fibres=there.fibres,
     )
     cut = to_slice(goal)
     return carry_component(moved, natural.inverse, component.system, cut, back=True)

@@ -26,10 +26,11 @@ from nag.witness.change_of_coordinates import (
     coordinates_of,
 )
 from nag.witness.component_equations import component_fibres
+from nag.witness.exact_points import SharpPoints
 from nag.witness.fibres import Fibre
 from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
-from nag.witness.moving import Arrival, move_and_sharpen
+from nag.witness.moving import move_and_sharpen
 from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import Slice, WitnessSet, relative_errors
 
@@ -177,13 +178,13 @@ def _pseudo_witness(
     r: int,
     rng: np.random.Generator,
     run: Run,
-) -> tuple[tuple[int, int], np.ndarray, Arrival]:
+) -> tuple[tuple[int, int], np.ndarray, SharpPoints]:
     """Degrees of the image and of the fibre, the slice's rows, and the points on it."""
     sizes, d = fibres[0].sizes, fibres[0].dimension
     target = _special_rows(rng, sizes, coordinates, r, d - r)
-    there = move_and_sharpen(fibres, target, rng, run)
+    there, paths = move_and_sharpen(fibres, target, rng, run)
     # Finite points of a generic slice are regular (Bertini's theorem).
-    if there.irregular or not there.accuracy < SHARP:
+    if paths.failed or not there.accuracy < SHARP:
         raise ProjectionError("paths failed; the component may not be irreducible")
     units = sizes[[1 + i for i in coordinates]]
     image = there.x[:, list(coordinates)] / units

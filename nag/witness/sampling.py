@@ -21,10 +21,11 @@ from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, carry_points, coordinates_of
 from nag.witness.component_equations import component_fibres
+from nag.witness.exact_points import SharpPoints
 from nag.witness.fibres import Fibre
 from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
-from nag.witness.moving import Arrival, move_and_sharpen
+from nag.witness.moving import move_and_sharpen
 from nag.witness.slices import random_rows
 from nag.witness.witness import WitnessSet, relative_errors
 
@@ -150,16 +151,18 @@ def sample(
     return _samples(evaluator, points, radii, natural)
 
 
-def move_to_random_slice(fibres: Sequence[Fibre], rng: np.random.Generator, run: Run) -> Arrival:
+def move_to_random_slice(
+    fibres: Sequence[Fibre], rng: np.random.Generator, run: Run
+) -> SharpPoints:
     """What became of a random point of the fibres on its way to a random slice."""
     chosen = int(rng.integers(sum(map(len, fibres))))
     for fibre in fibres:
         if chosen < len(fibre):
             break
         chosen -= len(fibre)
-    one = fibre.only(np.arange(len(fibre)) == chosen)
+    one = fibre.only([chosen])
     target = random_rows(rng, fibre.dimension, fibre.cut.n) / fibre.sizes
-    return move_and_sharpen([one], target, rng, run, endgame=False)
+    return move_and_sharpen([one], target, rng, run, endgame=False)[0]
 
 
 def _samples(
