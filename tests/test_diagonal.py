@@ -7,10 +7,11 @@ import pytest
 from systems import system
 
 from nag.decomposition.decompose import decompose
-from nag.decomposition.diagonal import DiagonalSection, meet_on_diagonal
+from nag.decomposition.diagonal import meet_on_diagonal
 from nag.decomposition.factor import Operand
 from nag.decomposition.intersection import intersect_components
 from nag.decomposition.reduction import Reduction
+from nag.decomposition.superset import Superset
 from nag.tracking.run import Run
 
 SPHERE = "x^2 + y^2 + z^2 - 1"
@@ -18,7 +19,7 @@ SPHERE = "x^2 + y^2 + z^2 - 1"
 
 def met(
     first: str, second: str, seed: int = 0, *, nonzero: tuple[str, ...] = ()
-) -> tuple[DiagonalSection, Reduction]:
+) -> tuple[Superset, Reduction]:
     """The meeting of two surfaces in space, and the coordinates that its points have."""
     factors = []
     for equation in (first, second):
@@ -29,12 +30,12 @@ def met(
     return meet_on_diagonal(*factors, common, np.random.default_rng(seed), Run()), common
 
 
-def points(found: DiagonalSection, common: Reduction) -> np.ndarray:
+def points(found: Superset, common: Reduction) -> np.ndarray:
     """The points of a curve, in space."""
     return common.frame.points(np.vstack([fibre.x for fibre in found.fibres[1]]))
 
 
-def sizes(found: DiagonalSection) -> dict[int, int]:
+def sizes(found: Superset) -> dict[int, int]:
     return {d: sum(map(len, fibres)) for d, fibres in found.fibres.items() if fibres}
 
 
@@ -46,7 +47,7 @@ def test_surfaces_meet_in_curves_of_the_product_of_their_degrees(
     second: str, degree: int, seed: int
 ) -> None:
     found, common = met(SPHERE, second, seed)
-    assert found.notes == [] and found.bare == []
+    assert found.notes == () and found.bare == ()
     assert sizes(found) == {1: degree}
     assert common.original.residuals(points(found, common)).max() < 1e-12
     (row,) = found.fibres[1][0].rows
@@ -57,20 +58,20 @@ def test_surfaces_meet_in_curves_of_the_product_of_their_degrees(
 def test_surfaces_that_touch_along_a_curve_meet_in_it_once() -> None:
     # A cylinder about the sphere: z^2 = 0 on both.
     found, common = met(SPHERE, "x^2 + y^2 - 1")
-    assert found.notes == [] and sizes(found) == {1: 2}
+    assert found.notes == () and sizes(found) == {1: 2}
     assert np.abs(points(found, common)[:, 2]).max() < 1e-10
 
 
 def test_a_component_meets_itself_in_itself() -> None:
     found, _ = met(SPHERE, SPHERE)
-    assert found.notes == [] and sizes(found) == {2: 2}
+    assert found.notes == () and sizes(found) == {2: 2}
 
 
 def test_what_must_not_vanish_is_left_out() -> None:
     # The sphere meets two planes in circles, one of which is forbidden.
     second = "x^2 + y^2 + z^2 - 1 - (x - y)*(x + y - 3)"
     found, common = met(SPHERE, second, nonzero=("x - y",))
-    assert found.notes == [] and sizes(found) == {1: 2}
+    assert found.notes == () and sizes(found) == {1: 2}
     x = points(found, common)
     assert np.abs(x[:, 0] + x[:, 1] - 3).max() < 1e-12
 
@@ -79,7 +80,7 @@ def test_what_lies_beside_the_excluded_is_kept() -> None:
     # On the plane x = y what must not vanish has the value 10^-10.
     second = "x^2 + y^2 + z^2 - 1 - (x - y)*(x + y - 3)"
     found, _ = met(SPHERE, second, nonzero=("x - y + 1/10^10",))
-    assert found.notes == [] and sizes(found) == {1: 4}
+    assert found.notes == () and sizes(found) == {1: 4}
 
 
 @pytest.mark.parametrize("seed", range(3))

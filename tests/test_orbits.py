@@ -14,11 +14,12 @@ from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.decomposition.decompose import decompose
 from nag.decomposition.monodromy import locate_points
 from nag.decomposition.orbits import Action, irreducible_orbits
-from nag.decomposition.superset import Ambient, witness_superset
+from nag.decomposition.superset import witness_superset
 from nag.files.cases import read_case
 from nag.files.export import read_decomposition, write_decomposition
 from nag.report.agreement import AgreementKind, compare
 from nag.tracking.run import Run
+from nag.witness.fibres import whole_space
 from nag.witness.frame import Frame, expand_orbits
 from nag.witness.points import Points
 from nag.witness.shown import kinds
@@ -157,7 +158,7 @@ def test_a_missing_point_is_noticed() -> None:
     equations = system("x y", "(x^2 - 2)*(y^2 - 2)").polynomials
     rng, tracker = np.random.default_rng(0), Run()
     flag = random_rows(rng, 2, 2)
-    fibres = witness_superset(equations, Ambient.space(flag), rng, tracker).fibres[1]
+    fibres = witness_superset(equations, {2: [whole_space(flag)]}, rng, tracker).fibres[1]
     action = Action.of(swap, Frame(np.eye(2), np.zeros(2), (0, 1), np.ones(2)))
     points = Points.of(fibres)
     found = irreducible_orbits(points, [action], 20, rng, tracker)

@@ -10,10 +10,11 @@ import pytest
 from nag.bench.atlas.moved import moved_case
 from nag.decomposition.decompose import decompose
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import Ambient, intersection_order, witness_superset
+from nag.decomposition.superset import intersection_order, witness_superset
 from nag.files.cases import read_case
 from nag.tracking.run import Run
 from nag.tracking.settings import Settings
+from nag.witness.fibres import whole_space
 from nag.witness.slices import random_rows
 
 SPATIAL = Path(__file__).parent.parent / "cases" / "spatial"
@@ -25,7 +26,8 @@ def test_ends_that_ask_for_more_digits_are_reached_at_the_first_attempt(seed: in
     reduced, rng = reduction.reduced, np.random.default_rng(seed)
     equations = [reduced.polynomials[i] for i in intersection_order(reduced.polynomials)]
     flag = random_rows(rng, reduced.n, reduced.n, 0.3)
-    found = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, Run())
+    space = {reduced.n: [whole_space(flag)]}
+    found = witness_superset(equations, space, rng, Run(), nonzero=reduced.nonzero)
     assert found.counts.failed == 0
     assert found.notes == ()
     assert {d: sum(map(len, f)) for d, f in found.fibres.items() if f} == {1: 16}

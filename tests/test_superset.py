@@ -12,13 +12,13 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import superset
 from nag.decomposition.decompose import decompose
-from nag.decomposition.superset import Ambient, intersection_order, witness_superset
+from nag.decomposition.superset import intersection_order, witness_superset
 from nag.tracking.run import Run
 from nag.witness import membership
 from nag.witness.close_to_sets import NearbyZeros
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut, Equations
-from nag.witness.fibres import Fibre
+from nag.witness.fibres import Fibre, whole_space
 from nag.witness.membership import Membership
 from nag.witness.slices import random_rows
 from nag.witness.witness import PathCounts
@@ -34,7 +34,7 @@ def test_what_only_the_first_equations_see_as_multiple_is_not_deflated(seed: int
     rng = np.random.default_rng(seed)
     flag = random_rows(rng, 3, 3)
     equations = polynomials("x y z", "y - x^3", "y + x^3", "x*(z^3 + 2)")
-    found = witness_superset(equations, Ambient.space(flag), rng, Run())
+    found = witness_superset(equations, {3: [whole_space(flag)]}, rng, Run())
     assert not found.notes and not found.counts.failed
     assert Counter({d: sum(map(len, f)) for d, f in found.fibres.items()}) == Counter({1: 1})
     assert all(not f.cut.deflated for f in found.fibres[1])

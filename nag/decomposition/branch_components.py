@@ -39,7 +39,7 @@ from nag.witness.component_equations import component_fibres
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import carry_radii, exact_zeros, sharpen_points
-from nag.witness.fibres import Fibre
+from nag.witness.fibres import Fibre, whole_space
 from nag.witness.frame import Frame
 from nag.witness.membership import Membership, is_on_one_of
 from nag.witness.moving import witness_at
@@ -281,8 +281,7 @@ def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchCo
     frame = Frame.of(elimination).scaled(sizes[list(elimination.kept)])
     d = elimination.system.n
     rows = random_rows(rng, d, d)
-    point = np.linalg.solve(rows[:, 1:], -rows[:, 0])[None]
-    sharp = sharpen_points([Fibre(Cut(d, 0, ()), rows, point)])
+    sharp = sharpen_points([whole_space(rows)])
     x = frame.points(sharp.x)
     evaluator = Evaluator.of(system.polynomials, system.n)
     cut = Cut(system.n, 0, tuple(independent_polynomials(system.polynomials)))

@@ -21,7 +21,7 @@ from nag.decomposition.ends import ROUNDED, seem_excluded
 from nag.decomposition.factor import NOT_MOVED, Operand, move_to_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import are_new_alone
+from nag.decomposition.superset import Superset, are_new_alone
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import classify_arrivals, clusters, coincident
 from nag.numerics.digits import bits_of
@@ -38,21 +38,6 @@ from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.points import with_fine
 from nag.witness.slices import pad_rows, random_rows, unit_complex
 from nag.witness.witness import PathCounts
-
-
-@dataclass(eq=False)
-class DiagonalSection:
-    """Points of an intersection, by dimension.
-
-    Attributes:
-        fibres: points with cuts.
-        bare: isolated points that no deflation made regular, with their errors.
-    """
-
-    fibres: dict[int, list[Fibre]] = field(default_factory=dict)
-    bare: list[tuple[np.ndarray, float]] = field(default_factory=list)
-    counts: PathCounts = field(default=PathCounts())
-    notes: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,41 +134,39 @@ def meet_on_diagonal(
     common: Reduction,
     rng: np.random.Generator,
     run: Run,
-) -> DiagonalSection:
+) -> Superset:
     """The points of the intersection of two components on generic slices of all dimensions.
 
     Raises:
         nag.decomposition.factor.IntersectionError: if witness points are none.
     """
-    product, result = _Product(first, second), DiagonalSection()
+    product = _Product(first, second)
     flag = random_rows(rng, product.n, product.n)
     equations = product.differences(rng)
     try:
         fibres = product.fibres(rng)
     except SliceError:
         # Drawn in the units of one component, it may hardly depend on some coordinates in others.
-        result.notes.append("a component's slice is too far from generic beside the other one")
-        return result
-    fibres, result.counts = move_to_flag(fibres, flag, rng, run)
+        note = "a component's slice is too far from generic beside the other one"
+        return Superset({}, PathCounts(), (note,))
+    fibres, counts = move_to_flag(fibres, flag, rng, run)
     if fibres is None:
-        result.notes.append(NOT_MOVED)
-        return result
-    diagonal = _Diagonal(product, common, flag, result, rng, run)
+        return Superset({}, counts, (NOT_MOVED,))
+    diagonal = _Diagonal(product, common, flag, rng, run, counts=counts)
     d = fibres[0].dimension
     # What vanishes on the diagonal, and nowhere else but by chance.
-    probes = [*equations[1:], None]
+    probes = [*equations[1:], None][: len(equations)]
     if d == 0:
         diagonal.take_those_on_it(fibres, equations[0] if equations else None)
-        return result
     for k, (f, probe) in enumerate(zip(equations, probes, strict=True)):
         if not fibres or d == 0:
             break
         run.tell("intersecting", k, len(equations))
         d -= 1
         fibres = diagonal.split_at_diagonal(fibres, f, probe, d)
-    if result.counts.failed:
-        result.notes.append(f"{result.counts.failed} paths failed; points may be missing")
-    return result
+    return Superset(
+        diagonal.fibres, diagonal.counts, tuple(diagonal.notes), bare=tuple(diagonal.bare)
+    )
 
 
 def _regular(
@@ -234,16 +217,23 @@ def _in_words(fibre: Fibre, probe: Polynomial | None) -> PointInWords | None:
     return fine_of_balls(there.centre, steep)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class _Diagonal:
-    """The diagonal of a product, the flag of slices about it, and what was found on it so far."""
+    """The diagonal of a product, the flag of slices about it, and what was found on it so far.
+
+    Attributes:
+        fibres, bare, counts, notes: as of the `Superset` that they become.
+    """
 
     product: _Product
     common: Reduction
     flag: np.ndarray
-    result: DiagonalSection
     rng: np.random.Generator
     run: Run
+    fibres: dict[int, list[Fibre]] = field(default_factory=dict)
+    bare: list[tuple[np.ndarray, float]] = field(default_factory=list)
+    counts: PathCounts = field(default=PathCounts())
+    notes: list[str] = field(default_factory=list)
 
     def split_at_diagonal(
         self, fibres: Sequence[Fibre], f: Polynomial, probe: Polynomial | None, d: int
@@ -255,12 +245,12 @@ class _Diagonal:
         Args:
             probe: a polynomial that vanishes on the diagonal alone; None if all points are on it.
         """
-        product, result = self.product, self.result
+        product = self.product
         gamma = complex(unit_complex(self.rng))
         off, on, errors = [], [np.zeros((0, product.n), dtype=complex)], [np.zeros(0)]
         for fibre in fibres:
             ends = intersect(fibre, f, gamma, self.run)
-            result.counts += ends.counts
+            self.counts += ends.counts
             gaps = np.full(len(ends), np.inf)
             gaps[ends.finite] = product.gaps(ends.points[ends.finite])
             on_it, doubtful = self.classify_ends(gaps, ends, probe, bool(fibre.fine))
@@ -273,9 +263,7 @@ class _Diagonal:
                 off.append(rest)
                 unclear += lost
             if unclear:
-                result.notes.append(
-                    f"{unclear} paths ended neither on the diagonal nor well off it"
-                )
+                self.notes.append(f"{unclear} paths ended neither on the diagonal nor well off it")
         self.take(np.vstack(on), np.concatenate(errors), d)
         return off
 
@@ -313,7 +301,7 @@ class _Diagonal:
             if probe is not None:
                 answers = find_vanishing(fibre.only(near), probe)
                 if None in answers:
-                    self.result.notes.append(f"{answers.count(None)} points may be equal or not")
+                    self.notes.append(f"{answers.count(None)} points may be equal or not")
                 near[near] = [answer is True for answer in answers]
             equal.append(fibre.x[near])
         z = np.vstack(equal)
@@ -331,26 +319,25 @@ class _Diagonal:
             result[i] = there == {False}
             unclear += len(there) != 1
         if unclear:
-            self.result.notes.append(f"{unclear} points may be such as are excluded")
+            self.notes.append(f"{unclear} points may be such as are excluded")
         return result
 
     def take(self, z: np.ndarray, accuracy: np.ndarray, d: int) -> None:
         """Add ends of dimension ``d`` on the diagonal, unless larger sets hold them."""
-        common, result = self.common, self.result
-        first = self.product.first
+        common, first = self.common, self.product.first
         x = first.reduction.frame.points(z[:, : first.n])[:, common.kept]
         if not len(x):
             return
         try:
             rows = self.product.common_rows(self.flag[:d], common)
         except SliceError:
-            result.notes.append("the equations of both components are too near to dependent ones")
+            self.notes.append("the equations of both components are too near to dependent ones")
             return
         allowed = self.allowed(x, accuracy, rows)
         x, accuracy = x[allowed], accuracy[allowed]
         if not len(x):
             return
-        fibres = result.fibres[d] = []
+        fibres = self.fibres[d] = []
         place = common.equations, rows, self.rng
         lost = 0
         for cluster in clusters(x, accuracy):
@@ -364,13 +351,12 @@ class _Diagonal:
                 if sum(map(len, simple)) - sum(map(len, fibres)) == len(ends):
                     fibres[:] = simple
                 elif not self.admit_close_ones(ends, fibres, rows):
-                    result.notes.append(f"points of dimension {d} are too close to each other")
+                    self.notes.append(f"points of dimension {d} are too close to each other")
                 continue
-            sets, run = result.fibres, self.run
-            answer, spent = is_on_larger_set(best, error, sets, d, self.rng, run)
-            result.counts += spent
+            answer, spent = is_on_larger_set(best, error, self.fibres, d, self.rng, self.run)
+            self.counts += spent
             if answer is Membership.UNDECIDED:
-                result.notes.append(f"a point of dimension {d} could not be told from a larger set")
+                self.notes.append(f"a point of dimension {d} could not be told from a larger set")
             if answer is not Membership.FOREIGN:
                 continue
             deflated = list(fibres)
@@ -383,11 +369,9 @@ class _Diagonal:
                 continue
             lost += 1
             if d == 0:
-                result.bare.append((best, error))
+                self.bare.append((best, error))
         if lost and d > 0:
-            result.notes.append(
-                f"{lost} singular points of dimension {d} could not be made regular"
-            )
+            self.notes.append(f"{lost} singular points of dimension {d} could not be made regular")
 
     def admit_close_ones(
         self, ends: Sequence[tuple[np.ndarray, float]], fibres: list[Fibre], rows: np.ndarray

@@ -26,7 +26,7 @@ from nag.decomposition.reduction import Reduction
 from nag.numerics.double_ranks import NEARLY_SINGULAR, largest_corank
 from nag.numerics.zero_values import LEAST
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
-from nag.witness.cutting import Cut
+from nag.witness.fibres import whole_space
 from nag.witness.gauss_newton import CLOSE, descend, polish
 from nag.witness.given_component import check_system
 from nag.witness.slices import complex_normal
@@ -137,10 +137,9 @@ class _Discovery:
         """The place of the point that a point near a reduced component leads to."""
         equations, flag = self.slices.equations, self.slices.flag
         if not equations.polynomials:
-            d = equations.n
-            cut = self.slices.points[d].cuts[0] if d in self.slices.points else Cut(d, 0, ())
-            point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
-            self.slices, place = self.slices.with_point(cut, point, d, ROUNDED)
+            d, space = equations.n, whole_space(flag)
+            cut = self.slices.points[d].cuts[0] if d in self.slices.points else space.cut
+            self.slices, place = self.slices.with_point(cut, space.points[0], d, ROUNDED)
             return d, place
         zero = polish(equations.evaluator, x)
         if not zero.converged:

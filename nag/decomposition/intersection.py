@@ -18,7 +18,6 @@ from nag.decomposition.diagonal import meet_on_diagonal
 from nag.decomposition.factor import NOT_MOVED, IntersectionError, Operand, move_to_flag
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import (
-    Ambient,
     Superset,
     intersection_order,
     witness_superset,
@@ -109,8 +108,7 @@ def intersect_factors(first: Operand, second: Operand, *, run: Run) -> Decomposi
         return _carry_back(nothing, (), whole, natural, run)
     first, second = first.carry(natural), second.carry(natural)
     found = meet_on_diagonal(first, second, common, rng, run)
-    points = {d: Points.of(fibres) for d, fibres in found.fibres.items() if fibres}
-    result = _intersection(common, points, found.counts, found.notes, rng, run)
+    result = _intersection(common, found.points, found.counts, found.doubts, rng, run)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
     return _carry_back(result, (*result.components, *bare), whole, natural, run)
 
@@ -177,10 +175,7 @@ def intersect_equations(
 
     rng = run.random(6)
     superset = _meet_equations(factor, natural.system(equations), rng, run)
-    notes = list(superset.notes)
-    if superset.counts.failed:
-        notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-    points = {}
+    notes, points = superset.doubts, {}
     for d, found in superset.fibres.items():
         if not found:
             continue
@@ -205,8 +200,7 @@ def _meet_equations(
     if start is None:
         return Superset({}, spent, (NOT_MOVED,))
     reduced, d = factor.reduction.reduced, factor.component.dimension
-    ambient = Ambient({d: start}, reduced.polynomials, reduced.nonzero)
-    found = witness_superset(further, ambient, rng, run)
+    found = witness_superset(further, {d: start}, rng, run, reduced.polynomials, reduced.nonzero)
     return replace(found, counts=spent + found.counts)
 
 

@@ -19,9 +19,9 @@ from nag.decomposition.isolated import (
 )
 from nag.decomposition.method import Attempt, Task
 from nag.decomposition.orbits import Action
-from nag.decomposition.superset import Ambient, Superset, intersection_order, witness_superset
+from nag.decomposition.superset import Superset, intersection_order, witness_superset
 from nag.decomposition.toric_section import section_at_once, turns_to_cut
-from nag.witness.points import Points
+from nag.witness.fibres import whole_space
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, PathCounts
 
@@ -58,7 +58,8 @@ def decompose_several(task: Task) -> Decomposition:
     reduced = task.reduction.reduced
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
-    superset = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, task.run)
+    space = {len(flag): [whole_space(flag)]}
+    superset = witness_superset(equations, space, rng, task.run, nonzero=reduced.nonzero)
     answer = _settle(task, superset, rng, order)
     return count_points(answer, task.facts, task.scheme)
 
@@ -73,21 +74,17 @@ def _settle(
     task: Task, superset: Superset, rng: np.random.Generator, order: Sequence[int] = ()
 ) -> Decomposition:
     """The components of witness points of all dimensions; points are solved for where in doubt."""
-    notes = list(superset.notes)
-    if superset.counts.failed:
-        notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-    points = {d: Points.of(fibres) for d, fibres in superset.fibres.items() if fibres}
     moving = [g for g in task.symmetries if not g.is_identity]
     known = KnownOfSets(
         actions=[Action.of(g, task.reduction.frame) for g in moving], scheme=task.scheme
     )
-    found = assemble_components(points, task.reduction, rng, task.run, known)
+    found = assemble_components(superset.points, task.reduction, rng, task.run, known)
     answer = judge_components(
         task.system,
         found.components,
         superset.counts + found.counts,
         task.run.settings,
-        [*notes, *found.notes],
+        [*superset.doubts, *found.notes],
         order,
         task.run.seed,
     )

@@ -19,10 +19,11 @@ from nag.numerics.coincidence import SAFETY, coincident
 from nag.numerics.zero_values import ON, vanishes_at
 from nag.tracking.run import Run
 from nag.witness.close_to_sets import NearbyZeros, find_nearby_zeros, is_among_points
-from nag.witness.cutting import Cut, Equations, dyadic, leading_power
+from nag.witness.cutting import Equations, dyadic, leading_power
 from nag.witness.cutting_in_digits import admit_zero, is_alone
 from nag.witness.fibres import Fibre, admit_end
 from nag.witness.membership import Membership, is_on_larger_set
+from nag.witness.points import Points
 from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
@@ -33,18 +34,36 @@ IN_PASSING = 0.02
 
 @dataclass(frozen=True, eq=False)
 class Superset:
-    """Witness points of every dimension.
+    """Witness points of every dimension, on the leading rows of one flag of slices.
 
-    ``notes`` tell of singular ends that no cut was found for. ``about_points``: how many of these,
-    and of the failed paths, are about points of dimension 0. ``recovered``: how many failed paths
-    led to zeros that were found where these seemed to lead, by dimension.
+    Attributes:
+        fibres: the points with what cuts them, by dimension.
+        counts: of the paths that led to them.
+        notes: tell of singular ends that no cut was found for.
+        about_points: how many of these, and of the failed paths, are about points of dimension 0.
+        recovered: how many failed paths led to zeros that were found where these seemed to lead,
+            by dimension.
+        bare: isolated points that no deflation made regular, with their errors.
     """
 
-    fibres: dict[int, list[Fibre]]
+    fibres: Mapping[int, list[Fibre]]
     counts: PathCounts
     notes: tuple[str, ...]
     about_points: int = 0
     recovered: Mapping[int, int] = field(default_factory=dict)
+    bare: Sequence[tuple[np.ndarray, float]] = ()
+
+    @property
+    def points(self) -> dict[int, Points]:
+        """The points by dimension, under indices."""
+        return {d: Points.of(fibres) for d, fibres in self.fibres.items() if fibres}
+
+    @property
+    def doubts(self) -> list[str]:
+        """The notes, and what failed paths mean."""
+        failed = self.counts.failed
+        lost = [f"{failed} paths failed; points may be missing"] if failed else []
+        return [*self.notes, *lost]
 
     @property
     def only_points(self) -> bool:
@@ -316,45 +335,32 @@ def _not_all_found(cluster: Cluster, found: NearbyZeros, so_far: Equations, d: i
     return [f"zeros of dimension {d} close to each other were not all found"] if lost else []
 
 
-@dataclass(frozen=True, eq=False)
-class Ambient:
-    """What is intersected: sets of all dimensions, and the polynomials that vanish on them.
-
-    Attributes:
-        fibres: the sets by their points, by dimension: on the first rows of one flag of slices.
-        known: polynomials that vanish on them.
-        nonzero: those that must not vanish.
-    """
-
-    fibres: Mapping[int, Sequence[Fibre]]
-    known: tuple[Polynomial, ...] = ()
-    nonzero: tuple[Polynomial, ...] = ()
-
-    @classmethod
-    def space(cls, flag: np.ndarray, nonzero: Sequence[Polynomial] = ()) -> Ambient:
-        """The whole space, by its point on a flag of as many slices as variables."""
-        n = len(flag)
-        point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
-        return cls({n: [Fibre(Cut(n, 0, ()), flag, point[None])]}, (), tuple(nonzero))
-
-
 def witness_superset(
-    equations: Sequence[Polynomial], ambient: Ambient, rng: np.random.Generator, run: Run
+    equations: Sequence[Polynomial],
+    sets: Mapping[int, list[Fibre]],
+    rng: np.random.Generator,
+    run: Run,
+    known: Sequence[Polynomial] = (),
+    nonzero: Sequence[Polynomial] = (),
 ) -> Superset:
     """Witness points of all dimensions where sets meet ``equations``, intersected in order.
 
     A point of dimension d lies on the first d rows of the flag of the sets. No point of a component
     is missed unless a path failed, and the points that lie on components of higher dimension are
     taken out again after each equation.
+
+    Args:
+        sets: by their points, by dimension; `nag.witness.fibres.whole_space` is one.
+        known: polynomials that vanish on them; nonzero: those that must not vanish.
     """
     equations = list(equations)
     counts, notes, points = PathCounts(), [], 0
-    found = Superset(dict(ambient.fibres), counts, ())
+    found = Superset(sets, counts, ())
     mixing = False
     for k, f in enumerate(equations):
         run.tell("intersecting", k, len(equations))
-        before, after = (*ambient.known, *equations[:k]), tuple(equations[k + 1 :])
-        stage = _Stage(before, after, found, ambient.nonzero, rng, run)
+        before, after = (*known, *equations[:k]), tuple(equations[k + 1 :])
+        stage = _Stage(before, after, found, tuple(nonzero), rng, run)
         best, mixing, spent = stage.best(f, mixing)
         found = best.superset
         equations[k] = best.polynomial

@@ -133,6 +133,13 @@ class Fibre:
         return replace(self, points=self.points[places], fine=fine)
 
 
+def whole_space(flag: np.ndarray) -> Fibre:
+    """The whole space, by its point on a flag of as many slices as variables."""
+    n = len(flag)
+    point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
+    return Fibre(Cut(n, 0, ()), flag, point[None])
+
+
 @dataclass(frozen=True, eq=False)
 class SliceEnds:
     """Ends of paths to a slice, which ``cut`` cuts regularly there where they are regular.
