@@ -22,6 +22,7 @@ from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class, split_points
 from nag.decomposition.trace import EVIDENCE, Trace
 from nag.files.cases import read_case
+from nag.numerics.coincidence import join_labels
 from nag.tracking.run import Run
 from nag.witness.fibres import Fibre
 from nag.witness.points import Points
@@ -130,9 +131,9 @@ def test_what_a_loop_joined_wrongly_is_taken_back(
 
 def test_classes_are_what_pairs_join() -> None:
     rng = np.random.default_rng(2)
-    assert splitting.join_labels(4, []).tolist() == [0, 1, 2, 3]
+    assert join_labels(4, []).tolist() == [0, 1, 2, 3]
     for pairs in (rng.integers(0, 60, (2, 20, 2)), [np.column_stack([range(59), range(1, 60)])]):
-        labels = splitting.join_labels(60, pairs)
+        labels = join_labels(60, pairs)
         graph = np.eye(60, dtype=bool)
         graph[tuple(np.concatenate(pairs).T)] = True
         reached = np.linalg.matrix_power((graph | graph.T).astype(float), 60) > 0

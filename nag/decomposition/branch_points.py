@@ -13,7 +13,6 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import flint
 import numpy as np
@@ -39,46 +38,26 @@ class BranchPointError(ComponentError):
     """Branch points that were not found, with the reason."""
 
 
-@dataclass(frozen=True, eq=False)
-class Sheets:
-    """The points of a curve over the value ``base`` of a linear form.
-
-    Attributes:
-        fibres: the points with their cuts, on one slice.
-    """
-
-    fibres: tuple[Fibre, ...]
-
-    @property
-    def normal(self) -> np.ndarray:
-        """The form, complex, shape ``(n,)``."""
-        return self.fibres[0].rows[0, 1:]
-
-    @property
-    def base(self) -> complex:
-        """The value of the form."""
-        return complex(-self.fibres[0].rows[0, 0])
-
-    def rows(self, t: complex) -> np.ndarray:
-        """The slice on which the form has the value ``t``."""
-        return np.concatenate([[-t], self.normal])[None].astype(complex)
-
-    @property
-    def count(self) -> int:
-        return sum(map(len, self.fibres))
+def parallel_row(row: np.ndarray, t: complex) -> np.ndarray:
+    """The slice on which the form of a slice of one row has the value ``t``."""
+    return np.concatenate([[-t], row[0, 1:]])[None].astype(complex)
 
 
-def branch_points(sheets: Sheets, rng: np.random.Generator, run: Run) -> list[complex]:
-    """The finite values at which sheets come together and are exchanged.
+def branch_points(sheets: Sequence[Fibre], rng: np.random.Generator, run: Run) -> list[complex]:
+    """The finite values of a form at which the sheets of a curve come together and are exchanged.
+
+    Args:
+        sheets: the points over one value of the form, which is that of their slice.
 
     Raises:
         BranchPointError: if paths fail, or no rational function fits the values.
     """
-    n = len(sheets.normal)
+    form, count = sheets[0].rows[0], sum(map(len, sheets))
+    n = len(form) - 1
     weights = rng.normal(size=n) + 1j * rng.normal(size=n)
-    size = 1 + max(float(np.abs(f.x @ sheets.normal).max(initial=0.0)) for f in sheets.fibres)
-    size = max(size, abs(sheets.base))
-    most = sheets.count * (sheets.count - 1)
+    size = 1 + max(float(np.abs(fibre.x @ form[1:]).max(initial=0.0)) for fibre in sheets)
+    size = max(size, abs(complex(form[0])))
+    most = count * (count - 1)
     at: list[complex] = []
     values: list[flint.acb] = []
     while True:
@@ -95,17 +74,16 @@ def branch_points(sheets: Sheets, rng: np.random.Generator, run: Run) -> list[co
 
 
 def _sum_of_squares(
-    sheets: Sheets, t: complex, weights: np.ndarray, rng: np.random.Generator, run: Run
+    sheets: Sequence[Fibre], t: complex, weights: np.ndarray, rng: np.random.Generator, run: Run
 ) -> flint.acb:
-    squares = []
-    for fibre in sheets.fibres:
+    squares, row = [], parallel_row(sheets[0].rows, t)
+    for fibre in sheets:
         gamma = complex(unit_complex(rng))
-        (ends,) = move([fibre], sheets.rows(t), gamma, run)
+        (ends,) = move([fibre], row, gamma, run)
         if not ends.regular.all():
             raise BranchPointError("paths to another slice failed")
         form = np.concatenate([weights, np.zeros(fibre.cut.aux)])
-        rows = pad_rows(sheets.rows(t), 1 + len(form))
-        system = BallPolynomials.of(fibre.cut.polynomials, rows)
+        system = BallPolynomials.of(fibre.cut.polynomials, pad_rows(row, 1 + len(form)))
         squares += [_square(system, x, form) for x in ends.points]
     with in_bits(BITS):
         return middle(sum(squares, flint.acb(0)))

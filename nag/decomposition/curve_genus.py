@@ -20,15 +20,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.branch_points import BranchPointError, Sheets, branch_points
+from nag.decomposition.branch_points import BranchPointError, branch_points, parallel_row
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.monodromy import locate_points
 from nag.decomposition.rank_drop import rank_drop, rank_drop_points
 from nag.errors import ComponentError, NagError
+from nag.numerics.coincidence import join_labels
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
-from nag.witness.fibres import move_regular
+from nag.witness.fibres import Fibre, move_regular
 from nag.witness.given_component import check_component
 from nag.witness.points import with_fine
 from nag.witness.slices import random_rows, unit_complex
@@ -113,7 +114,7 @@ def genus(
         values = branch_points(sheets, rng, run)
         # Sheets that are exchanged round a cusp have bounded derivatives there.
         cusps = _singular_points(system, component, run)
-        values += [complex(v) for v in cusps @ sheets.normal]
+        values += [complex(v) for v in cusps @ sheets[0].rows[0, 1:]]
         cover = _Cover(sheets, values, rng, run)
         return _riemann_hurwitz(cover.permutations(), cover.round_all(), component.degree)
     except (BranchPointError, IntersectionError) as error:
@@ -141,14 +142,14 @@ def _singular_points(system: PolynomialSystem, component: WitnessSet, run: Run) 
 
 def _sheets(
     system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, run: Run
-) -> Sheets:
+) -> list[Fibre]:
     """The curve's points over a random value of a random form."""
     row = random_rows(rng, 1, system.n)
     gamma = complex(unit_complex(rng))
     fibres, _ = move_regular(component_fibres(system, component), row, gamma, run)
     if fibres is None:
         raise GenusError("paths to the first slice failed")
-    return Sheets(tuple(with_fine(fibres)))
+    return with_fine(fibres)
 
 
 def _riemann_hurwitz(permutations: list[np.ndarray], all_: np.ndarray, sheets: int) -> Genus:
@@ -158,63 +159,51 @@ def _riemann_hurwitz(permutations: list[np.ndarray], all_: np.ndarray, sheets: i
         product = p[product]
     if (product != all_).any():
         raise GenusError("the permutations round the branch points do not make up that round all")
-    if len(_orbits(permutations, sheets)) != 1:
+    if _orbits(permutations, sheets) != 1:
         raise GenusError("the permutations do not connect all sheets; it may not be irreducible")
-    drops = [sheets - _cycles(p) for p in [*permutations, all_]]
+    drops = [sheets - _orbits([p], sheets) for p in [*permutations, all_]]
     total = sum(drops)
     if total % 2:
         raise GenusError("the ramification is odd")
     return Genus(1 - sheets + total // 2, sheets, sum(d > 0 for d in drops[:-1]), total)
 
 
-def _cycles(p: np.ndarray) -> int:
-    return len(_orbits([p], len(p)))
-
-
-def _orbits(permutations: Sequence[np.ndarray], sheets: int) -> list[set[int]]:
-    left, orbits = set(range(sheets)), []
-    while left:
-        orbit, frontier = set(), [left.pop()]
-        while frontier:
-            i = frontier.pop()
-            if i not in orbit:
-                orbit.add(i)
-                frontier += [int(p[i]) for p in permutations]
-        left -= orbit
-        orbits.append(orbit)
-    return orbits
+def _orbits(permutations: Sequence[np.ndarray], sheets: int) -> int:
+    """Into how many orbits permutations part the sheets."""
+    pairs = [np.column_stack([np.arange(sheets), p]) for p in permutations]
+    return len(np.unique(join_labels(sheets, pairs)))
 
 
 class _Cover:
     """The curve over the line of values of a linear form, and loops round the branch points."""
 
     def __init__(
-        self, sheets: Sheets, values: list[complex], rng: np.random.Generator, run: Run
+        self, sheets: list[Fibre], values: list[complex], rng: np.random.Generator, run: Run
     ) -> None:
         self.run = run
         self.centre = complex(np.mean(values)) if values else 0j
         least = LEAST_RADIUS * (1 + abs(self.centre))
         radius = OUTSIDE * max([least, *(abs(v - self.centre) for v in values)])
-        base = self.centre + radius * complex(unit_complex(rng))
-        inwards = self.centre - base
+        self.base = self.centre + radius * complex(unit_complex(rng))
+        inwards = self.centre - self.base
         # Seen from outside, one after the other from the right to the left.
-        self.values = sorted(values, key=lambda v: np.angle((v - base) / inwards))
+        self.values = sorted(values, key=lambda v: np.angle((v - self.base) / inwards))
         gamma = complex(unit_complex(rng))
-        fibres, _ = move_regular(sheets.fibres, sheets.rows(base), gamma, run)
+        fibres, _ = move_regular(sheets, parallel_row(sheets[0].rows, self.base), gamma, run)
         if fibres is None:
             raise GenusError("paths to the base point failed")
-        self.sheets = Sheets(tuple(with_fine(fibres)))
+        self.sheets = with_fine(fibres)
 
     def _carried(self, corners: Sequence[complex]) -> np.ndarray:
         """Where each sheet over the base point is carried along a closed polygon from there."""
-        fibres = list(self.sheets.fibres)
-        for t in [*corners, self.sheets.base]:
-            there, _ = move_regular(fibres, self.sheets.rows(t), 1.0, self.run)
+        fibres = self.sheets
+        for t in [*corners, self.base]:
+            there, _ = move_regular(fibres, parallel_row(fibres[0].rows, t), 1.0, self.run)
             if there is None:
                 raise GenusError("paths round a branch point failed")
             # Near a cusp sheets are closer to each other than to the value.
             fibres = with_fine(there)
-        start = np.vstack([fibre.x for fibre in self.sheets.fibres])
+        start = np.vstack([fibre.x for fibre in self.sheets])
         images = locate_points(np.vstack([fibre.x for fibre in fibres]), start)
         if images is None or sorted(images.tolist()) != list(range(len(start))):
             raise GenusError("sheets were mixed up on the way")
@@ -224,8 +213,8 @@ class _Cover:
         """The permutation of the sheets round each value, in the order of `values`."""
         result = []
         for v in self.values:
-            others = [abs(v - w) for w in [*self.values, self.sheets.base] if w != v]
-            radius, away = NEAR * min(others), self.sheets.base - v
+            others = [abs(v - w) for w in [*self.values, self.base] if w != v]
+            radius, away = NEAR * min(others), self.base - v
             shrink = radius / abs(away)
             # Steps are in proportion to the leg that they are on.
             legs = max(1, round(np.log(shrink) / np.log(SHRINK)))
@@ -237,6 +226,6 @@ class _Cover:
 
     def round_all(self) -> np.ndarray:
         """The permutation of the sheets round all values together."""
-        away = self.sheets.base - self.centre
+        away = self.base - self.centre
         turns = [np.exp(2j * np.pi * k / (2 * CORNERS)) for k in range(1, 2 * CORNERS)]
         return self._carried([self.centre + away * turn for turn in turns])

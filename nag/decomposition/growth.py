@@ -223,13 +223,9 @@ class _Growing:
         new = found.places < 0
         residuals = self.reduction.equations.evaluator.residuals(found.ends.x)
         good = ~new | (residuals.max(axis=1, initial=0.0) < ON)
-        new &= good
-        places = np.where(new, len(self.points) + np.cumsum(new) - 1, found.places)
-        for k in np.flatnonzero(new).tolist():
-            cut = self.points.cuts[self.points.which[found.origins[k]]]
-            self.points = self.points.with_point(cut, found.ends.z[k], found.ends.fine.get(k))
-        self.loops.append(np.column_stack([found.origins, places])[good])
-        return bool(new.any())
+        self.points, pairs = found.only(good).join_to(self.points)
+        self.loops.append(pairs)
+        return bool((new & good).any())
 
     def _has_linear_trace(self) -> bool:
         """Whether the trace of all points is linear, as far as it can be afforded."""

@@ -41,6 +41,23 @@ class LoopEnds:
     ends: Points
     places: np.ndarray | None
 
+    def only(self, mask: np.ndarray) -> LoopEnds:
+        """Some of the ends, of which it is clear which points they are."""
+        which = np.flatnonzero(mask)
+        return LoopEnds(self.origins[which], self.ends.only(which), self.places[which])
+
+    def join_to(self, points: Points) -> tuple[Points, np.ndarray]:
+        """The points with the new ones at the end, and the pairs that the loop joins, ``(m, 2)``.
+
+        It must be clear which points the ends are.
+        """
+        new = self.places < 0
+        places = np.where(new, len(points) + np.cumsum(new) - 1, self.places)
+        for k in np.flatnonzero(new).tolist():
+            cut = points.cuts[points.which[self.origins[k]]]
+            points = points.with_point(cut, self.ends.z[k], self.ends.fine.get(k))
+        return points, np.column_stack([self.origins, places])
+
 
 def locate_ends(ends: Points, points: Points) -> np.ndarray | None:
     """Indices of the ``points`` that ``ends`` are, -1 for none; None if that is not clear."""

@@ -19,6 +19,7 @@ import numpy as np
 from nag.decomposition.monodromy import run_loop
 from nag.decomposition.power_sums import PowerSums
 from nag.decomposition.trace import Trace
+from nag.numerics.coincidence import group_by_label, join_labels
 from nag.tracking.run import Run
 from nag.witness.points import Points
 from nag.witness.witness import PathCounts
@@ -157,36 +158,11 @@ def _split_of(state: _Splitting) -> Split:
     return Split(known, labels, classes, state.counts, state.discarded)
 
 
-def join_labels(total: int, pairs: Sequence[np.ndarray]) -> np.ndarray:
-    """For each of ``total`` points the smallest one of its class, shape ``(total,)``.
-
-    Args:
-        pairs: of points that are in one class, arrays of shape ``(m, 2)``.
-    """
-    labels = np.arange(total)
-    first, second = np.concatenate([np.zeros((0, 2), dtype=int), *pairs]).T
-    while True:
-        least = np.minimum(labels[first], labels[second])
-        lower = labels.copy()
-        for places in (labels[first], labels[second]):
-            np.minimum.at(lower, places, least)
-        lower = lower[lower]
-        if np.array_equal(lower, labels):
-            return labels
-        labels = lower[lower]
-
-
-def _by_label(labels: np.ndarray, among: np.ndarray) -> list[np.ndarray]:
-    """Some points by their labels, smallest first."""
-    order = among[np.argsort(labels[among], kind="stable")]
-    return np.split(order, np.flatnonzero(np.diff(labels[order])) + 1) if len(order) else []
-
-
 def _find_components(state: _Splitting, run: Run) -> bool:
     """Find components among open points, as far as traces and loops tell; False if a path fails."""
     while True:
         open_points = state.open_points()
-        classes = _by_label(state.labels(), open_points)
+        classes = group_by_label(state.labels(), open_points)
         run.tell("splitting", len(state.whole), len(state.whole) + len(classes))
         state.trace, spent = state.trace.carry(state.points, open_points, run)
         state.counts += spent
@@ -226,7 +202,7 @@ def _parts(state: _Splitting, points: np.ndarray) -> list[np.ndarray] | None:
     if parts:
         return parts
     for k in range(len(state.loops)):
-        units = _by_label(state.labels(without=k), points)
+        units = group_by_label(state.labels(without=k), points)
         parts = _smallest_unions(state, units) if len(units) > 1 else [points]
         if not parts or len(parts) > 1:
             return parts or None
@@ -326,12 +302,9 @@ def _run_loop(state: _Splitting, open_points: np.ndarray, run: Run, scaled: bool
         state.growing = False
         return False
     state.growing = bool(new.any())
-    places = np.where(new, len(state.points) + np.cumsum(new) - 1, found.places)
-    for k in np.flatnonzero(new).tolist():
-        cut = state.points.cuts[state.points.which[found.origins[k]]]
-        state.points = state.points.with_point(cut, found.ends.z[k], found.ends.fine.get(k))
+    state.points, pairs = found.join_to(state.points)
     before = state.labels()
-    state.loops.append(np.column_stack([found.origins, places]))
+    state.loops.append(pairs)
     return not np.array_equal(before, state.labels())
 
 
@@ -339,7 +312,7 @@ def _classes(state: _Splitting, labels: np.ndarray) -> list[Class]:
     whole = {int(own[0]) for own in state.whole}
     return [
         Class(own, "" if int(own[0]) in whole else _reason(state, own))
-        for own in _by_label(labels, np.arange(len(labels)))
+        for own in group_by_label(labels, np.arange(len(labels)))
     ]
 
 

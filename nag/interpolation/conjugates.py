@@ -90,7 +90,7 @@ class RationalSlice:
             raise SourceError("a path to a rational slice failed")
         found = []
         for fibre in there.fibres:
-            found += [Sample(source.natural, fibre.cut, target, z) for z in fibre.points]
+            found += [Sample(source.natural, fibre.only([k])) for k in range(len(fibre))]
         return found
 
     def value(self, sample: Sample, digits: int) -> flint.acb:

@@ -173,7 +173,7 @@ class Cloud:
 
 def _sizes(sample: Sample) -> np.ndarray:
     """Sizes that make the coordinates comparable, shape ``(n + aux,)``."""
-    return np.ldexp(1.0, sample.cut.powers)
+    return np.ldexp(1.0, sample.fibre.cut.powers)
 
 
 def _with_rows_of_norm_one(matrix: np.ndarray) -> np.ndarray:
@@ -183,8 +183,9 @@ def _with_rows_of_norm_one(matrix: np.ndarray) -> np.ndarray:
 
 def _tangent(sample: Sample) -> np.ndarray:
     """Orthonormal basis of the tangent space at a point, shape ``(n, d)``, in `_sizes`."""
-    jacobian = sample.cut.evaluator.jacobian(sample.z)
-    rows = pad_rows(sample.rows, 1 + len(sample.z))[:, 1:]
+    (z,), cut = sample.fibre.points, sample.fibre.cut
+    jacobian = cut.evaluator.jacobian(z)
+    rows = pad_rows(sample.fibre.rows, 1 + len(z))[:, 1:]
     matrix = _with_rows_of_norm_one(np.vstack([jacobian, rows]) * _sizes(sample))
     directions = np.linalg.inv(matrix)[: len(sample.x), len(jacobian) :]
     q, _ = np.linalg.qr(directions)

@@ -27,7 +27,7 @@ from nag.numerics.zero_values import ON
 from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
-from nag.witness.cutting import Cut, Equations, find_cut
+from nag.witness.cutting import Equations, find_cut
 from nag.witness.fibres import Fibre
 from nag.witness.given_component import round_point
 from nag.witness.sampling import move_to_random_slice
@@ -126,18 +126,16 @@ class Sample:
 
     Attributes:
         natural: the coordinates of all this.
-        z: affine, with the unknowns that deflation added.
+        fibre: the one point.
     """
 
     natural: NaturalCoordinates
-    cut: Cut
-    rows: np.ndarray
-    z: np.ndarray
+    fibre: Fibre
 
     @property
     def x(self) -> np.ndarray:
         """The point in the system's variables."""
-        return self.natural.inverse.points(self.z[: self.cut.n])
+        return self.natural.inverse.points(self.fibre.x[0])
 
     def balls(self, digits: int) -> list[flint.acb]:
         """`x` as balls of radius ``10^-digits``, relative above one.
@@ -145,9 +143,10 @@ class Sample:
         Raises:
             SourceError: if Newton's method does not converge.
         """
-        exact = BallPolynomials.of(self.cut.polynomials, pad_rows(self.rows, 1 + len(self.z)))
-        more = log10(1 + float(np.abs(self.z).max(initial=0.0)))
-        zero = find_zero(exact, [flint.acb(complex(x)) for x in self.z], digits + more)
+        (z,), cut = self.fibre.points, self.fibre.cut
+        exact = BallPolynomials.of(cut.polynomials, pad_rows(self.fibre.rows, 1 + len(z)))
+        more = log10(1 + float(np.abs(z).max(initial=0.0)))
+        zero = find_zero(exact, [flint.acb(complex(x)) for x in z], digits + more)
         if zero is None:
             raise SourceError("Newton's method does not converge at a sampled point")
         with in_bits(bits_of(digits + SPARE)):
@@ -181,5 +180,5 @@ def samples(source: Source, count: int, rng: np.random.Generator, run: Run) -> l
                 "some equations hold at the point alone and not on what moves through it: it is "
                 "singular; name a component"
             )
-        found.append(Sample(source.natural, fibre.cut, fibre.rows, fibre.points[0]))
+        found.append(Sample(source.natural, fibre))
     return found

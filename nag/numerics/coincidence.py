@@ -1,12 +1,13 @@
 """Points that coincide within their errors: balls about them that meet.
 
 Errors are estimates, so that the balls are larger than these by a factor. Of many points those that
-coincide are found among neighbours in a projection.
+coincide are found among neighbours in a projection. What pairs join, of these or of others, are
+classes, each labelled by its smallest index.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -92,26 +93,36 @@ def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
         points: complex, shape ``(P, n)``.
         accuracy: relative errors, shape ``(P,)``.
     """
-    count = len(points)
-    label = np.arange(count)
-    if count < 2:
-        return list(label[:, None])
+    every = np.arange(len(points))
+    if len(points) < 2:
+        return list(every[:, None])
+    pairs = overlapping_pairs(points, radii_of_balls(points, accuracy))
+    return group_by_label(join_labels(len(points), [pairs]), every)
 
-    def root(i: int) -> int:
-        while label[i] != i:
-            label[i] = label[label[i]]
-            i = label[i]
-        return i
 
-    for a, b in overlapping_pairs(points, radii_of_balls(points, accuracy)).tolist():
-        first, second = sorted((root(a), root(b)))
-        label[second] = first
-    if (label == np.arange(count)).all():
-        return list(np.arange(count)[:, None])
-    groups: dict[int, list[int]] = {}
-    for i in range(count):
-        groups.setdefault(root(i), []).append(i)
-    return [np.array(g) for g in groups.values()]
+def join_labels(total: int, pairs: Sequence[np.ndarray]) -> np.ndarray:
+    """For each of ``total`` points the smallest one of its class, shape ``(total,)``.
+
+    Args:
+        pairs: of points that are in one class, arrays of shape ``(m, 2)``.
+    """
+    labels = np.arange(total)
+    first, second = np.concatenate([np.zeros((0, 2), dtype=int), *pairs]).T
+    while True:
+        least = np.minimum(labels[first], labels[second])
+        lower = labels.copy()
+        for places in (labels[first], labels[second]):
+            np.minimum.at(lower, places, least)
+        lower = lower[lower]
+        if np.array_equal(lower, labels):
+            return labels
+        labels = lower[lower]
+
+
+def group_by_label(labels: np.ndarray, among: np.ndarray) -> list[np.ndarray]:
+    """Some points by their labels, smallest first."""
+    order = among[np.argsort(labels[among], kind="stable")]
+    return np.split(order, np.flatnonzero(np.diff(labels[order])) + 1) if len(order) else []
 
 
 def conjugates_present(

@@ -20,6 +20,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.certified_points import NEAR, Proof
+from nag.numerics.coincidence import join_labels
 from nag.numerics.discs import Terms
 from nag.tracking.certified_paths import ProvedZeros, certified_paths, prove_zeros_near
 from nag.tracking.moving_discs import MovingPart, MovingSystem
@@ -79,7 +80,7 @@ def prove_monodromy(
         OverflowError: if a coefficient is too large or too small for a double.
     """
     orbits = np.arange(component.degree)
-    permutations, steps = [], 0
+    permutations, joined, steps = [], [], 0
     component = replace(component, fibres=())
     fibres = component_fibres(system, component) if component.degree > 1 else []
     zeros = Proof.NONE not in certify_witness_points(system, component).proofs
@@ -91,7 +92,9 @@ def prove_monodromy(
         places, spent = _loop(fibres, component.slice.rows, middle, turns)
         steps += spent
         permutations.append(places)
-        orbits = _join_orbits(orbits, places)
+        arrived = np.flatnonzero(places >= 0)
+        joined.append(np.column_stack([arrived, places[arrived]]))
+        orbits = join_labels(component.degree, joined)
     return ProvedMonodromy(tuple(permutations), orbits, steps, zeros)
 
 
@@ -106,15 +109,6 @@ def prove_all(decomposition: Decomposition, seed: int = 0) -> tuple[ProvedMonodr
         except (ValueError, OverflowError):
             found.append(ProvedMonodromy((), np.arange(component.degree), 0, False))
     return tuple(found)
-
-
-def _join_orbits(orbits: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Orbits under one more partial permutation."""
-    orbits = orbits.copy()
-    for i in np.flatnonzero(places >= 0).tolist():
-        a, b = sorted((int(orbits[i]), int(orbits[places[i]])))
-        orbits[orbits == b] = a
-    return orbits
 
 
 def _loop(
