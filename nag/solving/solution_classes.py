@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.numerics.coincidence import SAFETY, overlapping_pairs
+from nag.solving.start.monodromy_loops import DistinctSolutions
 from nag.tracking.projective import ROUNDING
 
 INVARIANTS = 3
@@ -59,54 +58,23 @@ def _means(images: np.ndarray) -> np.ndarray:
     return np.concatenate([(quotients**k).mean(axis=0) for k in powers], axis=1)
 
 
-@dataclass
-class SolutionClasses:
-    """Solutions for given parameters, one of each class.
+def distinct_classes(
+    values: np.ndarray, symmetric: SymmetricFamily, points: np.ndarray, errors: np.ndarray
+) -> DistinctSolutions:
+    """Solutions for given parameters, one of each class, told apart by `invariants`.
 
-    Attributes:
+    Args:
         values: the parameters, shape ``(k,)``.
         symmetric: the family, in whose inner coordinates points and parameters are.
-        points: shape ``(P, n)``; of each class the member that was found first.
-        known: their invariants, and the radii of these.
+        points: solutions, shape ``(P, n)``, with their relative errors.
     """
 
-    values: np.ndarray
-    symmetric: SymmetricFamily
-    points: np.ndarray
-    known: tuple[np.ndarray, np.ndarray]
+    def usable(x: np.ndarray, off: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        found, radii = invariants(symmetric, x, values, radii_of_ends(x, off))
+        clear = np.isfinite(found).all(axis=1) & (radii < CLEAR)
+        return x[clear], found[clear], radii[clear]
 
-    @classmethod
-    def of(
-        cls, values: np.ndarray, symmetric: SymmetricFamily, points: np.ndarray, errors: np.ndarray
-    ) -> SolutionClasses:
-        """The classes of these solutions."""
-        nothing = invariants(symmetric, points[:0], values, radii_of_ends(points[:0], errors[:0]))
-        classes = cls(values, symmetric, points[:0], nothing)
-        classes.add(points, errors)
-        return classes
-
-    def _usable(
-        self, points: np.ndarray, errors: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The points whose classes can be told, with their invariants and radii."""
-        radii = radii_of_ends(points, errors)
-        found, radii = invariants(self.symmetric, points, self.values, radii)
-        usable = np.isfinite(found).all(axis=1) & (radii < CLEAR)
-        return points[usable], found[usable], radii[usable]
-
-    def add(self, points: np.ndarray, errors: np.ndarray) -> int:
-        """Add the solutions that are of new classes; returns how many."""
-        old = len(self.points)
-        points, found, radii = self._usable(points, errors)
-        points = np.concatenate([self.points, points])
-        found, radii = np.concatenate([self.known[0], found]), np.append(self.known[1], radii)
-        kept = np.setdiff1d(np.arange(len(points)), overlapping_pairs(found, radii)[:, 1])
-        self.points, self.known = points[kept], (found[kept], radii[kept])
-        return len(kept) - old
-
-    def missing_from(self, points: np.ndarray, errors: np.ndarray) -> np.ndarray:
-        """Those solutions whose classes are not among those of ``points``."""
-        points, found, radii = self._usable(points, errors)
-        both = np.concatenate([found, self.known[0]]), np.append(radii, self.known[1])
-        repeated = overlapping_pairs(*both)[:, 1] - len(points)
-        return self.points[np.setdiff1d(np.arange(len(self.points)), repeated)]
+    nothing = usable(points[:0], errors[:0])
+    classes = DistinctSolutions(*nothing, usable, overlapping_pairs)
+    classes.add(points, errors)
+    return classes

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
+from nag.solving.start.monodromy_loops import DistinctSolutions, Ends, run_loop
 from nag.solving.start.target import (
     StartSystem,
     Target,
@@ -76,29 +77,15 @@ def seed_system(supports: Sequence[np.ndarray], rng: np.random.Generator) -> Gen
     return GenericSystem(tuple(supports), tuple(coefficients), point, np.zeros(1))
 
 
-class DistinctPoints:
-    """Distinct projective points of unit norm, and their relative errors."""
+def distinct_points(points: np.ndarray, errors: np.ndarray, most: int) -> DistinctSolutions:
+    """Projective points of unit norm, each once, and at most so many; their radii are errors."""
 
-    def __init__(self, points: np.ndarray, errors: np.ndarray, most: int) -> None:
-        self.points, self.errors = points[:0], errors[:0]
-        self.most = most
-        self.add(points, errors)
+    def as_keys(x: np.ndarray, off: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        return x, x, off
 
-    def add(self, points: np.ndarray, errors: np.ndarray) -> int:
-        """Add those that are new; returns how many."""
-        old = len(self.points)
-        points, errors = np.concatenate([self.points, points]), np.append(self.errors, errors)
-        repeated = equal_pairs(points, errors)[:, 1]
-        new = np.setdiff1d(np.arange(old, len(points)), repeated)[: self.most - old]
-        kept = np.append(np.arange(old), new)
-        self.points, self.errors = points[kept], errors[kept]
-        return len(new)
-
-    def missing_from(self, points: np.ndarray, errors: np.ndarray) -> np.ndarray:
-        """Those that are not among ``points``."""
-        both = np.concatenate([points, self.points]), np.append(errors, self.errors)
-        repeated = equal_pairs(*both)[:, 1] - len(points)
-        return self.points[np.setdiff1d(np.arange(len(self.points)), repeated)]
+    distinct = DistinctSolutions(points[:0], points[:0], errors[:0], as_keys, equal_pairs, most)
+    distinct.add(points, errors)
+    return distinct
 
 
 def equal_pairs(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
@@ -128,8 +115,15 @@ def find_by_loops(
     groups = (tuple(range(n)),)
     degrees = group_degrees(system.rows, groups)
     first = homogenize_rows(system.rows, n, groups, degrees)
-    here = DistinctPoints(system.points, system.errors, most)
+    here = distinct_points(system.points, system.errors, most)
     spent, idle = 0, 0
+
+    def move(homotopy: Homotopy, points: np.ndarray) -> Ends:
+        nonlocal spent
+        spent += len(points)
+        ends = track_regular(homotopy, points, find_settings("fast"), threads)
+        return ends.points, ends.errors
+
     for _ in range(MOST_LOOPS):
         if len(here.points) >= most or idle >= MOST_IDLE:
             break
@@ -137,31 +131,17 @@ def find_by_loops(
             # On the line through two systems few loops may be of use, be there ever so many.
             other = replace(system, coefficients=tuple(unit(rng, len(s)) for s in system.supports))
             second = homogenize_rows(other.rows, n, groups, degrees)
-            there = DistinctPoints(system.points[:0], system.errors[:0], most)
+            there = distinct_points(system.points[:0], system.errors[:0], most)
         known = max(len(here.points), len(there.points))
         gamma = complex(unit(rng, 1)[0])
-        forward = straight_line(first, second, gamma)
-        backward = straight_line(second, first, 1 / gamma)
-        ends = _move_points(forward, here.points, threads)
-        spent += len(here.points)
-        there.add(*ends)
-        # The way is one to one: what it did not reach leads back to solutions that are new.
-        left = there.missing_from(*ends)
-        here.add(*_move_points(backward, left, threads))
-        spent += len(left)
+        out = partial(move, straight_line(first, second, gamma))
+        back = partial(move, straight_line(second, first, 1 / gamma))
+        run_loop(here, there, out, back)
         idle = 0 if max(len(here.points), len(there.points)) > known else idle + 1
         # The question costs as much as a loop: after 1, 3, 7 loops in vain.
         if idle and not idle & (idle + 1) and complete is not None and complete(here.points):
-            return system.holding(here.points, here.errors), spent, True
-    return system.holding(here.points, here.errors), spent, False
-
-
-def _move_points(
-    homotopy: Homotopy, points: np.ndarray, threads: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """Where paths from ``points`` arrive, and the errors there."""
-    ends = track_regular(homotopy, points, find_settings("fast"), threads)
-    return ends.points, ends.errors
+            return system.holding(here.points, here.radii), spent, True
+    return system.holding(here.points, here.radii), spent, False
 
 
 def start_at(

@@ -24,7 +24,8 @@ from nag.algebra.symmetric_family import SymmetricFamily
 from nag.errors import StartError
 from nag.numerics.double_ranks import NEARLY_SINGULAR, smallest_share
 from nag.solving.parameter_line import parameter_line
-from nag.solving.solution_classes import SolutionClasses
+from nag.solving.solution_classes import distinct_classes
+from nag.solving.start.monodromy_loops import Ends, Way, run_loop
 from nag.solving.start.scalings import random_scaling, scaling_weights
 from nag.solving.start.target import unit
 from nag.solving.start.total_degree import MOST_PATHS
@@ -118,20 +119,18 @@ def family_monodromy(
     """
     family = symmetric.family
     values, point = first_solution(family, rng)
-    here = SolutionClasses.of(values, symmetric, point[None], np.zeros(1))
-    there = SolutionClasses.of(random_values(family, rng), symmetric, point[None][:0], np.zeros(0))
+    here = distinct_classes(values, symmetric, point[None], np.zeros(1))
+    further = random_values(family, rng)
+    there = distinct_classes(further, symmetric, point[None][:0], np.zeros(0))
     weights = scaling_weights(family)
     tally = _Tally()
     idle = 0
     while tally.loops < MOST_LOOPS:
         if progress:
             progress("monodromy", len(here.points), count or 0)
-        forward, backward = _ways(family, here, there, weights, idle > 0, rng)
-        ends = forward(here.points, partial(tally.moved, family, threads))
-        gained = there.add(*ends)
-        # The way is one to one: what it did not reach leads back to solutions that are new.
-        left = there.missing_from(*ends)
-        gained += here.add(*backward(left, partial(tally.moved, family, threads)))
+        move = partial(tally.moved, family, threads)
+        ways = _ways(family, values, further, weights, idle > 0, move, rng)
+        gained = run_loop(here, there, *ways)
         tally.loops += 1
         if len(here.points) * len(symmetric) > MOST_PATHS:
             raise StartError(f"parameter: more than {MOST_PATHS} solutions")
@@ -144,37 +143,33 @@ def family_monodromy(
     )
 
 
-Ends = tuple[np.ndarray, np.ndarray]
 Move = Callable[[np.ndarray, np.ndarray, np.ndarray], Ends]
-Way = Callable[[np.ndarray, Move], Ends]
 
 
 def _ways(
     family: Family,
-    here: SolutionClasses,
-    there: SolutionClasses,
+    here: np.ndarray,
+    there: np.ndarray,
     weights: np.ndarray,
     further: bool,
+    move: Move,
     rng: np.random.Generator,
 ) -> tuple[Way, Way]:
-    """A way between two systems and back, each a function of points and of how to move them.
-
-    They lead to points and their relative errors.
-    """
+    """A way between the systems of two values of the parameters, and back."""
     n = family.n
     if len(weights) and not further:
         scale = random_scaling(weights, rng)
-        x, scaled = scale[:n], there.values * scale[n:]
+        x, scaled = scale[:n], there * scale[n:]
 
-        def scaled_back(points: np.ndarray, move: Move) -> Ends:
-            ends, errors = move(here.values, scaled, points)
+        def scaled_back(points: np.ndarray) -> Ends:
+            ends, errors = move(here, scaled, points)
             return ends / x, errors
 
-        return scaled_back, lambda points, move: move(scaled, here.values, points * x)
+        return scaled_back, lambda points: move(scaled, here, points * x)
     by = random_values(family, rng)
     return (
-        lambda points, move: move(by, there.values, move(here.values, by, points)[0]),
-        lambda points, move: move(by, here.values, move(there.values, by, points)[0]),
+        lambda points: move(by, there, move(here, by, points)[0]),
+        lambda points: move(by, here, move(there, by, points)[0]),
     )
 
 

@@ -23,8 +23,8 @@ import numpy as np
 
 from nag.errors import StartError
 from nag.solving.start.coefficient_monodromy import (
-    DistinctPoints,
     GenericSystem,
+    distinct_points,
     find_by_loops,
     start_at,
 )
@@ -198,8 +198,8 @@ def by_degeneration(
     degrees = group_degrees(system.rows, groups)
     homotopy = Homotopy(_single_terms(homogenize_rows(system.rows, n, groups, degrees)))
     found = track_regular(homotopy, starts, find_settings("fast"), threads, LENGTH * weights)
-    distinct = DistinctPoints(found.points, found.errors, len(starts))
-    return system.holding(distinct.points, distinct.errors), len(starts)
+    distinct = distinct_points(found.points, found.errors, len(starts))
+    return system.holding(distinct.points, distinct.radii), len(starts)
 
 
 def _single_terms(rows: CompiledRows) -> CompiledRows:
