@@ -20,7 +20,7 @@ from nag.tracking.run import Run
 from nag.witness.fibres import Fibre
 from nag.witness.membership import Membership, is_on_larger_set
 from nag.witness.points import Points
-from nag.witness.witness import PathCounts, Status, WitnessSet
+from nag.witness.witness import PathCounts, WitnessSet
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,12 +74,6 @@ class Assembly:
     @property
     def components(self) -> tuple[WitnessSet, ...]:
         return tuple(piece.component for piece in self.pieces)
-
-    @property
-    def complete(self) -> bool:
-        """Whether every component is confirmed and nothing else is open."""
-        undecided = any(c.status is Status.UNDECIDED for c in self.components)
-        return not (undecided or self.notes)
 
 
 def assemble_components(

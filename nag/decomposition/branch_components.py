@@ -193,7 +193,7 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     answers = [part.answer for part in parts if part.answer is not None]
     notes += [note for answer in answers for note in answer.notes]
     paths = sum((answer.paths for answer in answers), counts)
-    answer = judge_components(given, components, paths, run.settings, notes, seed=run.seed)
+    answer = judge_components(given, components, paths, run, notes)
     return replace(answer, algebraic=not counts.tracked and all(a.algebraic for a in answers))
 
 

@@ -96,7 +96,7 @@ def discover(
         components, more, spent = _with_orbits(system, components, symmetries, run)
         notes, counts = notes + more, counts + spent
     notes += found.notes
-    return judge_components(system, components, counts, run.settings, notes, seed=run.seed)
+    return judge_components(system, components, counts, run, notes)
 
 
 @dataclass(eq=False)

@@ -34,18 +34,17 @@ def judge_components(
     system: PolynomialSystem,
     components: Sequence[WitnessSet],
     paths: PathCounts,
-    settings: str,
+    run: Run,
     notes: Sequence[str] = (),
     order: Sequence[int] = (),
-    seed: int = 0,
 ) -> Decomposition:
     """A decomposition: complete exactly where every component is confirmed and nothing is noted."""
     return Decomposition(
         system=system,
         components=tuple(components),
         paths=paths,
-        seed=seed,
-        settings=settings,
+        seed=run.seed,
+        settings=run.settings,
         order=tuple(order),
         complete=not notes and all(c.status is Status.IRREDUCIBLE for c in components),
         notes=tuple(dict.fromkeys(notes)),

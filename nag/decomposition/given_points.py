@@ -172,9 +172,7 @@ def components_through_points(
             except ValueError:
                 notes.append(f"the orbit of a component of dimension {d} is not known")
         components.append(component)
-    return judge_components(
-        system, components, counts, run.settings, (*notes, *found.notes), seed=run.seed
-    )
+    return judge_components(system, components, counts, run, (*notes, *found.notes))
 
 
 def _on_common_slices(

@@ -16,6 +16,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import KnownOfSets, assemble_components
 from nag.decomposition.diagonal import meet_on_diagonal
 from nag.decomposition.factor import NOT_MOVED, IntersectionError, Operand, move_to_flag
+from nag.decomposition.final_checks import judge_components
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import (
     Superset,
@@ -104,13 +105,13 @@ def intersect_factors(first: Operand, second: Operand, *, run: Run) -> Decomposi
     rng = run.random(5)
     if any(f and f.degree == 0 for f in common.reduced.polynomials):
         # Linear equations of both contradict each other, exactly.
-        nothing = _intersection(common, {}, PathCounts(), (), rng, run)
-        return _carry_back(nothing, (), whole, natural, run)
+        nothing = judge_components(common.system, (), PathCounts(), run)
+        return _carry_back(nothing, (), whole, natural)
     first, second = first.carry(natural), second.carry(natural)
     found = meet_on_diagonal(first, second, common, rng, run)
     result = _intersection(common, found.points, found.counts, found.doubts, rng, run)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
-    return _carry_back(result, (*result.components, *bare), whole, natural, run)
+    return _carry_back(result, (*result.components, *bare), whole, natural)
 
 
 def _carry_back(
@@ -118,7 +119,6 @@ def _carry_back(
     components: Sequence[WitnessSet],
     system: PolynomialSystem,
     natural: NaturalCoordinates,
-    run: Run,
 ) -> Decomposition:
     """An answer with these components, in the coordinates that were given."""
     return replace(
@@ -128,7 +128,6 @@ def _carry_back(
             carry_component(c, natural.inverse, system, back=True) for c in components
         ),
         complete=result.complete and not any(c.note for c in components),
-        seed=run.seed,
     )
 
 
@@ -185,7 +184,7 @@ def intersect_equations(
         if len(points[d]) + lost < sum(map(len, found)):
             notes.append(f"points of dimension {d} are too close to each other")
     answer = _intersection(common, points, superset.counts, notes, rng, run)
-    return _carry_back(answer, answer.components, whole, natural, run)
+    return _carry_back(answer, answer.components, whole, natural)
 
 
 def _meet_equations(
@@ -247,16 +246,8 @@ def _intersection(
 ) -> Decomposition:
     """The points of all dimensions, split into irreducible components."""
     found = assemble_components(points, reduction, rng, run, KnownOfSets(scheme=False))
-    return Decomposition(
-        system=reduction.system,
-        components=found.components,
-        paths=counts + found.counts,
-        seed=0,
-        settings=run.settings,
-        order=(),
-        complete=found.complete and not notes,
-        notes=(*notes, *found.notes),
-    )
+    paths = counts + found.counts
+    return judge_components(reduction.system, found.components, paths, run, (*notes, *found.notes))
 
 
 def _bare_point(x: np.ndarray, accuracy: float, common: Reduction) -> WitnessSet:

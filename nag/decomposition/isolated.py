@@ -117,7 +117,7 @@ def solve_at_once(task: Task, finite: bool = False) -> Decomposition | None:
         return None
     components = _components(found, system, task.symmetries)
     paths = PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity)
-    return judge_components(system, components, paths, task.run.settings, seed=task.run.seed)
+    return judge_components(system, components, paths, task.run)
 
 
 def solve_for_points(answer: Decomposition, task: Task) -> Decomposition | None:

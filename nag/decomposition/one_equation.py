@@ -89,8 +89,8 @@ def decompose_one_equation(task: Task) -> Decomposition | None:
         # An image is one of the factors, so that there are no more.
         if sum(c.orbit for c in components) != total:
             return None
-    answer = judge_components(task.system, components, counts, str(run.settings), order=(0,))
-    return replace(answer, seed=run.seed, algebraic=not counts.tracked)
+    answer = judge_components(task.system, components, counts, run, order=(0,))
+    return replace(answer, algebraic=not counts.tracked)
 
 
 def _components(

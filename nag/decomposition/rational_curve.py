@@ -67,6 +67,5 @@ def decompose_rational_curve(
     whole = Class(np.arange(degree))
     examined = Examined.of(points, [whole], reduction, rng)
     found, counts = check_class(whole, examined, rng, run, scheme)
-    settings, order = str(run.settings), range(n - 1)
-    answer = judge_components(reduction.system, [found], counts, settings, order=order)
-    return replace(answer, seed=run.seed, algebraic=True)
+    answer = judge_components(reduction.system, [found], counts, run, order=range(n - 1))
+    return replace(answer, algebraic=True)

@@ -83,10 +83,9 @@ def _settle(
         task.system,
         found.components,
         superset.counts + found.counts,
-        task.run.settings,
+        task.run,
         [*superset.doubts, *found.notes],
         order,
-        task.run.seed,
     )
     # Whether all doubts are about isolated points.
     only_points = superset.only_points and not found.notes
@@ -96,7 +95,7 @@ def _settle(
         isolated = solve_at_once(task)
         if isolated is not None and contains_points(isolated, answer):
             answer = replace(isolated, paths=_add_tracked(isolated.paths, answer.paths))
-    return replace(answer, seed=task.run.seed, settings=task.run.settings)
+    return answer
 
 
 def _add_tracked(paths: PathCounts, earlier: PathCounts) -> PathCounts:
