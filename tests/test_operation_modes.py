@@ -27,7 +27,7 @@ from nag.mechanism.inverse_kinematics import REACHED, multiply_poses, reach_pose
 from nag.mechanism.joint_factors import factors_of_joint
 from nag.mechanism.leg_image import COORDINATES, image_of_chain, study_quadric
 from nag.mechanism.legs import Leg, parallel_robot
-from nag.mechanism.loop_product import displacement
+from nag.mechanism.loop_product import Element, displacement
 from nag.mechanism.modes_report import OperationModes, Reality
 from nag.mechanism.motions import motion_of, screw_system
 from nag.mechanism.quaternion import rotate
@@ -148,7 +148,7 @@ def test_robots_name_their_sources() -> None:
         assert all(t.source and t.formulation == "P" for t in truth), name
 
 
-@pytest.mark.parametrize("name", ["3-rps", "3-upu-snu", "3-sps-s", "3-uu-locked", "exechon"])
+@pytest.mark.parametrize("name", ROBOTS)
 def test_the_largest_mode_through_the_reference_and_idle_turns_are_the_local_dimension(
     name: str,
 ) -> None:
@@ -266,10 +266,26 @@ def test_a_leg_reaches_its_poses_and_no_others() -> None:
                 own = np.array([[float(c) for part in g for c in part] for g in e.generators])
                 pose = multiply_poses(pose, weights @ own)
             poses.append(pose)
-        assert (reach_poses(elements, np.array(poses), np.zeros(3), 3.0, rng) < REACHED).all()
+        assert (reach_poses([elements], np.array(poses), np.zeros(3), 3.0, rng) < REACHED).all()
         other = rng.standard_normal((3, 8))
         other[:, 4] = -(other[:, 1:4] * other[:, 5:]).sum(axis=1) / other[:, 0]
-        assert (reach_poses(elements, other, np.zeros(3), 3.0, rng) > 1e-3).all()
+        assert (reach_poses([elements], other, np.zeros(3), 3.0, rng) > 1e-3).all()
+
+
+def test_one_real_pose_that_all_legs_reach_is_enough() -> None:
+    def slide(axis: tuple) -> tuple[Element, ...]:
+        return chain(("prismatic", {"axis": axis})).elements()
+
+    poses = np.zeros((3, 8))
+    poses[:, 0] = 1
+    poses[0, 5:] = poses[1, 5] = poses[2, 6] = 1
+    along = [slide(X), slide((2, 0, 0))]
+    rng = np.random.default_rng(6)
+    found = reach_poses(along, poses, np.zeros(3), 1.0, rng, real=True, one=True)
+    assert (found < REACHED).tolist() == [[False] * 2, [True] * 2, [False] * 2]
+    # No pose is reached by both of these, and each reaches its own.
+    found = reach_poses([slide(X), slide(Y)], poses, np.zeros(3), 1.0, rng, real=True, one=True)
+    assert (found < REACHED).tolist() == [[False] * 2, [True, False], [False, True]]
 
 
 def test_pitches_of_screw_systems_are_those_of_their_axes() -> None:

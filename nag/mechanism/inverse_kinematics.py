@@ -24,8 +24,8 @@ DISPLACEMENT = 1e-6
 # Least damping of a step; share of a factor's size in the squares that its norm is compared with.
 LEAST_DAMPING, LEAST_SHARE = 1e-14, 1e-3
 
-# The product of quaternions: (a b)_k = sum of _TABLE[k, i, j] a_i b_j.
-_TABLE = np.zeros((4, 4, 4))
+# The product of quaternions: (x y)_k = sum of _QUATERNIONS[i, j, k] x_i y_j.
+_QUATERNIONS = np.zeros((4, 4, 4))
 for _i, _row in enumerate(
     (
         ((0, 1), (1, 1), (2, 1), (3, 1)),
@@ -35,14 +35,21 @@ for _i, _row in enumerate(
     )
 ):
     for _j, (_k, _sign) in enumerate(_row):
-        _TABLE[_k, _i, _j] = _sign
+        _QUATERNIONS[_i, _j, _k] = _sign
+# Likewise that of dual quaternions, a row for each entry of the first.
+_PRODUCTS = np.zeros((8, 8, 8))
+_PRODUCTS[:4, :4, :4] = _PRODUCTS[:4, 4:, 4:] = _PRODUCTS[4:, :4, 4:] = _QUATERNIONS
+_ROWS = _PRODUCTS.reshape(8, 64)
 
 
 def multiply_poses(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Products of dual quaternions in eight entries, shapes ``(..., 8)``."""
-    real = _multiply(x[..., :4], y[..., :4])
-    dual = _multiply(x[..., :4], y[..., 4:]) + _multiply(x[..., 4:], y[..., :4])
-    return np.concatenate([real, dual], axis=-1)
+    return (y[..., None, :] @ _from_left(x))[..., 0, :]
+
+
+def _from_left(x: np.ndarray) -> np.ndarray:
+    """Matrices that take rows y to x y, shapes ``(..., 8)`` and ``(..., 8, 8)``."""
+    return (x @ _ROWS).reshape(*x.shape, 8)
 
 
 def conjugate_pose(x: np.ndarray) -> np.ndarray:
@@ -56,44 +63,49 @@ def shift_origin(x: np.ndarray, origin: np.ndarray) -> np.ndarray:
     return multiply_poses(multiply_poses(conjugate_pose(there), x), there)
 
 
-def _multiply(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return np.einsum("kij,...i,...j->...k", _TABLE, a, b)
-
-
 def reach_poses(
-    elements: Sequence[Element],
+    chains: Sequence[Sequence[Element]],
     poses: np.ndarray,
     origin: np.ndarray,
     length: float,
     rng: np.random.Generator,
     real: bool = False,
+    one: bool = False,
 ) -> np.ndarray:
-    """How near a product of factors comes to poses, by displacements of its joints.
+    """How near products of factors come to poses, by displacements of their joints.
 
     Args:
+        chains: the factors of each product.
         poses: Study coordinates, shape ``(k, 8)``.
-        origin: a point amidst the chain, shape ``(3,)``, from which displacements are taken.
+        origin: a point amidst the chains, shape ``(3,)``, from which displacements are taken.
         length: by which lengths are measured.
         real: whether with real joint coordinates only.
+        one: whether one pose that all chains reach is enough.
 
     Returns:
-        The residuals of the best starts, relative to the poses, shape ``(k,)``; below `REACHED`
-        where a pose is reached.
+        The residuals of the best starts, relative to the poses, shape ``(k, chains)``; below
+        `REACHED` where a pose is reached.
     """
     scale = np.array([1.0] * 4 + [1.0 / length] * 4)
-    given = [
-        np.array([[float(c) for part in g for c in part] for g in e.generators]) for e in elements
+    generators = [
+        [shift_origin(g, origin) * scale for g in map(_generators, elements)] for elements in chains
     ]
-    generators = [shift_origin(g, origin) * scale for g in given]
     targets = _unit(shift_origin(poses, origin) * scale)
-    best = np.full(len(poses), np.inf)
+    best = np.full((len(poses), len(chains)), np.inf)
     for _ in range(ROUNDS):
-        left = np.flatnonzero(best >= REACHED)
-        if not len(left):
+        reached = best < REACHED
+        if reached.all() or (one and reached.all(axis=1).any()):
             break
-        places = np.repeat(left, STARTS)
-        _approach(generators, targets, places, best, rng, real)
+        for own, residuals, known in zip(generators, best.T, reached.T, strict=True):
+            places = np.repeat(np.flatnonzero(~known), STARTS)
+            if len(places):
+                _approach(own, targets, places, residuals, rng, real)
     return best
+
+
+def _generators(element: Element) -> np.ndarray:
+    """Those of a factor, shape ``(k, 8)``."""
+    return np.array([[float(c) for part in g for c in part] for g in element.generators])
 
 
 def _approach(
@@ -156,11 +168,11 @@ def _product(
         before.append(multiply_poses(before[-1], value))
     for value in reversed(values):
         behind.append(multiply_poses(value, behind[-1]))
-    columns = []
-    for i, own in enumerate(generators):
-        rest = behind[len(values) - 1 - i]
-        columns += [multiply_poses(multiply_poses(before[i], g), rest) for g in own]
-    return before[-1], np.stack(columns, axis=2)
+    moved = [own @ _from_left(x) for own, x in zip(generators, before, strict=False)]
+    behind = behind[-2::-1]
+    rest = [np.repeat(x[:, None], len(own), 1) for own, x in zip(generators, behind, strict=True)]
+    columns = multiply_poses(np.concatenate(moved, axis=1), np.concatenate(rest, axis=1))
+    return before[-1], columns.transpose(0, 2, 1)
 
 
 def _step(

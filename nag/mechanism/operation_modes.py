@@ -175,11 +175,11 @@ def _residuals(
     rng: np.random.Generator,
     real: bool = False,
 ) -> np.ndarray:
-    """How near each leg comes to each pose, shape ``(poses, legs)``."""
+    """How near each leg comes to each pose, or all to one real pose, shape ``(poses, legs)``."""
     places = _places(model)
     origin = places.mean(axis=0) if len(places) else np.zeros(3)
-    rows = [reach_poses(leg.leg.elements(), poses, origin, length, rng, real) for leg in model.legs]
-    return np.array(rows).reshape(len(model.legs), len(poses)).T
+    chains = [leg.leg.elements() for leg in model.legs]
+    return reach_poses(chains, poses, origin, length, rng, real=real, one=real)
 
 
 def _misses(
