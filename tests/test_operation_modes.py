@@ -288,6 +288,15 @@ def test_one_real_pose_that_all_legs_reach_is_enough() -> None:
     assert (found < REACHED).tolist() == [[False] * 2, [True, False], [False, True]]
 
 
+@pytest.mark.parametrize("real", [True, False])
+def test_a_pose_across_all_that_a_leg_reaches_is_not_reached(real: bool) -> None:
+    slides = chain(*[("prismatic", {"axis": axis}) for axis in (X, X, Y)]).elements()
+    half_turns = np.eye(8)[1:4]
+    rng = np.random.default_rng(7)
+    found = reach_poses([slides], half_turns, np.zeros(3), 1.0, rng, real=real)
+    assert (found >= 1).all()
+
+
 def test_pitches_of_screw_systems_are_those_of_their_axes() -> None:
     twists = np.zeros((3, 6))
     for i, (axis, point, pitch) in enumerate(((X, (0, 0, 0), 2), (Y, (0, 0, 0), 5), (Z, Z, -1))):

@@ -59,6 +59,8 @@ class Joint:
     def __post_init__(self) -> None:
         object.__setattr__(self, "type", SYNONYMS.get(self.type, self.type))
         object.__setattr__(self, "bodies", _as_tuple(self.bodies, "bodies", joint=self.name))
+        if self.point is None:
+            object.__setattr__(self, "point", ORIGIN)
         for field in VECTORS:
             value = getattr(self, field)
             if value is not None:

@@ -181,7 +181,9 @@ def _step(
     """Steps of Gauss, Newton, Levenberg and Marquardt, the less damped the nearer they are."""
     adjoint = derivative.conj().transpose(0, 2, 1)
     square = adjoint @ derivative
-    damping = np.minimum(np.linalg.norm(rest, axis=1), 1.0) ** 2 + LEAST_DAMPING
+    # Each factor's own size is free, so that the square is singular: no damping is beyond rounding.
+    sizes = np.trace(square, axis1=1, axis2=2).real
+    damping = np.minimum(np.linalg.norm(rest, axis=1), 1.0) ** 2 + LEAST_DAMPING * (1 + sizes)
     square += damping[:, None, None] * np.eye(square.shape[1])
     step = np.linalg.solve(square, (adjoint @ rest[:, :, None]))[:, :, 0]
     ends = np.cumsum([w.shape[1] for w in weights])[:-1]
