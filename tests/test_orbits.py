@@ -162,11 +162,11 @@ def test_a_missing_point_is_noticed() -> None:
     action = Action.of(swap, Frame(np.eye(2), np.zeros(2), (0, 1), np.ones(2)))
     points = Points.of(fibres)
     found = irreducible_orbits(points, [action], 20, rng, tracker)
-    assert [len(o.carriers) for o in found.orbits] == [1, 1] and not found.notes
+    assert [len(o.carriers) for o in found.classes] == [1, 1] and not found.notes
     (fibre,) = fibres
     less = Points.of([fibre.only(np.arange(4) > 0)])
     found = irreducible_orbits(less, [action], 20, rng, tracker)
-    assert [len(o.carriers) for o in found.orbits] == [0, 0, 0]
+    assert [len(o.carriers) for o in found.classes] == [0, 0, 0]
     assert found.notes == ("1 images of points under a symmetry are not among the points",)
 
 

@@ -7,7 +7,7 @@ come by their points; from there on they are the same.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -95,10 +95,8 @@ def assemble_components(
         counts += found.counts
         notes += [f"dimension {d}: {note}" for note in found.notes]
         here = []
-        classes = [orbit.representative for orbit in found.orbits]
-        examined = Examined.of(found.points, classes, reduction, rng)
-        for orbit in found.orbits:
-            own = orbit.representative
+        examined = Examined.of(found.points, found.classes, reduction, rng)
+        for own in found.classes:
             fibres = [fibre for fibre, _ in found.points.fibres(own.indices)]
             if known.embedded:
                 answer, spent = _on_larger_set(fibres[0], pieces, rng, run)
@@ -109,8 +107,6 @@ def assemble_components(
                     continue
             component, spent = check_class(own, examined, rng, run, known.scheme)
             counts += spent
-            size = 1 + len(orbit.carriers)
-            component = replace(component, orbit=size, images=orbit.carriers)
             here.append(Piece(component, fibres, own.indices))
         pieces += sorted(here, key=lambda piece: piece.component.degree)
     return Assembly(tuple(pieces), counts, tuple(notes))

@@ -17,7 +17,7 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.monodromy import locate_points
-from nag.decomposition.splitting import Class, split_points
+from nag.decomposition.splitting import Split, split_points
 from nag.numerics.coincidence import coincident
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import Frame, image
@@ -61,42 +61,14 @@ class Action:
         return np.hstack([constant, rows[:, 1:] @ self.M])
 
 
-@dataclass(frozen=True, eq=False)
-class Orbit:
-    """Components that symmetries carry into each other.
-
-    Attributes:
-        representative: the component that was worked out.
-        carriers: for each other component a symmetry that carries the representative into it.
-    """
-
-    representative: Class
-    carriers: tuple[SignedPermutation, ...] = ()
-
-
-@dataclass(frozen=True, eq=False)
-class Orbits:
-    """Points, and the orbits of components that they fall into; each point is in one component.
-
-    Attributes:
-        notes: what is wrong with the points: where the image of one is not among them, some are
-            missing.
-    """
-
-    points: Points
-    orbits: tuple[Orbit, ...]
-    counts: PathCounts
-    notes: tuple[str, ...] = ()
-
-
 def irreducible_orbits(
     points: Points,
     actions: Sequence[Action],
     evidence: int,
     rng: np.random.Generator,
     run: Run,
-) -> Orbits:
-    """Split points on a generic slice into orbits of components.
+) -> Split:
+    """Split points on a generic slice into orbits of components, of which it tells one each.
 
     Args:
         evidence: digits to which traces must be linear.
@@ -110,12 +82,12 @@ def irreducible_orbits(
     # Nothing follows by symmetry from a component that is not confirmed.
     if notes or any(c.reason for c in found.classes):
         used = []
-    classes = {int(c.indices[0]): c for c in found.classes}
-    orbits = [
-        Orbit(classes[first], carriers)
+    by_first = {int(c.indices[0]): c for c in found.classes}
+    classes = tuple(
+        replace(by_first[first], carriers=carriers)
         for first, carriers in _orbits_of_classes(found.labels, used)
-    ]
-    return Orbits(found.points, tuple(orbits), counts, tuple(notes))
+    )
+    return replace(found, classes=classes, counts=counts, notes=tuple(notes))
 
 
 @dataclass(frozen=True, eq=False)

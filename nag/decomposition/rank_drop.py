@@ -36,7 +36,7 @@ from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.component_equations import component_system
-from nag.witness.membership import Membership, memberships
+from nag.witness.membership import Membership, membership_in
 from nag.witness.moving import orthonormal_rows
 from nag.witness.projection import Projection, ProjectionError, project
 from nag.witness.witness import Decomposition, PathCounts, Slice, WitnessSet
@@ -220,10 +220,9 @@ class _RankDrops:
         if not _is_whole(found):
             return False
         own, error, kept = self.own.n, ROUNDED, []
-        alone = Decomposition(self.own, (self.component,), PathCounts(), 0, "default", (), False)
         for solution in found.solutions:
             x, error = solution.point[:own], max(error, solution.accuracy)
-            (answer,) = memberships(alone, x, accuracy=solution.accuracy, run=self.run)
+            answer = membership_in(self.own, self.component, x, solution.accuracy, self.run)
             if answer is Membership.UNDECIDED:
                 return False
             kept += [x] if answer is Membership.MEMBER else []

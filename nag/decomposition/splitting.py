@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.monodromy import run_loop
 from nag.decomposition.power_sums import PowerSums
 from nag.decomposition.trace import Trace
@@ -44,21 +45,27 @@ ONE_LOOP = "its points are joined by one loop alone, or traces of parts of it ne
 class Class:
     """Points of one component, as indices into all points.
 
-    ``reason`` says why they could not be confirmed to be a whole component; empty if they were.
+    Attributes:
+        reason: why they could not be confirmed to be a whole component; empty if they were.
+        carriers: for each other component of its orbit a symmetry that carries this one into it.
     """
 
     indices: np.ndarray
     reason: str = ""
+    carriers: tuple[SignedPermutation, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
 class Split:
-    """Points, those that loops added included, and their classes, which hold each point once.
+    """Points, those that loops added included, and their classes.
 
     Attributes:
         labels: for each point the smallest index in its class.
+        classes: that hold each point once; up to symmetry, where it is known, one of each orbit.
         discarded: number of loops that were no permutation of points, or that joined points of
             different components.
+        notes: what symmetries show to be wrong with the points: where the image of one is not
+            among them, some are missing.
     """
 
     points: Points
@@ -66,6 +73,7 @@ class Split:
     classes: tuple[Class, ...]
     counts: PathCounts
     discarded: int = 0
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(eq=False)

@@ -36,7 +36,7 @@ from nag.witness.cutting import (
     regular_on,
     sharpen,
 )
-from nag.witness.slices import balance_rows, even_rows, pad_rows
+from nag.witness.slices import balance_rows, even_rows, pad_rows, rows_through, unit_complex
 from nag.witness.witness import PathCounts
 
 # Newton's constant of points that are close, over their inverse distance.
@@ -411,6 +411,23 @@ def join_fibres(parts: Sequence[Fibre]) -> Fibre:
         first += len(part)
     points = np.vstack([part.points for part in parts])
     return replace(parts[0], points=points, fine=fine)
+
+
+def move_through(
+    point: np.ndarray,
+    fibres: Sequence[Fibre],
+    rng: np.random.Generator,
+    run: Run,
+    exact: Sequence[Number] = (),
+) -> list[SliceEnds]:
+    """Where the points of fibres get to when their slice moves to a generic one through a point.
+
+    Args:
+        exact: the point's coordinates, where they are known.
+    """
+    first = fibres[0]
+    target, gamma = rows_through(rng, first.dimension, point, first.sizes), unit_complex(rng)
+    return move(fibres, target, complex(gamma), run, endgame=True, through=exact)
 
 
 def move_regular(

@@ -30,10 +30,10 @@ from nag.witness.close_points import BASIN, DIGITS, PointInWords, distance, with
 from nag.witness.component_equations import component_fibres, component_system
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import exact_zeros
-from nag.witness.fibres import Fibre, SliceEnds, join_fibres, move
+from nag.witness.fibres import Fibre, SliceEnds, join_fibres, move_through
 from nag.witness.gauss_newton import polish
 from nag.witness.given_component import check_decomposition, in_doubles, round_point
-from nag.witness.slices import pad_rows, rows_through, unit_complex
+from nag.witness.slices import pad_rows
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # What rounding may do to a point that is close to others, and how much further the next one is.
@@ -190,10 +190,7 @@ def find_members(
     answers: list[set[Membership | None]] = [{Membership.FOREIGN} for _ in sets]
     if not together:
         return [(Membership.FOREIGN, False) for _ in sets], counts
-    first = together[0][0]
-    target = rows_through(rng, first.dimension, point, first.sizes)
-    fibres, gamma = [fibre for fibre, _ in together], complex(unit_complex(rng))
-    moves = move(fibres, target, gamma, run, endgame=True, through=given or ())
+    moves = move_through(point, [fibre for fibre, _ in together], rng, run, given or ())
     for ends, (_, owners) in zip(moves, together, strict=True):
         counts += ends.counts.judged_elsewhere
         if bounded:
@@ -667,6 +664,20 @@ def rounded_error(system: PolynomialSystem, at: np.ndarray) -> float | None:
     return max(INEXACT, 10 * residual) if residual < ROUNDED else None
 
 
+def membership_in(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    point: np.ndarray,
+    accuracy: float,
+    run: Run,
+    exact: Sequence[Number] = (),
+) -> Membership:
+    """`memberships` for one component of a system by itself."""
+    alone = Decomposition(system, (component,), PathCounts(), 0, "default", (), False)
+    (answer,) = memberships(alone, point, accuracy=accuracy, exact=exact, run=run)
+    return answer
+
+
 def is_on_component(
     system: PolynomialSystem,
     component: WitnessSet,
@@ -688,9 +699,7 @@ def is_on_component(
         if residual > max(ROUNDED, accuracy or 0.0):
             return False
         accuracy = max(INEXACT, 10 * residual) if accuracy is None else accuracy
-    alone = Decomposition(system, (component,), PathCounts(), 0, "default", (), False)
-    known = entries if exact else ()
-    (answer,) = memberships(alone, at, accuracy=accuracy, exact=known, run=run)
+    answer = membership_in(system, component, at, accuracy, run, entries if exact else ())
     if answer is Membership.UNDECIDED:
         raise UndecidedError([], [0])
     return answer is Membership.MEMBER

@@ -19,8 +19,8 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import classify_arrivals
 from nag.numerics.zero_values import WRITTEN, multiplicity_of_all, possible_zeros
 from nag.tracking.run import Run
-from nag.witness.fibres import Fibre, move
-from nag.witness.slices import pad_rows, rows_through, unit_complex
+from nag.witness.fibres import Fibre, move_through
+from nag.witness.slices import pad_rows
 
 # How well points are known that were sharpened in doubles, by a deflation that may be badly
 # conditioned.
@@ -68,10 +68,8 @@ def multiplicity_at(
     if dimension == 0:
         ends = [(fibre.x, np.ones(len(fibre), dtype=bool)) for fibre in fibres]
         return _come_together(point, accuracy, ends)
-    target = rows_through(rng, dimension, point, fibres[0].sizes)
     ends = []
-    gamma = complex(unit_complex(rng))
-    for there in move(fibres, target, gamma, run, endgame=True):
+    for there in move_through(point, fibres, rng, run):
         if there.failed.any():
             return None
         ends.append((there.x[there.finite], there.regular[there.finite]))
