@@ -248,15 +248,14 @@ def _composed(f: Any, at: Sequence[Any], p: Any) -> Any:
 
 def _choose_pivot(equations: list[Any], left: set[int]) -> tuple[int, int] | None:
     """An equation and a variable that it is linear in: lowest degree, fewest terms."""
-    best: tuple[Any, tuple[int, int]] | None = None
-    for row, f in enumerate(equations):
-        degrees = f.degrees()
-        for index in left:
-            if degrees[index] == 1 and f.derivative(index).is_constant():
-                key = (f.total_degree(), len(f), -index, row)
-                if best is None or key < best[0]:
-                    best = key, (row, index)
-    return None if best is None else best[1]
+    found = (
+        (f.total_degree(), len(f), -index, row)
+        for row, f in enumerate(equations)
+        for index, degree in enumerate(f.degrees())
+        if degree == 1 and index in left and f.derivative(index).is_constant()
+    )
+    best = min(found, default=None)
+    return None if best is None else (best[3], -best[2])
 
 
 def _univariate(f: Any, index: int) -> Any:

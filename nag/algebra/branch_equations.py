@@ -15,8 +15,7 @@ from nag.algebra.elimination import (
     Elimination,
     eliminate_linear,
     linear_variables,
-    solve_for,
-    substitute,
+    use_linear,
 )
 from nag.algebra.factoring import Factors, factor_into_irreducibles
 from nag.algebra.polynomial import Polynomial
@@ -153,7 +152,5 @@ def _use_linear(linear: Sequence[Polynomial], others: Collection[Polynomial]) ->
         p = rules.pop()
         if p.degree != 1:
             continue
-        index = max(i for i in range(p.n) if i in p.support)
-        image = solve_for(p, index)
-        rules, rest = ([substitute(f, index, image) for f in fs] for fs in (rules, rest))
+        rules, rest = use_linear(p, rules), use_linear(p, rest)
     return {f * (1 / f.terms[max(f.terms)]) for f in rest if f}

@@ -242,21 +242,18 @@ class Search:
 
     def choose_pivot(self, equations: Sequence[Equation]) -> tuple[Irreducible, int] | None:
         """A linear equation and the variable to solve it for: the one that fills in least."""
-        best: tuple[tuple[int, int, int], Irreducible] | None = None
         supports = [frozenset().union(*(p.support for p in e)) for e in equations]
-        for e in equations:
-            p = e[0]
-            if len(e) > 1 or p.degree != 1:
-                continue
+        alone = [e[0] for e in equations if len(e) == 1 and e[0].degree == 1]
+        if self.groups:
             # Elsewhere it would raise the degree in a group of variables.
-            if self.groups and not any(p.support <= set(g) for g in self.groups):
-                continue
-            for index in p.support:
-                used = sum(index in s for s in supports) - 1
-                key = ((len(p.f) - 2) * used, len(p.f), index)
-                if best is None or key < best[0]:
-                    best = key, p
-        return None if best is None else (best[1], best[0][2])
+            alone = [p for p in alone if any(p.support <= set(g) for g in self.groups)]
+        found = (
+            ((len(p.f) - 2) * (sum(index in s for s in supports) - 1), len(p.f), index, k)
+            for k, p in enumerate(alone)
+            for index in p.support
+        )
+        best = min(found, default=None)
+        return None if best is None else (alone[best[3]], best[2])
 
     def _substituted(self, state: State, p: Irreducible, index: int) -> State | None:
         image = self.ring.solve_for(p.f, index)

@@ -8,12 +8,12 @@ rational. Those with square roots are factored (`conjugate_factors`), and wait.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from nag.algebra.branch_search import Search, State, TooManyBranches, product_of
 from nag.algebra.conjugate_factors import make_monic
-from nag.algebra.elimination import solve_for, substitute
+from nag.algebra.elimination import use_linear
 from nag.algebra.factoring import factor_into_irreducibles, ring
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -109,17 +109,8 @@ def _split_with_roots(system: PolynomialSystem) -> list[PolynomialSystem] | None
         if [k for _, k in factors] in ([], [1]):
             continue
         others = (*system.polynomials[:i], *system.polynomials[i + 1 :])
-        return [replace(system, polynomials=(p, *_use_equation(p, others))) for p, _ in factors]
+        return [replace(system, polynomials=(p, *use_linear(p, others))) for p, _ in factors]
     return None
-
-
-def _use_equation(p: Polynomial, others: Sequence[Polynomial]) -> Iterable[Polynomial]:
-    """The others, with what a linear equation says of its last variable."""
-    if p.degree > 1:
-        return others
-    index = max(p.support)
-    image = solve_for(p, index)
-    return [substitute(f, index, image) for f in others]
 
 
 def _branches_or_itself(system: PolynomialSystem) -> tuple[Branch, ...]:

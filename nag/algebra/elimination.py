@@ -183,6 +183,15 @@ def solve_for(f: Polynomial, index: int) -> Polynomial:
     return variable - f / coefficient
 
 
+def use_linear(p: Polynomial, others: Iterable[Polynomial]) -> list[Polynomial]:
+    """Polynomials with what ``p = 0`` says of its last variable, if it is of degree one."""
+    if p.degree > 1:
+        return list(others)
+    index = max(p.support)
+    image = solve_for(p, index)
+    return [substitute(f, index, image) for f in others]
+
+
 def substitute(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
     """``f`` with one variable replaced, by Horner's rule in that variable."""
     if index not in f.support:

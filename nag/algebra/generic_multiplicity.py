@@ -125,17 +125,14 @@ def local_ideal(equations: Sequence[Factors], vanishes: Callable[[Polynomial], b
 
 def _choose_pivot(monomials: Sequence[dict[Polynomial, int]]) -> tuple[int, Polynomial, int] | None:
     """A generator that is linear in a variable, and the variable: of least degree."""
-    best: tuple[tuple[int, int], tuple[int, Polynomial, int]] | None = None
-    for row, m in enumerate(monomials):
-        if len(m) != 1:
-            continue
-        ((p, k),) = m.items()
-        alone = linear_variables(p) if k == 1 and len(p.terms) <= MOST_TERMS else ()
-        for index in sorted(alone):
-            key = (p.degree, len(p.terms))
-            if best is None or key < best[0]:
-                best = key, (row, p, index)
-    return None if best is None else best[1]
+    alone = [(row, *m.items()) for row, m in enumerate(monomials) if len(m) == 1]
+    found = (
+        (row, p, index)
+        for row, (p, k) in alone
+        if k == 1 and len(p.terms) <= MOST_TERMS
+        for index in sorted(linear_variables(p))
+    )
+    return min(found, key=lambda each: (each[1].degree, len(each[1].terms)), default=None)
 
 
 def standard_monomials(exponents: Sequence[tuple[int, ...]], n: int) -> int | None:
