@@ -32,9 +32,11 @@ from nag.decomposition.intersection import intersect_equations
 from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import clusters
 from nag.numerics.local_dimension import local_dimension
+from nag.numerics.precise_point import PrecisePoint
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.witness.close_to_sets import are_same
 from nag.witness.component_equations import component_system
 from nag.witness.membership import Membership, membership_in
 from nag.witness.moving import orthonormal_rows
@@ -55,12 +57,23 @@ class SetOfPoints:
         dimension, degree: of the set.
         points: complex, shape ``(P, n)``.
         error: the largest relative error of a point.
+        source: indices of the component or the pair that it was found from, where this is one of
+            several.
+        precise: an isolated point that equations cut, in digits; None elsewhere.
     """
 
     dimension: int
     degree: int
     points: np.ndarray
     error: float
+    source: tuple[int, ...] = ()
+    precise: PrecisePoint | None = None
+
+    def is_apart_from(self, other: SetOfPoints) -> bool:
+        """Whether two isolated points are two in the digits of both, where these are known."""
+        if self.precise is None or other.precise is None:
+            return False
+        return not are_same(self.precise, other.precise)
 
 
 @dataclass(frozen=True, eq=False)

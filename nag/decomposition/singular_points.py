@@ -26,14 +26,12 @@ from nag.decomposition.rank_drop import ROUNDED, SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.natural_coordinates import NaturalCoordinates
-from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.tangent_cone import TangentCone, form_text, tangent_cone
 from nag.numerics.zero_values import all_vanish
 from nag.text.json_text import pairs
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
-from nag.witness.close_to_sets import are_same
 from nag.witness.component_equations import (
     component_fibres,
     component_system,
@@ -155,27 +153,9 @@ class SingularLocus:
         }
 
 
-@dataclass(frozen=True, eq=False)
-class _Candidate:
-    """Points where something may be singular, and the component or pair that it was found from.
-
-    ``precise``: an isolated point that equations cut; None elsewhere.
-    """
-
-    found: SetOfPoints
-    source: tuple[int, ...]
-    precise: PrecisePoint | None = None
-
-    def is_apart_from(self, other: _Candidate) -> bool:
-        """Whether two isolated points are two in the digits of both, where these are known."""
-        if self.precise is None or other.precise is None:
-            return False
-        return not are_same(self.precise, other.precise)
-
-
 @dataclass(eq=False)
 class _Candidates:
-    """Candidates, and what was left open on the way to them.
+    """Points where something may be singular, and what was left open on the way to them.
 
     Attributes:
         own: each component with the equations that say most of it.
@@ -184,7 +164,7 @@ class _Candidates:
     whole: Decomposition
     own: Sequence[tuple[PolynomialSystem, WitnessSet]]
     run: Run
-    candidates: list[_Candidate] = field(default_factory=list)
+    candidates: list[SetOfPoints] = field(default_factory=list)
     examined: list[int] = field(default_factory=list)
     proved: list[int] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
@@ -208,7 +188,7 @@ class _Candidates:
             self.examined.append(i)
         if found.proved:
             self.proved.append(i)
-        self.candidates += [_Candidate(one, (i,)) for one in found.sets]
+        self.candidates += [replace(one, source=(i,)) for one in found.sets]
 
     def of_pair(self, i: int, j: int) -> None:
         """The intersection of two components that no common equations show."""
@@ -222,8 +202,11 @@ class _Candidates:
         notes = [*found.notes, *(c.note for c in found.components if c.note)]
         self.notes += [f"components {i + 1} and {j + 1}: {note}" for note in notes]
         self.candidates += [
-            _Candidate(
-                SetOfPoints(c.dimension, c.degree, c.points, c.accuracy),
+            SetOfPoints(
+                c.dimension,
+                c.degree,
+                c.points,
+                c.accuracy,
                 (i, j),
                 None if c.dimension or not c.fibres else precise_point(c),
             )
@@ -363,19 +346,19 @@ def _judge_candidates(
 ) -> tuple[SingularSet, ...]:
     points: list[SingularSet] = []
     known, errors = np.zeros((0, search.whole.system.n), dtype=complex), np.zeros(0)
-    seen: list[_Candidate] = []
+    seen: list[SetOfPoints] = []
     others: dict[tuple[object, ...], dict[tuple[int, ...], list[SingularSet]]] = {}
     for candidate in search.candidates:
-        found, x = candidate.found, candidate.found.points[0]
-        if found.dimension == 0:
-            same = np.flatnonzero(coincident(known, x, np.maximum(errors, found.error))).tolist()
+        x, error = candidate.points[0], candidate.error
+        if candidate.dimension == 0:
+            same = np.flatnonzero(coincident(known, x, np.maximum(errors, error))).tolist()
             if not all(candidate.is_apart_from(seen[i]) for i in same):
                 continue
         judged = _judge_candidate(search, candidate, rng, run)
         if judged is None:
             continue
-        if found.dimension == 0:
-            known, errors = np.vstack([known, x]), np.append(errors, found.error)
+        if candidate.dimension == 0:
+            known, errors = np.vstack([known, x]), np.append(errors, error)
             seen.append(candidate)
             points.append(judged)
             continue
@@ -388,10 +371,9 @@ def _judge_candidates(
 
 
 def _judge_candidate(
-    search: _Candidates, candidate: _Candidate, rng: np.random.Generator, run: Run
+    search: _Candidates, found: SetOfPoints, rng: np.random.Generator, run: Run
 ) -> SingularSet | None:
     """What a candidate is; None if the components are smooth there and do not meet."""
-    found = candidate.found
     whole, x, error = search.whole, found.points[0], max(found.error, ROUNDED)
     local = local_dimension(whole.system, x, accuracy=error)
     if found.dimension == 0 and local.tangent_dimension is not None:
@@ -405,7 +387,7 @@ def _judge_candidate(
             continue
         # Doubles may take a point that is close to a component for one of it.
         equations = search.own[i][0].polynomials
-        if candidate.precise is not None and all_vanish(equations, candidate.precise) is False:
+        if found.precise is not None and all_vanish(equations, found.precise) is False:
             continue
         # A multiple component is simple in equations of its own.
         own = search.own[i] if component.multiplicity != 1 else (whole.system, component)
