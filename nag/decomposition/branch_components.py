@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 
@@ -140,11 +140,9 @@ class BranchComponent(GenericPoint):
 
 
 @dataclass(frozen=True, eq=False)
-class _DecomposedBranch:
+class _DecomposedBranch(BranchZeros[BranchComponent]):
     """A branch and its components."""
 
-    system: PolynomialSystem
-    components: tuple[BranchComponent, ...]
     answer: Decomposition | None
 
 
@@ -321,8 +319,8 @@ class _Coverage:
     def is_in_larger(self, part: _DecomposedBranch, component: BranchComponent) -> bool | None:
         """Whether a component on which the equations of a part vanish is in a larger one of it."""
         witness = component.witness
-        larger = [c for c in part.components if c.witness.dimension > witness.dimension]
-        if larger and len(larger) == len(part.components):
+        larger = [c for c in part.found if c.witness.dimension > witness.dimension]
+        if larger and len(larger) == len(part.found):
             return True
         place = component.place_among(part.system.polynomials) if larger else Place.ISOLATED
         if place in (Place.ISOLATED, Place.ON_COMPONENT):
@@ -348,11 +346,7 @@ def _join(
     coverage = _Coverage(rng, run)
     kept: list[BranchComponent] = []
     notes: list[str] = []
-    branches = [
-        BranchZeros(part.system, part.components, partial(coverage.is_in_larger, part))
-        for part in parts
-    ]
-    for component, repeated in find_repeats(branches):
+    for component, repeated in find_repeats(parts, coverage.is_in_larger):
         if repeated is None:
             d = component.witness.dimension
             notes.append(f"a component of dimension {d} may lie in one of another branch")

@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import flint
 import numpy as np
@@ -128,23 +128,26 @@ P = TypeVar("P", bound=GenericPoint)
 
 @dataclass(frozen=True, eq=False)
 class BranchZeros(Generic[P]):
-    """A branch of a system, by generic points of its components.
-
-    Attributes:
-        is_in_larger: whether a point of another branch, which is a zero of this one's equations,
-            lies on a component of this branch that is larger than its own; None if not known.
-    """
+    """A branch of a system, by generic points of its components."""
 
     system: PolynomialSystem
     found: tuple[P, ...]
-    is_in_larger: Callable[[P], bool | None]
 
 
-def find_repeats(branches: Sequence[BranchZeros[P]]) -> Iterator[tuple[P, bool | None]]:
+B = TypeVar("B", bound=BranchZeros[Any])
+
+
+def find_repeats(
+    branches: Sequence[B], is_in_larger: Callable[[B, Any], bool | None]
+) -> Iterator[tuple[Any, bool | None]]:
     """Each point, and whether another branch has its component.
 
     That is one in which its component is part of a larger one, or an earlier one that has it too.
     None where it is not known.
+
+    Args:
+        is_in_larger: whether a point of another branch, which is a zero of a branch's equations,
+            lies on a component of this branch that is larger than its own; None if not known.
     """
     found = [p for branch in branches for p in branch.found]
     if not found:
@@ -154,10 +157,12 @@ def find_repeats(branches: Sequence[BranchZeros[P]]) -> Iterator[tuple[P, bool |
     for i, branch in enumerate(branches):
         for point, close in zip(branch.found, near, strict=False):
             others = (j for j in np.flatnonzero(close).tolist() if j != i)
-            yield point, _any(_is_repeated(point, branches[j], j < i) for j in others)
+            yield point, _any(_is_repeated(point, branches[j], j < i, is_in_larger) for j in others)
 
 
-def _is_repeated(point: P, other: BranchZeros[P], earlier: bool) -> bool | None:
+def _is_repeated(
+    point: GenericPoint, other: B, earlier: bool, is_in_larger: Callable[[B, Any], bool | None]
+) -> bool | None:
     unknown = False
     for f in other.system.polynomials:
         answer = point.vanishes(f)
@@ -166,7 +171,7 @@ def _is_repeated(point: P, other: BranchZeros[P], earlier: bool) -> bool | None:
         unknown |= answer is None
     if unknown:
         return None
-    return earlier or other.is_in_larger(point)
+    return earlier or is_in_larger(other, point)
 
 
 def _any(answers: Iterator[bool | None]) -> bool | None:

@@ -154,7 +154,7 @@ def _known(solution: Solution) -> tuple[np.ndarray, float | np.ndarray]:
 
 
 @dataclass(frozen=True, eq=False)
-class _SolvedBranch:
+class _SolvedBranch(BranchZeros[_Found]):
     """A branch and what was found of it.
 
     Attributes:
@@ -163,18 +163,11 @@ class _SolvedBranch:
         undecided: shape ``(k, n)``.
     """
 
-    system: PolynomialSystem
-    found: tuple[_Found, ...]
     result: SolveResult | None
     larger: LargerSets
     undecided: np.ndarray
 
-    @property
-    def branch(self) -> BranchZeros[_Found]:
-        """The branch by the solutions."""
-        return BranchZeros(self.system, self.found, self._is_in_larger)
-
-    def _is_in_larger(self, zero: _Found) -> bool:
+    def is_in_larger(self, zero: _Found) -> bool:
         """Whether a zero of the equations is no isolated one: these were all found."""
         return bool(len(self.larger.points)) and not _near(zero, self.found)
 
@@ -328,7 +321,7 @@ def _join_parts(
     undecided = [np.zeros((0, system.n), dtype=complex), *(part.undecided for part in parts)]
     kept: list[_Found] = []
     doubtful: list[_Found] = []
-    for each, repeated in find_repeats([part.branch for part in parts]):
+    for each, repeated in find_repeats(parts, _SolvedBranch.is_in_larger):
         if not repeated:
             (doubtful if repeated is None else kept).append(each)
     undecided.append(_points(doubtful, system.n))
