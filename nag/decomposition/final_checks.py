@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement, permutations
 
@@ -51,6 +51,22 @@ def judge_components(
     )
 
 
+def choose_groups(groups: Sequence[Sequence[int]], d: int) -> list[tuple[int, ...]] | None:
+    """From which groups of variables d of them may be fixed; None where that is not asked for."""
+    choices = list(combinations_with_replacement(range(len(groups)), d))
+    choices = [c for c in choices if all(c.count(g) <= len(groups[g]) for g in c)]
+    return choices if groups and len(choices) <= MOST_MULTIDEGREES else None
+
+
+def multidegree_of(degrees: Mapping[tuple[int, ...], int], groups: int, d: int) -> np.ndarray:
+    """The multidegree as a symmetric array, by the degrees for each choice of d groups."""
+    whole = np.zeros((groups,) * d, dtype=int)
+    for choice, degree in degrees.items():
+        for place in set(permutations(choice)):
+            whole[place] = degree
+    return whole
+
+
 def _multidegree(
     fibres: Sequence[Fibre],
     groups: Sequence[Sequence[int]],
@@ -60,16 +76,13 @@ def _multidegree(
 ) -> tuple[np.ndarray | None, PathCounts]:
     """Numbers of points with groups fixed at random values, by moving the slice there."""
     d, counts = fibres[0].dimension, PathCounts()
-    choices = list(combinations_with_replacement(range(len(groups)), d))
-    sizes = [len(g) for g in groups]
-    choices = [c for c in choices if all(c.count(g) <= sizes[g] for g in c)]
-    if not groups or len(choices) > MOST_MULTIDEGREES:
+    choices, degrees = choose_groups(groups, d), {}
+    if choices is None:
         return None, counts
-    degrees = np.zeros((len(groups),) * d, dtype=int)
     for choice in choices:
         A = np.zeros((d, len(frame.t)), dtype=complex)
         for row, g in enumerate(choice):
-            A[row, list(groups[g])] = complex_normal(rng, (sizes[g],))
+            A[row, list(groups[g])] = complex_normal(rng, (len(groups[g]),))
         target = frame.pulled_back(A, complex_normal(rng, (d,)))
         finite = 0
         if d == 0 or np.linalg.matrix_rank(target[:, 1:]) == d:
@@ -79,9 +92,8 @@ def _multidegree(
                 if ends.failed.any():
                     return None, counts
                 finite += int(ends.finite.sum())
-        for place in set(permutations(choice)):
-            degrees[place] = finite
-    return degrees, counts
+        degrees[choice] = finite
+    return multidegree_of(degrees, len(groups), d), counts
 
 
 def _coranks(equations: Equations, fibre: Fibre, rng: np.random.Generator) -> list[int]:

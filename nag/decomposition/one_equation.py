@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations, combinations_with_replacement, permutations
+from itertools import combinations
 from math import comb
 from typing import Any
 
@@ -24,10 +24,11 @@ from nag.algebra.exact_ranks import null_space
 from nag.algebra.factoring import factor_into_irreducibles, most_absolute_factors
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.final_checks import (
-    MOST_MULTIDEGREES,
     Examined,
     check_class,
+    choose_groups,
     judge_components,
+    multidegree_of,
 )
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.method import Task
@@ -206,13 +207,11 @@ def _vanishes(bends: Sequence[tuple[Any, float]]) -> bool:
 def _multidegree(reduction: Reduction, rng: np.random.Generator) -> np.ndarray | None:
     """Numbers of zeros with groups of variables fixed: degrees on lines of these directions."""
     groups, d = reduction.system.groups, reduction.n - 1
-    choices = list(combinations_with_replacement(range(len(groups)), d))
-    choices = [c for c in choices if all(c.count(g) <= len(groups[g]) for g in c)]
-    if not groups or len(choices) > MOST_MULTIDEGREES:
+    choices, degrees = choose_groups(groups, d), {}
+    if choices is None:
         return None
     (f,) = reduction.elimination.system.polynomials
     origin = [Fraction(int(k), 7) for k in rng.integers(-97, 98, reduction.n)]
-    degrees = np.zeros((len(groups),) * d, dtype=int)
     for choice in choices:
         fixed = []
         for g in choice:
@@ -223,9 +222,8 @@ def _multidegree(reduction: Reduction, rng: np.random.Generator) -> np.ndarray |
                     if any(exponents):
                         row[exponents.index(1)] += weight * c
             fixed.append(row)
-        for place in set(permutations(choice)):
-            degrees[place] = _degree_along(f, origin, _common_zero(fixed))
-    return degrees
+        degrees[choice] = _degree_along(f, origin, _common_zero(fixed))
+    return multidegree_of(degrees, len(groups), d)
 
 
 def _common_zero(rows: Sequence[Sequence[Fraction]]) -> Sequence[Fraction] | None:
