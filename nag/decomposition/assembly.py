@@ -24,56 +24,19 @@ from nag.witness.witness import PathCounts, WitnessSet
 
 
 @dataclass(frozen=True, eq=False)
-class KnownOfSets:
-    """What is known of sets before they are split.
-
-    Attributes:
-        actions: symmetries; one component of each orbit is worked out.
-        scheme: whether the sets are components of the scheme of the equations, so that they have
-            a multiplicity in it.
-        embedded: whether sets that deflation made reduced may lie on larger ones; those that do
-            are left out.
-    """
-
-    actions: Sequence[Action] = ()
-    scheme: bool = True
-    embedded: bool = False
-
-
-NOTHING = KnownOfSets()
-
-
-@dataclass(frozen=True, eq=False)
-class Piece:
-    """A component as it was put together.
-
-    Attributes:
-        component: the component.
-        fibres: its points in the coordinates in which the equations are solved.
-        indices: of these among the points of the same dimension.
-    """
-
-    component: WitnessSet
-    fibres: list[Fibre]
-    indices: np.ndarray
-
-
-@dataclass(frozen=True, eq=False)
 class Assembly:
     """Components, what it took to find them, and what is open.
 
     Attributes:
-        pieces: by falling dimension, then rising degree.
+        components: by falling dimension, then rising degree.
+        indices: for each those of its points among all of their dimension.
         notes: doubts that are no single component's.
     """
 
-    pieces: tuple[Piece, ...]
+    components: tuple[WitnessSet, ...]
+    indices: tuple[np.ndarray, ...]
     counts: PathCounts
     notes: tuple[str, ...]
-
-    @property
-    def components(self) -> tuple[WitnessSet, ...]:
-        return tuple(piece.component for piece in self.pieces)
 
 
 def assemble_components(
@@ -81,44 +44,48 @@ def assemble_components(
     reduction: Reduction,
     rng: np.random.Generator,
     run: Run,
-    known: KnownOfSets = NOTHING,
+    *,
+    actions: Sequence[Action] = (),
+    scheme: bool = True,
+    embedded: bool = False,
 ) -> Assembly:
-    """The irreducible components of sets that are given by their points, by dimension."""
+    """The irreducible components of sets that are given by their points, by dimension.
+
+    Args:
+        actions: symmetries; one component of each orbit is worked out.
+        scheme: whether the sets are components of the scheme of the equations, so that they have
+            a multiplicity in it.
+        embedded: whether sets that deflation made reduced may lie on larger ones; those that do
+            are left out.
+    """
     evidence = digits_of_evidence(reduction.natural.system(reduction.system).polynomials)
-    pieces: list[Piece] = []
+    found: list[tuple[WitnessSet, np.ndarray]] = []
+    sets: dict[int, list[Fibre]] = {}
     counts, notes = PathCounts(), []
     for d in sorted(points, reverse=True):
         if not len(points[d]):
             continue
-        run.tell("splitting", len(pieces), 0)
-        found = irreducible_orbits(points[d], known.actions, evidence, rng, run)
-        counts += found.counts
-        notes += [f"dimension {d}: {note}" for note in found.notes]
+        run.tell("splitting", len(found), 0)
+        split = irreducible_orbits(points[d], actions, evidence, rng, run)
+        counts += split.counts
+        notes += [f"dimension {d}: {note}" for note in split.notes]
         here = []
-        examined = Examined.of(found.points, found.classes, reduction, rng)
-        for own in found.classes:
-            fibres = [fibre for fibre, _ in found.points.fibres(own.indices)]
-            if known.embedded:
-                answer, spent = _on_larger_set(fibres[0], pieces, rng, run)
+        examined = Examined.of(split.points, split.classes, reduction, rng)
+        for own in split.classes:
+            fibres = [fibre for fibre, _ in split.points.fibres(own.indices)]
+            if embedded and fibres[0].cut.deflated:
+                x = fibres[0].x[0]
+                answer, spent = is_on_larger_set(x, LEAST, sets, d, rng, run)
                 counts += spent
                 if answer is Membership.UNDECIDED:
                     notes.append(f"whether a component of dimension {d} is one was not decided")
                 if answer is Membership.MEMBER:
                     continue
-            component, spent = check_class(own, examined, rng, run, known.scheme)
+            component, spent = check_class(own, examined, rng, run, scheme)
             counts += spent
-            here.append(Piece(component, fibres, own.indices))
-        pieces += sorted(here, key=lambda piece: piece.component.degree)
-    return Assembly(tuple(pieces), counts, tuple(notes))
-
-
-def _on_larger_set(
-    fibre: Fibre, pieces: Sequence[Piece], rng: np.random.Generator, run: Run
-) -> tuple[Membership, PathCounts]:
-    """Whether a set that deflation was needed for lies on one of higher dimension."""
-    if not fibre.cut.deflated:
-        return Membership.FOREIGN, PathCounts()
-    larger: dict[int, list[Fibre]] = {}
-    for piece in pieces:
-        larger.setdefault(piece.component.dimension, []).extend(piece.fibres)
-    return is_on_larger_set(fibre.x[0], LEAST, larger, fibre.dimension, rng, run)
+            here.append((component, own.indices, fibres))
+        here.sort(key=lambda each: each[0].degree)
+        found += [(component, indices) for component, indices, _ in here]
+        sets[d] = [fibre for *_, fibres in here for fibre in fibres]
+    components, indices = zip(*found, strict=True) if found else ((), ())
+    return Assembly(components, indices, counts, tuple(notes))

@@ -17,7 +17,7 @@ import numpy as np
 from nag.algebra.given import check_listed, check_whole
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.assembly import Assembly, KnownOfSets, assemble_components
+from nag.decomposition.assembly import Assembly, assemble_components
 from nag.decomposition.ends import seem_excluded
 from nag.decomposition.final_checks import judge_components
 from nag.decomposition.given_points import CommonSlices, GivenPoint
@@ -87,9 +87,7 @@ def discover(
     reduction = Reduction.of(system, scaled=True)
     search = _Discovery(reduction, CommonSlices.random(reduction.equations, rng), rng, run)
     search.from_random_points(starts)
-    found = assemble_components(
-        search.slices.points, reduction, rng, run, KnownOfSets(embedded=True)
-    )
+    found = assemble_components(search.slices.points, reduction, rng, run, embedded=True)
     notes = search.notes(starts, found)
     components, counts = list(found.components), search.counts + found.counts
     if symmetries:
@@ -167,8 +165,8 @@ class _Discovery:
             f"of {starts} random points; components may be missing"
         ]
         met = [
-            sum(self.hits[piece.component.dimension, int(i)] for i in piece.indices)
-            for piece in found.pieces
+            sum(self.hits[component.dimension, int(i)] for i in indices)
+            for component, indices in zip(found.components, found.indices, strict=True)
         ]
         once = met.count(1)
         if once:

@@ -163,14 +163,15 @@ def components_through_points(
     found = assemble_components(slices.points, reduction, rng, run)
     counts += found.counts
     components: list[WitnessSet] = []
-    for piece in found.pieces:
-        component, d = piece.component, piece.component.dimension
+    for component in found.components:
         if component.status is Status.IRREDUCIBLE and symmetries:
             try:
                 (component,), spent = group_into_orbits(system, [component], symmetries, run=run)
                 counts += spent
             except ValueError:
-                notes.append(f"the orbit of a component of dimension {d} is not known")
+                notes.append(
+                    f"the orbit of a component of dimension {component.dimension} is not known"
+                )
         components.append(component)
     return judge_components(system, components, counts, run, (*notes, *found.notes))
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.assembly import KnownOfSets, assemble_components
+from nag.decomposition.assembly import assemble_components
 from nag.decomposition.diagonal import meet_on_diagonal
 from nag.decomposition.factor import NOT_MOVED, IntersectionError, Operand, move_to_flag
 from nag.decomposition.final_checks import judge_components
@@ -245,7 +245,7 @@ def _intersection(
     run: Run,
 ) -> Decomposition:
     """The points of all dimensions, split into irreducible components."""
-    found = assemble_components(points, reduction, rng, run, KnownOfSets(scheme=False))
+    found = assemble_components(points, reduction, rng, run, scheme=False)
     paths = counts + found.counts
     return judge_components(reduction.system, found.components, paths, run, (*notes, *found.notes))
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from nag.decomposition.assembly import KnownOfSets, assemble_components
+from nag.decomposition.assembly import assemble_components
 from nag.decomposition.final_checks import judge_components
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.isolated import (
@@ -75,10 +75,10 @@ def _settle(
 ) -> Decomposition:
     """The components of witness points of all dimensions; points are solved for where in doubt."""
     moving = [g for g in task.symmetries if not g.is_identity]
-    known = KnownOfSets(
-        actions=[Action.of(g, task.reduction.frame) for g in moving], scheme=task.scheme
+    actions = [Action.of(g, task.reduction.frame) for g in moving]
+    found = assemble_components(
+        superset.points, task.reduction, rng, task.run, actions=actions, scheme=task.scheme
     )
-    found = assemble_components(superset.points, task.reduction, rng, task.run, known)
     answer = judge_components(
         task.system,
         found.components,
