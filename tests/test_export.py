@@ -27,6 +27,7 @@ from nag.files.export import (
 )
 from nag.files.json_schema import schema
 from nag.files.written_file import TargetError, check_target, write_target
+from nag.tracking.settings import find_settings
 from nag.witness.moving import witness_at
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
@@ -418,3 +419,13 @@ def test_a_device_is_written_to_and_not_replaced() -> None:
     from pathlib import Path
 
     assert stat.S_ISCHR(Path("/dev/null").stat().st_mode)
+
+
+def test_settings_of_ones_own_are_exported_by_a_name() -> None:
+    careful = replace(find_settings("careful"), retries=1)
+    for equations in (["x*y - z", "x^2 + y^2 - z^2 - 1"], ["x^2 + y^2 - 1"]):
+        answer = nag.decompose(equations, settings=careful)
+        document = json.loads(export_text(answer))
+        VALIDATOR.validate(document)
+        assert document["settings"] == "custom"
+        assert answer.complete

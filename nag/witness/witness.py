@@ -20,6 +20,7 @@ from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
     from nag.decomposition.curve_genus import Genus
+    from nag.tracking.settings import Settings
     from nag.witness.fibres import Fibre
     from nag.witness.projection import Projection
     from nag.witness.real_points import RealPoints
@@ -438,7 +439,7 @@ class Decomposition:
         components: by falling dimension, then rising degree.
         paths: what the run did.
         seed: seed of the random numbers.
-        settings: name of the tracking settings.
+        settings: of tracking, or their name; those of one's own are exported as ``custom``.
         order: indices of the equations in the order in which they were intersected, among those
             that are left when linear equations have been solved; empty where they were not, or
             where branches of the system were decomposed apart.
@@ -453,7 +454,7 @@ class Decomposition:
     components: tuple[WitnessSet, ...]
     paths: PathCounts
     seed: int
-    settings: str
+    settings: Settings | str
     order: tuple[int, ...]
     complete: bool
     notes: tuple[str, ...] = field(default=())
@@ -502,7 +503,7 @@ class Decomposition:
             "formulation": formulation,
             "reason": reason,
             "seed": self.seed,
-            "settings": self.settings,
+            "settings": self.settings if isinstance(self.settings, str) else "custom",
             "complete": self.complete,
             "notes": list(self.notes),
             "paths": asdict(self.paths),
