@@ -348,6 +348,8 @@ mechanism.inverse_kinematics.REACHED        1e-10   Relative residual of a pose 
                                                     what it does not reach is said, not dismissed.
 mechanism.inverse_kinematics.DISPLACEMENT   1e-6    Norm of a factor, beside the squares that it is
                                                     the sum of, from which it is a displacement.
+mechanism.pose_model.REAL                   1e-12   Imaginary parts of Study coordinates of a pose,
+                                                    relative, that is lifted to real joints.
 mechanism.operation_modes.NOT_ZERO          1e-6    Value of a form, beside its largest term, at a
                                                     pose that is certainly not on its zeros.
 mechanism.motions.NO_PITCH                  1e-7    Pitches, moments and entries of unit axes that

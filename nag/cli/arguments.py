@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
 from nag.errors import NagError
-from nag.mechanism import FORMULATIONS
+from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -102,9 +102,10 @@ def add_formulation(parser: argparse.ArgumentParser) -> None:
     """The formulation of a mechanism's model."""
     parser.add_argument(
         "--formulation",
-        choices=tuple(FORMULATIONS),
+        choices=(*FORMULATIONS, PLATFORM_ALONE),
         help="model of a mechanism (default: the one with the fewest paths): "
-        + "; ".join(f"{name} {text}" for name, text in FORMULATIONS.items()),
+        + "; ".join(f"{name} {text}" for name, text in FORMULATIONS.items())
+        + f"; only on request {PLATFORM_ALONE}, the poses of a robot's platform",
     )
 
 

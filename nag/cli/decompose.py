@@ -19,6 +19,7 @@ from nag.cli.certify import proof_asked_for
 from nag.cli.running import CommandAnswer, chosen_run, name_case, run_row
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of
+from nag.mechanism import PLATFORM_ALONE
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -126,6 +127,8 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, problem: Problem)
         raise UsageError(f"{option}: is not for --modes all")
     if arguments.coordinates == "euler" and others["--method sampling"]:
         raise UsageError("--coordinates euler: --method sampling finds no other; use --formulation")
+    if arguments.coordinates is not None and problem.formulation == PLATFORM_ALONE:
+        raise UsageError(f"--coordinates: formulation {PLATFORM_ALONE} has those of a pose only")
     if arguments.coordinates != "joint" or problem.formulation != "E":
         return problem
     if arguments.formulation is not None:

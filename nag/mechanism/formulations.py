@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, TypeAlias
 
 from nag.algebra.turns import FEWEST_LOOPS
-from nag.mechanism import FORMULATIONS
+from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space
 from nag.mechanism.euler import EulerModel, euler_model
@@ -18,7 +19,10 @@ from nag.mechanism.planar import PlanarModel, planar_model
 from nag.mechanism.rods import RodModel, rod_model
 from nag.text.table import count_text, join_words
 
-Form = EulerModel | HalfAngleModel | PlanarModel | RodModel
+if TYPE_CHECKING:
+    from nag.mechanism.pose_model import PoseModel
+
+Form: TypeAlias = "EulerModel | HalfAngleModel | PlanarModel | PoseModel | RodModel"
 
 
 def alternative(
@@ -26,6 +30,10 @@ def alternative(
 ) -> Alternative:
     """One formulation of a mechanism."""
     try:
+        if formulation == PLATFORM_ALONE:
+            from nag.mechanism.pose_model import pose_model
+
+            return Alternative(formulation, pose_model(structure, modes))
         if formulation == "H":
             return Alternative("H", half_angle_model(structure, modes))
         if formulation == "S":
@@ -88,6 +96,11 @@ def description(alternative: Alternative, space: Space) -> str:
     if alternative.formulation == "E":
         return "one pair (c, s) for each body" if space == "planar" else "Euler parameters"
     form = alternative.form
+    if alternative.formulation == PLATFORM_ALONE:
+        return (
+            f"Study coordinates of {form.platform.robot.platform}, its legs eliminated: components "
+            "of its poses, above each of which the joints may have several"
+        )
     if isinstance(form, RodModel):
         free = sum(f.kind == "free" for f in form.charts.plain)
         words = ["Study coordinates" if free else "joint coordinates"]

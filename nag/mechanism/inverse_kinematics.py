@@ -15,6 +15,8 @@ from nag.mechanism.loop_product import Element
 
 # Random starts of a round, their steps, and rounds for a pose that is not reached before.
 STARTS, STEPS, ROUNDS = 24, 60, 12
+# Steps from a pose that is reached to rounding.
+LAST_STEPS = 4
 # What stands along a pose is taken for no less.
 TINY = 1e-12
 # Relative residual of a pose that is reached.
@@ -103,6 +105,34 @@ def reach_poses(
     return best
 
 
+def find_joints(
+    elements: Sequence[Element],
+    pose: np.ndarray,
+    origin: np.ndarray,
+    length: float,
+    rng: np.random.Generator,
+    real: bool = False,
+) -> list[np.ndarray] | None:
+    """Homogeneous coordinates of factors whose product is a pose, to rounding; None if not found.
+
+    Args:
+        pose: Study coordinates, shape ``(8,)``.
+        origin, length, real: as for `reach_poses`.
+    """
+    scale = np.array([1.0] * 4 + [1.0 / length] * 4)
+    generators = [shift_origin(g, origin) * scale for g in map(_generators, elements)]
+    targets = _unit(shift_origin(pose, origin)[None] * scale)
+    for _ in range(ROUNDS):
+        best = np.full(1, np.inf)
+        found = _approach(generators, targets, np.zeros(STARTS, dtype=int), best, rng, real)
+        if found is not None:
+            for _ in range(LAST_STEPS):
+                _, rest, slopes = _beside(generators, found, targets)
+                found = _step(found, rest, slopes)
+            return [w[0] for w in found]
+    return None
+
+
 def _generators(element: Element) -> np.ndarray:
     """Those of a factor, shape ``(k, 8)``."""
     return np.array([[float(c) for part in g for c in part] for g in element.generators])
@@ -115,8 +145,12 @@ def _approach(
     best: np.ndarray,
     rng: np.random.Generator,
     real: bool,
-) -> None:
-    """Lower the residuals ``best`` of poses from random starts, one for each of ``places``."""
+) -> list[np.ndarray] | None:
+    """Lower the residuals ``best`` of poses from random starts, one for each of ``places``.
+
+    Returns:
+        Coordinates of the factors where the last of the poses was reached; None if one was not.
+    """
     targets = poses[places]
     weights = [_unit(_random(rng, (len(targets), len(g)), real)) for g in generators]
     for _ in range(STEPS):
@@ -125,9 +159,11 @@ def _approach(
         np.minimum.at(best, places[inside], residuals[inside])
         left = best[places] >= REACHED
         if not left.any():
-            break
+            nearest = int(np.argmin(np.where(inside, residuals, np.inf)))
+            return [w[nearest : nearest + 1] for w in weights]
         places, targets = places[left], targets[left]
         weights = _step([w[left] for w in weights], rest[left], slopes[left])
+    return None
 
 
 def _beside(

@@ -19,6 +19,7 @@ from nag.text.table import join_words
 
 # Legs of a body that is taken for the platform without being named.
 LEGS_OF_A_PLATFORM = 3
+NAMED_PLATFORM = "nag modes takes the platform that is named with --platform"
 
 
 @dataclass(frozen=True)
@@ -126,13 +127,11 @@ def _platform_of(mechanism: Mechanism) -> str:
     best = [b for b, count in counts.items() if count == most]
     if most < LEGS_OF_A_PLATFORM:
         raise MechanismError(
-            f"no body has {LEGS_OF_A_PLATFORM} legs or more between itself and the ground; name "
-            "the platform with --platform"
+            f"no body has {LEGS_OF_A_PLATFORM} legs or more between itself and the ground; "
+            f"{NAMED_PLATFORM}"
         )
     if len(best) > 1:
-        raise MechanismError(
-            f"bodies {join_words(best)} have {most} legs each; name the platform with --platform"
-        )
+        raise MechanismError(f"bodies {join_words(best)} have {most} legs each; {NAMED_PLATFORM}")
     return best[0]
 
 

@@ -17,7 +17,7 @@ from nag.decomposition.curve_genus import GenusError, genus
 from nag.decomposition.growth import grow_component
 from nag.decomposition.through import through_points, zero_at
 from nag.errors import MechanismError, NagError
-from nag.mechanism import BUDGET
+from nag.mechanism import BUDGET, FORMULATIONS, PLATFORM_ALONE
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
@@ -150,6 +150,8 @@ def mobility_in_steps(
         check_mechanism(problem.system, "the parts of a case, case.assembly")
     check_body(of, problem.mechanism.mechanism if problem.mechanism is not None else None)
     at = problem.reference
+    if problem.formulation == PLATFORM_ALONE:
+        _check_poses(at, point)
     if point is not None:
         at = coordinates(point, problem.system.variables)
     if at is None:
@@ -161,6 +163,25 @@ def mobility_in_steps(
     yield first
     if detail != "local":
         yield _with_components(first, problem, at, detail, budget, run)
+
+
+def _check_poses(reference: Sequence[Number] | None, point: Any) -> None:
+    """Whether the mobility at a configuration is seen in the platform's poses.
+
+    Raises:
+        MechanismError: if it is not.
+    """
+    others = ", ".join(FORMULATIONS)
+    if point is not None:
+        raise MechanismError(
+            f"formulation {PLATFORM_ALONE}: a pose is no configuration of the joints; leave the "
+            f"point out, or take one of the formulations {others}"
+        )
+    if reference is None:
+        raise MechanismError(
+            f"formulation {PLATFORM_ALONE}: the reference is a singular configuration of a leg, so "
+            f"that the platform's poses do not tell the mobility; take one of {others}"
+        )
 
 
 def tree_of(given: Any) -> Mechanism | None:

@@ -12,7 +12,7 @@ from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
-from nag.mechanism import FORMULATIONS
+from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space, same_line, space_of, zero_length
 from nag.mechanism.configuration import Configuration
@@ -43,13 +43,14 @@ class Model:
 
     Attributes:
         mechanism: what is modelled.
-        formulation: "E" (Euler parameters; (c, s) in the plane) or "H" (half-angles, and slides
-            and quaternions of joints that have them).
+        formulation: "E" (Euler parameters; (c, s) in the plane), "H" (half-angles, and slides
+            and quaternions of joints that have them), "S" (rods as distances) or "P" (the poses of
+            a robot's platform).
         space: the smallest geometry that holds all axes.
         reason: one sentence: why this model.
         system: the equations, exact.
         reference: the reference configuration in the system's variables, an exact solution; empty
-            in other assembly modes.
+            in other assembly modes, and of poses where a leg is not regular.
         sign_group: size of the group of sign changes a -> -a that acts on E; 1 for H and in the
             plane, where configurations have one point each.
         symmetries: generators of that group, as `nag.decompose` takes them.
@@ -106,8 +107,11 @@ class Model:
 
     @cached_property
     def alternatives(self) -> tuple[Alternative, ...]:
-        """All formulations of the mechanism, by rising number of paths."""
-        return alternatives(self.structure, self.space, self.modes)
+        """All formulations of the mechanism, by rising number of paths, and this one."""
+        found = alternatives(self.structure, self.space, self.modes)
+        if self.formulation in FORMULATIONS:
+            return found
+        return (*found, Alternative(self.formulation, self.form))
 
     @property
     def joint_types(self) -> tuple[str, ...]:
@@ -152,7 +156,7 @@ class Model:
         found = []
         if self.structure.cut_freedoms:
             found.append((self.structure.cut_freedoms, "the joints that were cut off"))
-        if isinstance(self.form, RodModel):
+        if isinstance(self.form, RodModel) or self.formulation == PLATFORM_ALONE:
             found += self.form.left_out
         return tuple(found)
 
@@ -183,7 +187,9 @@ def model(
         mechanism: at least one of its joints must belong to a loop.
         formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
             components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
-            for half-angles and other joint coordinates, ``"S"`` for rods as distances, ``"auto"``.
+            for half-angles and other joint coordinates, ``"S"`` for rods as distances, ``"auto"``;
+            ``"P"`` for the poses of a robot's platform, which are never taken by themselves: their
+            components need not be those of the joints.
         modes: assembly modes (`nag.mechanism.assembly_modes`), of the mechanism in space.
         space: ``"spatial"`` to take a planar or spherical mechanism as one in space.
 
@@ -227,8 +233,8 @@ def model(
 def _choose(structure: LoopStructure, space: Space, formulation: str, modes: Modes) -> Alternative:
     if formulation == "auto":
         return smallest_alternative(structure, space, modes)
-    if formulation not in FORMULATIONS:
-        names = ", ".join(f'"{name}"' for name in ("auto", *FORMULATIONS))
+    if formulation not in (*FORMULATIONS, PLATFORM_ALONE):
+        names = ", ".join(f'"{name}"' for name in ("auto", *FORMULATIONS, PLATFORM_ALONE))
         raise ModelError(f"formulation {formulation!r} is unknown; use one of {names}")
     chosen = alternative(structure, space, formulation, modes)
     if chosen.form is None:

@@ -95,13 +95,41 @@ def modes(mechanism: Any, platform: str | None = None, *, run: Run = DEFAULT_RUN
     return describe_modes(model, found, run)
 
 
+def decompose_poses(model: PlatformModel, run: Run) -> Decomposition:
+    """The components of a platform's poses that every leg reaches.
+
+    Those that a leg is not known to reach are kept, and said to be open.
+    """
+    found = decompose(model.system, run=run)
+    poses = np.array([model.study(c.points)[0] for c in found.components]).reshape(-1, 8)
+    rng = run.random(42)
+    residuals = _residuals(model, poses, model.length, rng)
+    kept, notes = [], []
+    for component, pose, own in zip(found.components, poses, residuals, strict=True):
+        missing = [i for i, r in enumerate(own) if not r < REACHED]
+        if any(_misses(model, i, pose, model.length, rng) for i in missing):
+            continue
+        kept.append(component)
+        kind = f"dimension {component.dimension}, degree {component.degree}"
+        notes += [
+            f"whether leg {model.legs[i].leg.name} reaches a component of {kind} is not known"
+            for i in missing
+        ]
+    return replace(
+        found,
+        components=tuple(kept),
+        complete=found.complete and not notes,
+        notes=(*found.notes, *notes),
+    )
+
+
 def describe_modes(model: PlatformModel, found: Decomposition, run: Run) -> OperationModes:
     """What is to be said of the components of a platform's poses."""
     notes = list(found.notes)
     if not found.complete and not notes:
         notes.append("a component is undecided")
     run.tell("legs' reach", 2, 4)
-    rng, length = run.random(42), robot_length(model)
+    rng, length = run.random(42), model.length
     poses = np.array([model.study(c.points)[0] for c in found.components]).reshape(-1, 8)
     residuals = _residuals(model, poses, length, rng)
     through, doubt = _through_reference(model, found, run)
@@ -155,19 +183,6 @@ def _rank(mode: OperationMode) -> tuple[Any, ...]:
     return -mode.dimension, mode.degree, not mode.through_reference, mode.reality, *size
 
 
-def robot_length(model: PlatformModel) -> float:
-    """The largest distance between points of joints, by which lengths are measured."""
-    points = _places(model)
-    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
-    return float(apart.max(initial=0.0)) or 1.0
-
-
-def _places(model: PlatformModel) -> np.ndarray:
-    """The points of joints that turn about one, shape ``(joints, 3)``."""
-    joints = [j for leg in model.legs for j in leg.leg.joints if j.of_type.turns_about_point]
-    return np.array([[float(x) for x in j.point] for j in joints]).reshape(-1, 3)
-
-
 def _residuals(
     model: PlatformModel,
     poses: np.ndarray,
@@ -176,10 +191,8 @@ def _residuals(
     real: bool = False,
 ) -> np.ndarray:
     """How near each leg comes to each pose, or all to one real pose, shape ``(poses, legs)``."""
-    places = _places(model)
-    origin = places.mean(axis=0) if len(places) else np.zeros(3)
     chains = [leg.leg.elements() for leg in model.legs]
-    return reach_poses(chains, poses, origin, length, rng, real=real, one=real)
+    return reach_poses(chains, poses, model.origin, length, rng, real=real, one=real)
 
 
 def _misses(

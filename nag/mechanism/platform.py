@@ -9,9 +9,10 @@ plane, and none where x0 to x3 vanish, which are no displacements.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from math import factorial, prod
 from typing import Any
 
@@ -22,7 +23,8 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
 from nag.interpolation.image_forms import ImageForms
-from nag.mechanism.joint_factors import Charts, primitive
+from nag.mechanism.inverse_kinematics import conjugate_pose, multiply_poses
+from nag.mechanism.joint_factors import UNIT, Charts, Factor, primitive
 from nag.mechanism.leg_image import (
     COORDINATES,
     MOST_DEGREE,
@@ -61,6 +63,28 @@ class LegEquations:
     def kept(self) -> tuple[Element, ...]:
         """The factors that it keeps."""
         return self.before + self.behind
+
+    @cached_property
+    def middle(self) -> tuple[Element, ...]:
+        """The factors between those that it keeps."""
+        elements = self.leg.elements()
+        return elements[len(self.before) : len(elements) - len(self.behind)]
+
+    def between(
+        self, pose: np.ndarray, kept: Mapping[Factor, Sequence[Any]]
+    ) -> tuple[tuple[Element, ...], np.ndarray]:
+        """The factors between the kept ones, and what their product is at a pose.
+
+        Args:
+            pose: Study coordinates, shape ``(8,)``.
+            kept: homogeneous coordinates of the kept factors.
+        """
+        parts = []
+        for own in (self.before, self.behind):
+            motion = displacement(own, kept, lambda c: complex(float(c))) if own else UNIT
+            entries = np.array([complex(x) for part in motion for x in part])
+            parts.append(conjugate_pose(entries))
+        return self.middle, multiply_poses(multiply_poses(parts[0], pose), parts[1])
 
     @property
     def idle(self) -> int:
@@ -102,6 +126,23 @@ class PlatformModel:
     def reference(self) -> tuple[Number, ...]:
         """The reference configuration, a solution."""
         return (Fraction(0),) * 7 + self.charts.reference
+
+    @cached_property
+    def places(self) -> np.ndarray:
+        """The points of joints that turn about one, shape ``(joints, 3)``."""
+        joints = [j for leg in self.legs for j in leg.leg.joints if j.of_type.turns_about_point]
+        return np.array([[float(x) for x in j.point] for j in joints]).reshape(-1, 3)
+
+    @property
+    def origin(self) -> np.ndarray:
+        """A point amidst the joints, shape ``(3,)``."""
+        return self.places.mean(axis=0) if len(self.places) else np.zeros(3)
+
+    @property
+    def length(self) -> float:
+        """The largest distance between points of joints, by which lengths are measured."""
+        apart = np.linalg.norm(self.places[:, None] - self.places[None], axis=2)
+        return float(apart.max(initial=0.0)) or 1.0
 
     def study(self, points: np.ndarray) -> np.ndarray:
         """Study coordinates at solutions, from shape ``(k, n)`` to ``(k, 8)``."""

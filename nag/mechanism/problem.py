@@ -18,6 +18,7 @@ from nag.algebra.number import Number, number_text
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import NamedPoint, PolynomialSystem
 from nag.errors import NagError, StartError
+from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.assembly import AssemblyModel
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
@@ -152,6 +153,10 @@ class Problem:
             from nag.mechanism.framework_decomposition import decompose_framework
 
             return decompose_framework(self.model, run=run, symmetries=used)  # type: ignore[arg-type]
+        if self.formulation == PLATFORM_ALONE:
+            from nag.mechanism.operation_modes import decompose_poses
+
+            return decompose_poses(self.model.form.platform, run)  # type: ignore[union-attr]
         from nag.decomposition.decompose import decompose
 
         return decompose(self.system, run=run, symmetries=used)

@@ -1,0 +1,187 @@
+"""Formulation P: what a platform's poses say is true of the joints, or it is not said."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from linkages import CASES, residual
+
+import nag
+from nag.cli import main
+from nag.errors import MechanismError
+from nag.files.cases import read_case
+from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.model import Model, ModelError
+from nag.mechanism.operation_modes import decompose_poses
+from nag.tracking.run import DEFAULT_RUN
+
+ROBOTS = sorted(path.stem for path in (CASES / "robots").glob("*.toml"))
+X, Y, Z = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+
+
+@cache
+def poses(name: str) -> Model:
+    return nag.model(read_case(CASES / "robots" / f"{name}.toml").mechanism, "P")
+
+
+def with_kept_joints() -> Mechanism:
+    """Two legs RPS, and one UPU whose axes are in general position."""
+    joints = []
+    for k, (foot, hand) in enumerate((((0, 0, 0), (1, 0, 4)), ((5, 0, 0), (4, 1, 4)))):
+        along = tuple(b - a for a, b in zip(foot, hand, strict=True))
+        joints += [
+            Joint(f"R{k}", "revolute", ("base", f"low{k}"), foot, Y if k else X),
+            Joint(f"P{k}", "prismatic", (f"low{k}", f"high{k}"), axis=along),
+            Joint(f"S{k}", "spherical", (f"high{k}", "plate"), hand),
+        ]
+    joints += [
+        Joint("U", "universal", ("base", "low"), (2, 5, 0), (1, 1, 0), (1, -1, 1)),
+        Joint("P", "prismatic", ("low", "high"), axis=(0, -1, 4)),
+        Joint("V", "universal", ("high", "plate"), (2, 4, 4), (1, 2, 0), (2, -1, 3)),
+    ]
+    return Mechanism("base", tuple(joints))
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_poses_tell_the_dimensions_at_a_reference_where_legs_are_regular(name: str) -> None:
+    model = poses(name)
+    known = nag.mobility(model.mechanism, detail="local")
+    if not model.reference:
+        with pytest.raises(MechanismError, match="singular configuration of a leg"):
+            nag.mobility(model, detail="local")
+        return
+    found = nag.mobility(model, detail="local")
+    assert found.local_dimension == known.local_dimension
+    assert found.tangent_dimension == known.tangent_dimension
+
+
+def general_points(model: Model) -> list[np.ndarray]:
+    return [c.points[0] for c in nag.decompose(model).components]
+
+
+def lifting_error(model: Model, point: np.ndarray) -> float:
+    lifted = model.unreduced_point(model.lift(point))
+    return residual(model.unreduced, [complex(x) for x in lifted])
+
+
+@pytest.mark.parametrize("name", ["3-rps", "3-sps-s", "3-upu-tsai", "tripteron", "tricept"])
+def test_general_poses_lift_to_configurations(name: str) -> None:
+    model = poses(name)
+    points = general_points(model)
+    assert points
+    assert max(lifting_error(model, p) for p in points) < 1e-10
+
+
+def test_poses_beside_kept_joints_lift_to_configurations_with_these() -> None:
+    model = nag.model(with_kept_joints(), "P")
+    assert model.system.n > 7
+    rng = np.random.default_rng(0)
+    reference = np.array([complex(x) for x in model.reference])
+    point = reference + 0.01 * rng.standard_normal(len(reference))
+    for _ in range(20):
+        value = np.array([f(list(point)) for f in model.system.polynomials])
+        rows = [[g(list(point)) for g in row] for row in model.system.jacobian]
+        point = point - np.linalg.lstsq(np.array(rows), value, rcond=None)[0]
+    assert lifting_error(model, point) < 1e-10
+
+
+@pytest.mark.parametrize("name", ["3-rps", "quadrupteron"])
+def test_the_reference_pose_lifts_to_the_reference_exactly(name: str) -> None:
+    model = poses(name)
+    lifted = model.lift(model.reference)
+    assert sorted(lifted.euler) == sorted(model.mechanism.body_names)
+    assert all(tuple(q) == (1, 0, 0, 0) for q in lifted.euler.values())
+    assert all(tuple(p) == (0, 0, 0) for p in lifted.position.values())
+
+
+def test_idle_legs_are_counted_besides() -> None:
+    assert poses("3-sps-s").freedoms_left_out == (
+        (3, "legs that move while the platform stands still"),
+    )
+    assert poses("3-rps").freedoms_left_out == ()
+
+
+def test_components_that_a_leg_is_not_known_to_reach_leave_the_answer_open() -> None:
+    platform = poses("3-rps").form.platform
+    others = platform.legs[1:]
+    equations = len(platform.system.polynomials) - len(others)
+    without = replace(platform.system, polynomials=platform.system.polynomials[:equations])
+    assert decompose_poses(platform, DEFAULT_RUN).complete
+    found = decompose_poses(replace(platform, system=without), DEFAULT_RUN)
+    assert found.components
+    assert not found.complete
+    assert {note.split()[2] for note in found.notes} == {leg.leg.name for leg in others}
+
+
+def folded() -> Mechanism:
+    """Three legs RRR in a plane, of which one is stretched: there its joints' twists depend."""
+    legs = (
+        ((0, 0, 0), (1, 1, 0), (2, 2, 0)),
+        ((6, 0, 0), (7, 2, 0), (4, 3, 0)),
+        ((3, 7, 0), (4, 6, 0), (3, 4, 0)),
+    )
+    joints = []
+    for k, points in enumerate(legs):
+        bodies = ("base", f"low{k}", f"high{k}", "plate")
+        joints += [
+            Joint(f"J{k}{i}", "revolute", (bodies[i], bodies[i + 1]), points[i], Z)
+            for i in range(3)
+        ]
+    return Mechanism("base", tuple(joints))
+
+
+def test_at_a_stretched_leg_poses_say_nothing_of_the_mobility() -> None:
+    model = nag.model(folded(), "P")
+    assert model.reference == ()
+    with pytest.raises(MechanismError, match="singular configuration of a leg"):
+        nag.mobility(folded(), formulation="P")
+    assert [(c.dimension, c.degree) for c in nag.decompose(model).components] == [(3, 1)]
+
+
+def test_a_pose_is_no_configuration_to_ask_for_the_mobility_at() -> None:
+    model = poses("3-rps")
+    with pytest.raises(MechanismError, match="no configuration of the joints"):
+        nag.mobility(model, model.reference)
+
+
+def test_poses_are_taken_only_where_they_are_asked_for() -> None:
+    # Their equations take 5 paths, the fewest of all.
+    robot = poses("tripteron")
+    assert nag.model(robot.mechanism).formulation != "P"
+    assert robot.alternatives[-1].formulation == "P"
+    assert robot.alternatives[-1].paths == 5
+
+
+@pytest.mark.parametrize(
+    ("case", "options", "message"),
+    [
+        ("bennett.toml", [], "no body has 3 legs"),
+        ("robots/3-rps.toml", ["--coordinates", "euler"], "those of a pose only"),
+    ],
+)
+def test_what_poses_do_not_cover_is_told_in_one_line(
+    case: str, options: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["decompose", str(CASES / case), "--formulation", "P", "--quiet", *options]
+    assert main(words) == 2
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert message in told
+    with pytest.raises(ModelError, match="no body has 3 legs"):
+        nag.model(read_case(CASES / "bennett.toml").mechanism, "P")
+
+
+def test_other_assembly_modes_have_no_poses_of_their_own() -> None:
+    with pytest.raises(ModelError, match="as they are assembled"):
+        nag.model(poses("3-rps").mechanism, "P", modes=(("R1", 1),))
+
+
+def test_the_command_says_that_components_are_those_of_poses(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    case = str(CASES / "robots" / "3-rps.toml")
+    assert main(["decompose", case, "--formulation", "P", "--quiet"]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert "components of its poses, above each of which the joints may have several" in text
+    assert "agrees with what is known" in text
