@@ -158,6 +158,7 @@ def test_poses_are_taken_only_where_they_are_asked_for() -> None:
     [
         ("bennett.toml", [], "no body has 3 legs"),
         ("robots/3-rps.toml", ["--coordinates", "euler"], "those of a pose only"),
+        ("robots/3-rps.toml", ["--method", "sampling"], "finds no poses"),
     ],
 )
 def test_what_poses_do_not_cover_is_told_in_one_line(

@@ -129,6 +129,10 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, problem: Problem)
         raise UsageError("--coordinates euler: --method sampling finds no other; use --formulation")
     if arguments.coordinates is not None and problem.formulation == PLATFORM_ALONE:
         raise UsageError(f"--coordinates: formulation {PLATFORM_ALONE} has those of a pose only")
+    if arguments.method == "sampling" and problem.formulation == PLATFORM_ALONE:
+        raise UsageError(
+            f"--method sampling: finds no poses; leave out formulation {PLATFORM_ALONE}"
+        )
     if arguments.coordinates != "joint" or problem.formulation != "E":
         return problem
     if arguments.formulation is not None:
