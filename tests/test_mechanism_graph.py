@@ -120,3 +120,9 @@ def test_dangling_trees_are_cut_off():
     structure = loop_structure(Mechanism("Y", triangle.joints + tuple(tail)))
     assert structure.base == "B1"
     assert [(p, c) for p, c, _ in structure.spanning_tree()][-2:] == [("B1", "X"), ("X", "Y")]
+
+
+def test_a_point_that_is_left_out_is_the_origin() -> None:
+    left_out = Joint("A", "prismatic", ("base", "slide"), axis=(0, 0, 1))
+    assert Joint("A", "prismatic", ("base", "slide"), None, (0, 0, 1)) == left_out
+    assert left_out.point == (0, 0, 0)
