@@ -7,7 +7,7 @@ import pytest
 
 import nag
 from nag.decomposition.growth import grow_component
-from nag.tracking.evaluations import count, count_evaluations
+from nag.tracking.evaluations import PREPARATION, count, count_evaluations
 
 # Equations, a regular point, the dimension there, and the degree of the component through it.
 COMPONENTS = {
@@ -37,6 +37,27 @@ def test_what_is_not_afforded_is_bounded_from_below() -> None:
     assert found[0].least == 1 and found[-1].degree == 8
     part = found[0]
     assert part.degree is None and part.component is None and part.reason
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(
+    ("name", "degree"), [("spatial/rccc", 14), ("spatial/octahedron-line-symmetric", 12)]
+)
+def test_points_that_few_loops_move_are_found_as_well(name: str, degree: int, seed: int) -> None:
+    """One of the points stays where it is on most loops; a trace says that it is missing."""
+    found = nag.mobility(nag.read_case(f"cases/{name}.toml"), seed=seed)
+    assert found.components == ((1, degree),)
+
+
+def test_what_is_made_ready_counts_once() -> None:
+    system = nag.system(["x*y*z - 1", "w - x^2 - y"])
+    with count_evaluations() as whole:
+        grown = grow_component(system, np.array([1, 1, 1, 2]), 2, seconds=10.0)
+    with count_evaluations() as nothing:
+        grow_component(system, np.array([1, 1, 1, 2]), 2, seconds=0.0)
+    assert grown.degree == 5
+    # The cut and that of the trace, in doubles and in twice the digits at most.
+    assert nothing.once == 0 < whole.once <= 4 * PREPARATION
 
 
 def test_work_in_more_digits_counts_for_more_and_inside_counts_outside() -> None:

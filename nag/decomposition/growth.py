@@ -16,18 +16,19 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.final_checks import Examined, check_class
-from nag.decomposition.given_points import CommonSlices, GivenPoint
 from nag.decomposition.monodromy import run_loop
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import split_joined_points
 from nag.decomposition.trace import Trace, digits_of_evidence
 from nag.numerics.zero_values import LEAST, ON
-from nag.tracking.evaluations import count_evaluations
+from nag.tracking.evaluations import Evaluations, count_evaluations
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.tracking.settings import find_settings
-from nag.witness.cutting import Cut
+from nag.witness.cutting import Cut, find_cut
+from nag.witness.fibres import Fibre, move
 from nag.witness.gauss_newton import polish
 from nag.witness.points import Points
+from nag.witness.slices import random_rows, rows_through, unit_complex
 from nag.witness.witness import PathCounts, Status, WitnessSet
 
 # Digits of loops as long as they find points, and of what is tracked from then on.
@@ -86,11 +87,14 @@ class _Allowance:
     per_path: dict[int, float] = field(default_factory=dict)
     paths: PathCounts = field(default_factory=PathCounts)
 
-    def pay(self, digits: int, work: int, paths: PathCounts) -> None:
+    def pay(self, digits: int, spent: Evaluations, paths: PathCounts) -> None:
         """Take off what paths took."""
-        lanes = LANES / max(paths.tracked, 1) if digits == DOUBLE else 1.0
-        cost = work * self.each * max(lanes, 1.0) + paths.tracked * PATH
-        self.seconds -= cost
+        work = spent.work * self.each
+        if digits == DOUBLE:
+            # Lanes that are not filled take as long.
+            work *= max(LANES / max(paths.tracked, 1), 1.0)
+        cost = work + paths.tracked * PATH
+        self.seconds -= cost + spent.once * self.each
         self.paths += paths
         if paths.tracked:
             self.per_path[digits] = cost / paths.tracked
@@ -146,15 +150,27 @@ def _first_point(
 ) -> Points | None:
     """The point of a generic slice that a solution is carried to."""
     near = reduction.frame.coordinates(np.asarray(point, dtype=complex))
-    zero = polish(reduction.equations.evaluator, near, dimension)
-    start = GivenPoint(zero.x, LEAST, [dimension], False)
-    attempts = [DOUBLE] * MOST_SLICES + [DOUBLE_DOUBLE]
-    for digits in attempts if allowance.seconds > 0 else ():
-        slices = CommonSlices.random(reduction.equations, rng)
-        slices, place, spent = slices.with_start(start, rng, _in_digits(run, digits))
-        allowance.paths += spent
-        if place is not None:
-            return slices.points[dimension]
+    x = polish(reduction.equations.evaluator, near, dimension).x
+    rows = rows_through(rng, dimension, x)
+    # One cut for all attempts: to make a large one ready takes longer than a path.
+    found = find_cut(reduction.equations, rows, x, LEAST, rng, deflate=False)
+    if found is None:
+        return None
+    cut, z = found
+    allowance.each = _evaluation_seconds(cut)
+    for digits in [DOUBLE] * MOST_SLICES + [DOUBLE_DOUBLE]:
+        if allowance.seconds <= 0:
+            break
+        start = Fibre(cut, rows, z[None])
+        rows = rows_through(rng, dimension, z)
+        target, gamma = random_rows(rng, dimension, len(z)), complex(unit_complex(rng))
+        with count_evaluations() as spent:
+            (ends,) = move([start], target, gamma, _in_digits(run, digits))
+        allowance.pay(digits, spent, ends.counts.judged_elsewhere)
+        # A cut that leaves out an equation which only seems to hold gives itself away elsewhere.
+        on_all = reduction.equations.evaluator.residuals(ends.x).max(initial=0.0) <= ON
+        if ends.regular.all() and on_all:
+            return Points(target).with_point(cut, ends.points[0])
     return None
 
 
@@ -195,12 +211,13 @@ class _Growing:
 
     def find_all(self) -> str:
         """Run loops until the trace of all points is linear; why it did not become so."""
-        self.allowance.each = _evaluation_seconds(self.points.cuts[0])
         quiet, digits = 0, DOUBLE
         for _ in range(MOST_LOOPS):
-            if quiet and self._has_linear_trace():
+            linear = self._has_linear_trace() if quiet else None
+            if linear:
                 return ""
-            if quiet == MOST_QUIET:
+            # Where a trace says that points are missing, it is for more loops to find them.
+            if linear is None and quiet >= MOST_QUIET:
                 return NOT_ALL
             self.run.tell("points of the component", len(self.points), 0)
             known = self.allowance.per_path.get(digits)
@@ -217,7 +234,7 @@ class _Growing:
         run = _in_digits(self.run, digits)
         with count_evaluations() as spent:
             found, paths = run_loop(self.points, range(some), self.rng, run, scaled)
-        self.allowance.pay(digits, spent.work, paths)
+        self.allowance.pay(digits, spent, paths)
         if found.places is None:
             return False
         new = found.places < 0
@@ -227,8 +244,8 @@ class _Growing:
         self.loops.append(pairs)
         return bool((new & good).any())
 
-    def _has_linear_trace(self) -> bool:
-        """Whether the trace of all points is linear, as far as it can be afforded."""
+    def _has_linear_trace(self) -> bool | None:
+        """Whether the trace of all points is linear; None where it cannot be afforded or said."""
         run, everything = _in_digits(self.run, DOUBLE_DOUBLE), range(len(self.points))
         trace = self.trace or Trace.of(self.points, self.evidence, self.rng)
         while True:
@@ -237,15 +254,15 @@ class _Growing:
             if not rest:
                 break
             if not some:
-                return False
+                return None
             with count_evaluations() as spent:
                 trace, paths = trace.carry(self.points, rest[: min(some, MOST_AT_ONCE)], run)
-            self.allowance.pay(DOUBLE_DOUBLE, spent.work, paths)
+            self.allowance.pay(DOUBLE_DOUBLE, spent, paths)
             self.trace = trace
             if trace is None:
-                return False
+                return None
         linear, self.trace = trace.linear(self.points, everything)
-        return bool(linear)
+        return linear
 
     def confirmed(self) -> WitnessSet:
         """The component of the first point, whose trace is linear and that of no part of it."""

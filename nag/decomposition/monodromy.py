@@ -178,9 +178,21 @@ def ends_are_distinct(ends: Points, places: np.ndarray) -> bool:
     known, new = places[places >= 0], np.flatnonzero(places < 0)
     if len(np.unique(known)) < len(known):
         return False
-    for k in range(1, len(new)):
-        earlier, last = ends.only(new[:k]), ends.only(new[k : k + 1])
-        among = locate_ends(last, earlier)
+    if not len(new):
+        return True
+    among = ends.only(new)
+    if among.fine:
+        return _are_distinct_in_digits(among)
+    # Each of them is the nearest to itself.
+    apart = _two_nearest(among.x, among.x)[2] / (1 + np.linalg.norm(among.x, axis=1))
+    near, doubtful = classify_arrivals(apart, ROUGH)
+    return not (near | doubtful).any()
+
+
+def _are_distinct_in_digits(ends: Points) -> bool:
+    """Whether no two of some ends are one point, those that have more digits compared in these."""
+    for k in range(1, len(ends)):
+        among = locate_ends(ends.only([k]), ends.only(range(k)))
         if among is None or (among >= 0).any():
             return False
     return True

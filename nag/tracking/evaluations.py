@@ -14,8 +14,9 @@ from dataclasses import dataclass
 # What an evaluation in so many doubles to a number takes, beside one in doubles, of which eight are
 # made at once.
 WEIGHTS = {1: 1, 2: 25, 4: 150, 8: 800}
-# The same of a proof, in balls, that a path's end is a regular zero.
-PROOF = 20_000
+# The same of a proof, in balls, that a path's end is a regular zero; and of making the arrays of a
+# system ready for one arithmetic.
+PROOF, PREPARATION = 20_000, 40_000
 
 
 @dataclass
@@ -25,10 +26,12 @@ class Evaluations:
     Attributes:
         work: the same, those in more digits counted as so many in doubles as they take the time of,
             and proofs of ends as well.
+        once: the same of what is done once for all paths.
     """
 
     number: int = 0
     work: int = 0
+    once: int = 0
 
 
 _counting: ContextVar[Evaluations | None] = ContextVar("counting", default=None)
@@ -50,6 +53,7 @@ def count_evaluations() -> Iterator[Evaluations]:
         if outer is not None:
             outer.number += found.number
             outer.work += found.work
+            outer.once += found.once
 
 
 def count(number: int, words: int = 1) -> None:
@@ -69,3 +73,10 @@ def count_proof() -> None:
     found = _counting.get()
     if found is not None:
         found.work += PROOF
+
+
+def count_preparation() -> None:
+    """Add the work of making a system's arrays ready for one arithmetic, if someone counts."""
+    found = _counting.get()
+    if found is not None:
+        found.once += PREPARATION

@@ -11,6 +11,7 @@ from nag.algebra.number import Number, rounded_fraction
 from nag.machine_code.lanes import scratch
 from nag.machine_code.records import Reals, Table, Wholes, replaced, table
 from nag.tracking.compiled import CompiledRows
+from nag.tracking.evaluations import count_preparation
 from nag.tracking.homotopy import Homotopy, norms
 
 # Numbers that are no more than doubles.
@@ -236,6 +237,7 @@ def _template(homotopy: Homotopy, count: int) -> Table:
     """What all homotopies of the same rows have in common, in numbers of ``count`` words."""
     rows, key = homotopy.rows, f"equations {count}"
     if key not in rows._cache:
+        count_preparation()
         tape, m = rows.tape, len(rows)
         value, jacobian = tape.value_coefficient, tape.jacobian_coefficient
         doubles = count == 1

@@ -17,6 +17,8 @@ from nag.tracking.homotopy import Homotopy
 
 # Bits of working precision for numbers of as many words.
 BITS = {2: 140, 4: 280, 8: 560}
+# Under what name rows keep themselves at the end of paths on which they do not change.
+AT_END = "balls at the end"
 # A monomial; with it, the coefficients of 1 and of t.
 Term = tuple[Factors, Any, Any]
 
@@ -55,19 +57,10 @@ class Terms:
     def at_end(self) -> BallPolynomials:
         """The rows at t = 0."""
         h = self.homotopy
-        rows = [
-            tuple(
-                (times(c, h.factors[part][0]), factors_of(e))
-                for part, own in row
-                if h.factors[part][0] != 0
-                for e, c in own.items()
-                if c != 0
-            )
-            for row in h.rows.parts
+        lines = [
+            tuple((c, ((j, 1),)) for j, c in enumerate(line) if c != 0) for line in h.A0.tolist()
         ]
-        for line in h.A0.tolist():
-            rows.append(tuple((c, ((j, 1),)) for j, c in enumerate(line) if c != 0))
-        return BallPolynomials(h.N, tuple(rows))
+        return BallPolynomials(h.N, tuple(lines), _polynomials_at_end(h))
 
     def with_patches(self, x: list[flint.acb], bits: int) -> BallPolynomials:
         """The rows at t = 0, and one for each group, whose product with a point is 1."""
@@ -79,6 +72,29 @@ class Terms:
                 parts = [((c / size).mid(), ((j, 1),)) for j, c in conjugates]
                 rows.append(((-1, ()), *parts))
         return BallPolynomials(self.homotopy.N, tuple(rows), self.at_end)
+
+
+def _polynomials_at_end(h: Homotopy) -> BallPolynomials:
+    """The rows that are not linear, at t = 0; all homotopies that only move slices share them."""
+    factors = [a for a, _ in h.factors]
+    shared = all(a == 1 for a in factors)
+    known = h.rows._cache.get(AT_END) if shared else None
+    if isinstance(known, BallPolynomials):
+        return known
+    rows = tuple(
+        tuple(
+            (times(c, factors[part]), factors_of(e))
+            for part, own in row
+            if factors[part] != 0
+            for e, c in own.items()
+            if c != 0
+        )
+        for row in h.rows.parts
+    )
+    found = BallPolynomials(h.N, rows)
+    if shared:
+        h.rows._cache[AT_END] = found
+    return found
 
 
 def times(c: Number | complex, factor: complex) -> Any:
