@@ -8,8 +8,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nag.mechanism import path_estimates
-from nag.mechanism.path_estimates import intersection_number, intersection_numbers
+from nag.files.cases import read_case
+from nag.mechanism import formulations, half_angles, path_estimates
+from nag.mechanism.axes import space_of
+from nag.mechanism.euler import estimated_euler_paths, euler_model
+from nag.mechanism.formulations import alternatives, smallest_alternative
+from nag.mechanism.model import model, with_loops
+from nag.mechanism.path_estimates import (
+    estimated_paths,
+    intersection_number,
+    intersection_numbers,
+)
 
 
 @st.composite
@@ -70,3 +79,57 @@ def test_many_lines_with_a_pair_of_equations_each_are_counted_at_once():
 
 def test_linear_equations_choose_among_spaces_in_every_order():
     assert intersection_numbers([], [1] * 30) == (factorial(30),)
+
+
+def looped(name):
+    structure = with_loops(read_case(f"cases/{name}.toml").mechanism)
+    return structure, space_of(structure.joints)
+
+
+@pytest.mark.parametrize(
+    "name", ["bennett", "robots/3-prs", "robots/3-rps", "robots/hexapod", "spatial/rccc"]
+)
+def test_euler_parameters_have_as_many_paths_as_the_graph_says(name):
+    structure, _ = looped(name)
+    assert estimated_euler_paths(structure) == estimated_paths(euler_model(structure).system)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "bennett",
+        "planar/elliptic-trammel",
+        "robots/3-prs",
+        "robots/3-rps",
+        "robots/3-rrr-planar",
+        "robots/3-rrr-spherical",
+        "robots/tripteron",
+        "spatial/bennett-chain-3",
+        "spatial/four-sliders",
+        "spatial/rssr",
+    ],
+)
+def test_what_is_chosen_from_the_graph_has_the_fewest_paths_of_all(name):
+    structure, space = looped(name)
+    chosen, first = smallest_alternative(structure, space), alternatives(structure, space)[0]
+    assert (chosen.formulation, chosen.paths) == (first.formulation, first.paths)
+
+
+def test_only_what_is_chosen_is_made(monkeypatch):
+    made = []
+    for name in ("euler_model", "half_angle_model"):
+        real = getattr(formulations, name)
+        monkeypatch.setattr(
+            formulations, name, lambda *a, real=real, n=name: made.append(n) or real(*a)
+        )
+    assert smallest_alternative(*looped("robots/hexapod")).formulation == "E"
+    assert made == ["euler_model"]
+    assert smallest_alternative(*looped("robots/tripteron")).formulation == "H"
+    assert made == ["euler_model"]
+
+
+def test_a_model_says_that_choosing_it_was_cut_short(monkeypatch):
+    mechanism = read_case("cases/spatial/bennett-chain-3.toml").mechanism
+    assert "choosing stopped" not in model(mechanism).reason
+    monkeypatch.setattr(half_angles, "MOST_LOOPS", 1)
+    assert model(mechanism).reason.endswith("; choosing stopped after 1 basis of 3 loops")

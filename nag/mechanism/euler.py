@@ -12,11 +12,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import accumulate
+from operator import mul
 from string import ascii_lowercase
 from typing import Any
 
 from nag.algebra.elimination import Elimination, eliminate_linear
-from nag.algebra.exact_ranks import independent_polynomials, row_echelon
+from nag.algebra.exact_ranks import independent_polynomials, rank, row_echelon
 from nag.algebra.number import Number, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -99,6 +101,60 @@ def euler_model(
     symmetries = tuple(signs for signs in changes if _is_symmetry(system, signs))
     reference = () if modes else tuple(elimination.project(start))
     return EulerModel(structure, elimination, system, reference, symmetries, modes)
+
+
+def estimated_euler_paths(structure: LoopStructure, spherical: bool = False) -> int:
+    """What `nag.mechanism.path_estimates.estimated_paths` says of the equations, by their look.
+
+    Bodies that slide along each other turn together. Each that turns alone has a norm, joints at
+    the base leave it fewer parameters, others are bilinear; a loop's equations are quadrics, or
+    cubics where a slide is carried about, less those that slides in the base's axes are solved by.
+
+    Args:
+        structure: the mechanism's part with loops.
+        spherical: as for `euler_model`.
+    """
+    together = {body: body for body in (structure.base, *structure.moving)}
+    for joint in structure.joints:
+        if joint.of_type.orthogonalities == 3:
+            one, other = sorted((together[b] for b in joint.bodies), key=structure.base.__ne__)
+            together = {b: one if of == other else of for b, of in together.items()}
+    turning = set(together.values()) - {structure.base}
+    conditions: dict[str, list[tuple[Number, ...]]] = {body: [] for body in turning}
+    degrees = [2] * len(turning)
+    for joint in structure.joints:
+        ends = {together[b] for b in joint.bodies}
+        count = joint.of_type.orthogonalities
+        free = ends - {structure.base}
+        if len(ends) == 1 or not count:
+            continue
+        if count == 2 and len(free) == 1:
+            conditions[free.pop()] += mode_conditions(joint, 0)
+        else:
+            degrees += [2] * 2 if count == 2 else [2 * len(free)]
+    unknowns = sum(4 - rank(rows) for rows in conditions.values())
+    carried = [
+        j for j in structure.joints if together[slide_carrier(structure, j)] != structure.base
+    ]
+    slides = [(j, u) for j in structure.joints for u in slide_directions(j)]
+    fixed = [(j, u) for j, u in slides if j not in carried]
+    solved: list[tuple[Number, ...]] = []
+    for loop in structure.loops if not spherical else ():
+        cubic = any(j in loop.joints and j in carried for j, _ in slides)
+        for i in range(3):
+            row = tuple(
+                u[i]
+                * (1 if loop.bodies[loop.joints.index(j)] == slide_carrier(structure, j) else -1)
+                if j in loop.joints
+                else Fraction(0)
+                for j, u in fixed
+            )
+            if rank([*solved, row]) > len(solved):
+                solved.append(row)
+            else:
+                degrees.append(3 if cubic else 2)
+    unknowns += len(slides) - len(solved)
+    return sum(accumulate(sorted(degrees)[:unknowns], mul))
 
 
 def euler_system(

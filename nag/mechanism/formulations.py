@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias
 
-from nag.algebra.turns import FEWEST_LOOPS
 from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space
-from nag.mechanism.euler import EulerModel, euler_model
+from nag.mechanism.euler import EulerModel, estimated_euler_paths, euler_model
 from nag.mechanism.graph import Joint
-from nag.mechanism.half_angles import HalfAngleModel, half_angle_model
+from nag.mechanism.half_angles import ChoiceStopped, HalfAngleModel, LoopClosures, half_angle_model
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.path_estimates import Alternative
 from nag.mechanism.planar import PlanarModel, planar_model
@@ -58,37 +58,29 @@ def smallest_alternative(
 ) -> Alternative:
     """The formulation with the fewest estimated paths.
 
-    What cannot be it is not worked out: half-angles have four equations for each loop; Euler
-    parameters, which cover everything, have many quadrics.
+    Its equations are made, and those of no other: half-angles and Euler parameters are estimated
+    from the graph. Where rods are few, distances are the smallest. In the plane several loops may
+    take fewer paths at once, which only equations show; those of Euler parameters are short there.
     """
     rods = alternative(structure, space, "S", modes)
     if rods.form is not None and rods.paths <= 4 ** (len(structure.loops) + 1):
         return rods
-    others = [rods, alternative(structure, space, "H", modes)]
-    fitting = sorted((a for a in others if a.form is not None), key=lambda a: a.paths)
-    if fitting and fitting[0].paths <= _least_euler_paths(structure, space):
-        return fitting[0]
-    euler = alternative(structure, space, "E", modes)
-    return min([*fitting, euler], key=lambda a: a.paths)
-
-
-def _least_euler_paths(structure: LoopStructure, space: Space) -> int:
-    """What the estimate for Euler parameters is at least.
-
-    Norms of the moving bodies, and two equations for each turning joint between them, are
-    independent quadrics; those of joints at the base are linear and leave fewer variables. Several
-    loops in the plane may take fewer paths at once.
-    """
-    moving = len(structure.moving)
-    sliding = sum(j.of_type.orthogonalities == 3 for j in structure.joints)
-    if space == "planar" and not sliding and len(structure.loops) >= FEWEST_LOOPS:
-        return 0
-    if space == "planar" or sliding:
-        return 2 ** (max(moving - sliding, 0) + 1) - 2
-    turning = [j for j in structure.joints if j.of_type.orthogonalities == 2]
-    at_base = sum(structure.base in j.bodies for j in turning)
-    quadrics = min(moving + 2 * (len(turning) - at_base), 4 * moving - 2 * at_base)
-    return 2 ** (quadrics + 1) - 2
+    euler = alternative(structure, space, "E", modes) if space == "planar" else None
+    paths = estimated_euler_paths(structure, space == "spherical") if euler is None else euler.paths
+    closures, stopped = None, ""
+    try:
+        closures = LoopClosures.of(structure, modes)
+        stopped = closures.stopped
+    except ChoiceStopped as error:
+        stopped = error.stopped
+    except ValueError:
+        pass
+    most = paths if closures is None else closures.estimated_paths(space)
+    if rods.form is not None and rods.paths <= min(most, paths):
+        return replace(rods, stopped=stopped)
+    if closures is not None and most <= paths:
+        return Alternative("H", closures.model, stopped=stopped)
+    return replace(euler or alternative(structure, space, "E", modes), stopped=stopped)
 
 
 def description(alternative: Alternative, space: Space) -> str:

@@ -14,6 +14,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import prod
 from typing import Any
 
@@ -23,7 +24,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.mechanism.assembly_modes import REFERENCE, Modes
-from nag.mechanism.axes import difference
+from nag.mechanism.axes import Space, difference
 from nag.mechanism.configuration import (
     Arithmetic,
     Configuration,
@@ -45,7 +46,7 @@ from nag.mechanism.loop_product import (
     opposite,
 )
 from nag.mechanism.loops import Loop, LoopStructure, loop_bases
-from nag.mechanism.path_estimates import intersection_number
+from nag.mechanism.path_estimates import intersection_number, intersection_numbers
 from nag.mechanism.quaternion import conjugate, multiply, norm_squared, scale
 from nag.numerics.read_only import fixed_mapping
 
@@ -53,6 +54,21 @@ from nag.numerics.read_only import fixed_mapping
 WIDE = 4
 # An equation has at most as many terms as the product of its factors has.
 MOST_TERMS = 2**10
+# Loops of other and other bases that are looked at, until in one of these each has something of its
+# own: a third of a millisecond each.
+MOST_LOOPS = 1_000
+
+
+class ChoiceStopped(NagError):
+    """No basis of the loops was found in which each has something of its own, and not all tried.
+
+    Attributes:
+        stopped: how many were.
+    """
+
+    def __init__(self, problem: str, stopped: str) -> None:
+        super().__init__(f"{problem}; {stopped}")
+        self.stopped = stopped
 
 
 @dataclass(frozen=True)
@@ -146,28 +162,81 @@ class HalfAngleModel:
         return configuration(structure, euler, arithmetic, slides)
 
 
+@dataclass(frozen=True)
+class LoopClosures:
+    """How the loops of a mechanism are closed, before anything is multiplied out.
+
+    Attributes:
+        structure: the mechanism's part with loops.
+        closures: one for each loop.
+        elements: for each joint, by name, its factors and constants.
+        kept: the factors whose coordinates are the unknowns, in their order.
+        modes: the assembly modes.
+        stopped: where bases were left that might have been better, how many were looked at.
+    """
+
+    structure: LoopStructure
+    closures: tuple[Closure, ...]
+    elements: Mapping[str, tuple[Element, ...]]
+    kept: tuple[Factor, ...]
+    modes: Modes
+    stopped: str = ""
+
+    @classmethod
+    def of(cls, structure: LoopStructure, modes: Modes = REFERENCE) -> LoopClosures:
+        """Those with the fewest paths each.
+
+        Raises:
+            ValueError: if a loop has nothing of its own to eliminate, or nothing is left.
+        """
+        elements, chosen, stopped = _choose_closures(structure, dict(modes))
+        lost = {f for c in chosen for f in c.lost}
+        kept = tuple(f for f in _in_order(chosen) if f not in lost)
+        if not kept:
+            raise NagError(_too_short(len(structure.joints)))
+        return cls(structure, tuple(chosen), elements, kept, modes, stopped)
+
+    def estimated_paths(self, space: Space) -> int:
+        """What `nag.mechanism.path_estimates.estimated_paths` says of equations as they look.
+
+        They are taken for independent and of full degree in all factors. Displacements in the plane
+        and about a point are in a space of four dimensions, as each pair of joints that is
+        eliminated is.
+        """
+        whole = 8 if space == "spatial" else WIDE
+        rows: list[tuple[int, ...]] = []
+        for closure in self.closures:
+            own = {e.factor for e in closure.kept}
+            row = tuple(int(f in own) for f in self.kept)
+            rows += [row] * (whole - len(closure.basis))
+            if closure.quadric:
+                rows.append(tuple(2 * k for k in row))
+        dimensions = [f.dimension for f in self.kept]
+        return sum(intersection_numbers(sorted(rows, key=sum), dimensions)[1:])
+
+    @cached_property
+    def model(self) -> HalfAngleModel:
+        """The equations."""
+        charts = Charts.of(self.kept)
+        equations = [f for c in self.closures for f in _equations(c, charts)]
+        return HalfAngleModel(
+            self.structure,
+            self.closures,
+            charts,
+            self.elements,
+            charts.system(equations),
+            () if self.modes else charts.reference,
+            self.modes,
+        )
+
+
 def half_angle_model(structure: LoopStructure, modes: Modes = REFERENCE) -> HalfAngleModel:
     """The loop equations in half-angles, slides and quaternions of the joints.
 
     Raises:
         ValueError: if a loop has nothing of its own to eliminate, or nothing is left.
     """
-    elements, chosen = _choose_closures(structure, dict(modes))
-    lost = {f for c in chosen for f in c.lost}
-    kept = [f for f in _in_order(chosen) if f not in lost]
-    if not kept:
-        raise NagError(_too_short(len(structure.joints)))
-    charts = Charts.of(kept)
-    equations = [f for c in chosen for f in _equations(c, charts)]
-    return HalfAngleModel(
-        structure,
-        tuple(chosen),
-        charts,
-        elements,
-        charts.system(equations),
-        () if modes else charts.reference,
-        modes,
-    )
+    return LoopClosures.of(structure, modes).model
 
 
 def _equations(closure: Closure, charts: Charts) -> Sequence[Polynomial]:
@@ -178,12 +247,21 @@ def _equations(closure: Closure, charts: Charts) -> Sequence[Polynomial]:
 
 def _choose_closures(
     structure: LoopStructure, modes: dict[str, int]
-) -> tuple[dict[str, tuple[Element, ...]], list[Closure]]:
-    """For some basis of the loops: what each of them eliminates, with the fewest paths."""
+) -> tuple[dict[str, tuple[Element, ...]], list[Closure], str]:
+    """For some basis of the loops: what each of them eliminates, with the fewest paths.
+
+    Also how many bases were looked at, where others were left.
+    """
     single = structure.single is not None
-    problem = ""
+    problem = stopped = ""
     for narrow in (False,) if single else (False, True):
-        for loops in loop_bases(structure):
+        looked_at = 0
+        for k, loops in enumerate(loop_bases(structure)):
+            looked_at += len(loops)
+            if k and looked_at > MOST_LOOPS:
+                bases = "1 basis" if k == 1 else f"{k} bases"
+                stopped = f"choosing stopped after {bases} of {len(loops)} loops"
+                break
             elements: dict[str, tuple[Element, ...]] = {}
             products = [_loop_elements(loop, modes, elements) for loop in loops]
             users = Counter(f for product in products for f in factors_in(product))
@@ -202,8 +280,8 @@ def _choose_closures(
                     break
                 chosen.append(best)
             else:
-                return elements, chosen
-    raise NagError(problem)
+                return elements, chosen, stopped
+    raise ChoiceStopped(problem, stopped) if stopped else NagError(problem)
 
 
 def _choose_closure(

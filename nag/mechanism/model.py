@@ -278,7 +278,8 @@ def _reason(structure: LoopStructure, space: Space, chosen: Alternative, asked: 
         return f"{text}, as asked"
     unknowns = count_text(chosen.system.n, "unknown")
     how = "at most" if chosen.at_once is None else "at once"
-    return f"{text}: {unknowns} and the fewest paths, {how} {chosen.paths}"
+    text += f": {unknowns} and the fewest paths, {how} {chosen.paths}"
+    return f"{text}; {chosen.stopped}" if chosen.stopped else text
 
 
 def _outside_text(structure: LoopStructure) -> str:

@@ -38,12 +38,14 @@ class Alternative:
         problem: why not; empty otherwise.
         solved: what is left of parts' equations when linear ones have been solved; None where those
             of ``form`` have been already.
+        stopped: where the choice among formulations was cut short, after what.
     """
 
     formulation: str
     form: Any
     problem: str = ""
     solved: PolynomialSystem | None = None
+    stopped: str = ""
 
     @classmethod
     def of_parts(cls, coordinates: str, form: Any) -> Alternative:
