@@ -333,3 +333,22 @@ def test_a_singular_reference_whose_decomposition_takes_too_long_is_said_to_be_o
     assert (report.tangent_dimension, report.local_dimension, report.components) == (5, 3, None)
     assert "8e+06 paths, more than a budget of 10 s allows" in report.open
     assert report.status == "mobile"
+
+
+@pytest.mark.parametrize(
+    ("name", "modes"),
+    [
+        ("3-upu-snu", [(3, 1), (3, 1), (3, 4), (3, 4)]),
+        ("3-upu-wrist", [(3, 1), (3, 14)]),
+    ],
+)
+def test_where_motions_of_a_robot_meet_its_modes_are_counted(name, modes):
+    found = nag.mobility(nag.read_case(f"cases/robots/{name}.toml"))
+    assert found.components is None and found.open
+    assert sorted(found.by_poses) == modes
+    assert max(found.by_poses)[0] == found.local_dimension
+    assert dict(found.rows())["by poses"].startswith(f"{len(modes)} operation modes")
+
+
+def test_modes_are_not_counted_where_components_are_known():
+    assert nag.mobility(nag.read_case("cases/robots/3-rps.toml"), budget=0).by_poses is None

@@ -175,6 +175,7 @@ def write_everything(
     idle = str(CASES / "robots" / "3-sps-s.toml")
     ask("mobility", idle, "--budget", "0", "--of", "platform")
     ask("mobility", str(CASES / "spatial" / "bennett-rounded.toml"), "--tolerance", "1e-4")
+    ask("mobility", str(CASES / "robots" / "3-upu-wrist.toml"))
     ask("decompose", str(CASES / "bennett.toml"), "--modes", "all")
     for name in ("3-uu-locked", "3-rps"):
         ask("modes", str(CASES / "robots" / f"{name}.toml"))
