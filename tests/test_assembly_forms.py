@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from linkages import CASES
 
+import nag
 from nag.algebra.expression import parse_number
 from nag.cli import main
 from nag.decomposition.decompose import decompose
@@ -235,6 +236,31 @@ def test_complete_bipartite_frameworks_in_space_are_shaky_on_a_quadric_and_rigid
         assert all(value == 0 for value in made.system(made.reference))
         local = local_dimension(made.system, made.reference)
         assert (local.dimension, local.tangent_dimension) == (0, tangent)
+
+
+def test_no_realisation_is_real_where_a_triangle_has_a_side_that_is_too_long():
+    # In the frame of A, B and C, whose vectors across A-B have negative squares, the apices are
+    # at rational places: e1 = AB of square 16, e2 and e3 of square v.
+    u = Fraction(36 + 16 - 256, 32)
+    v = 36 - 16 * u * u
+    assert v < 0
+    base = ((0, 0, 0), (1, 0, 0), (u, 1, 0))
+    bars, squared = [("A", "B"), ("B", "C"), ("C", "A")], [Fraction(n) for n in (16, 256, 36)]
+    for apex, place in (
+        ("N", (3, Fraction(1, 10), Fraction(1, 10))),
+        ("S", (4, 0, Fraction(1, 5))),
+    ):
+        for corner, at in zip("ABC", base, strict=True):
+            x, y, z = (p - q for p, q in zip(place, at, strict=True))
+            bars.append((corner, apex))
+            squared.append(16 * x * x + v * (y * y + z * z))
+    assert min(squared) > 0
+    model = framework_model(Framework(3, tuple("ABCNS"), tuple(bars), tuple(squared)))
+    found = nag.solve(model.system)
+    points = [s.point for s in found.solutions]
+    assert len(points) == 4
+    assert all(abs(point.imag).max() < 1e-12 for point in points)
+    assert not any(model.is_real(point) for point in points)
 
 
 def test_real_realisations_are_counted_where_coordinates_are_isotropic(capsys):

@@ -130,13 +130,28 @@ class FrameworkModel(AssemblyModel):
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real realisation, to within rounding."""
         if not self.coordinates.startswith("z"):
-            return super().is_real(point)
+            return self._has_real_frame and super().is_real(point)
         bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
         if self.coordinates == "z":
             pairs = zip(point, conjugates(self.framework, point), strict=True)
         else:
             pairs = zip(point[::2], point[1::2], strict=True)
         return all(abs(complex(z) - complex(w).conjugate()) <= bound for z, w in pairs)
+
+    @property
+    def _has_real_frame(self) -> bool:
+        """Whether the pinned triangle is one: no side of it is longer than the other two."""
+        framework = self.framework
+        if framework.dimension == 2 or framework.placement is not None:
+            return True
+        first, second, third = self.pinned
+        s, t, opposite = (
+            framework.squared_length(p, q)
+            for p, q in ((first, second), (first, third), (second, third))
+        )
+        if s is None or t is None or opposite is None:
+            return True
+        return bool(4 * s * t > (s + t - opposite) * (s + t - opposite))
 
 
 def framework_model(framework: Framework) -> FrameworkModel:
