@@ -92,8 +92,9 @@ def test_slider_cranks_have_nodes_exactly_where_the_lengths_add_up(digits: int) 
         assert SINGULAR.format(found.dimension, found.tangent_dimension, 2) in problem.facts
 
 
-def test_every_case_is_in_the_atlas() -> None:
-    cases = [str(path.relative_to(CASES).with_suffix("")) for path in CASES.rglob("*.toml")]
+def test_every_case_whose_components_are_known_is_in_the_atlas() -> None:
+    paths = [path for path in CASES.rglob("*.toml") if read_case(path).truth]
+    cases = [str(path.relative_to(CASES).with_suffix("")) for path in paths]
     run = [name for names in GROUPS.values() for name in names]
     assert sorted(run) == sorted(cases)
 

@@ -22,6 +22,7 @@ kind = "mechanism"
 ground = "A"
 """
 POINT = '[[point]]\nname = "p"\nat = { x = 1, y = 0 }\n'
+REFERENCE = '[truth.reference]\ndimension = 1\ntangent_dimension = 1\nsource = "s"\n'
 TRUTH = '[[truth.component]]\ndimension = 1\ndegree = 2\nsource = "s"\n'
 BODY = '[[body]]\nname = "B"\n'
 
@@ -224,6 +225,21 @@ BROKEN: dict[str, tuple[str | bytes, str, str]] = {
         SYSTEM + TRUTH + 'multidegree = ["1"]\n',
         "[[truth.component]] 1: multidegree",
         "write whole numbers",
+    ),
+    "truth of a reference that there is not": (
+        SYSTEM + REFERENCE,
+        "[truth]: reference",
+        "there is no reference configuration; give components instead",
+    ),
+    "truth of a reference without a source": (
+        mechanism(more=REFERENCE.replace("source", "#")),
+        "[truth][reference]: source",
+        "is missing",
+    ),
+    "truth of a tangent space that is too small": (
+        mechanism(more=REFERENCE.replace("tangent_dimension = 1", "tangent_dimension = 0")),
+        "[truth][reference]: tangent_dimension",
+        "is 0; it is as much as the dimension, or more",
     ),
     "truth as number": (SYSTEM + "truth = 3\n", "truth", "is a whole number; write a table"),
     "no joint": (MECHANISM, "joint", "is missing; write a table [[joint]]"),

@@ -173,6 +173,7 @@ def write_everything(
     ask("local", whole)
     ask("mobility", linkage, "--curves", "--check")
     idle = str(CASES / "robots" / "3-sps-s.toml")
+    ask("mobility", str(CASES / "mobility" / "k46.toml"), "--local")
     ask("mobility", idle, "--budget", "0", "--of", "platform")
     ask("mobility", str(CASES / "spatial" / "bennett-rounded.toml"), "--tolerance", "1e-4")
     ask("mobility", str(CASES / "robots" / "3-upu-wrist.toml"))

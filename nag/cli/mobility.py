@@ -114,6 +114,12 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     rows = report.rows()
     complete = report.status is not MobilityStatus.UNDECIDED and not report.open
     complete &= not any(curve.note for curve in report.curves)
+    known = _beside_known(report, case) if at is None else None
+    beside: dict[str, Any] | None = None
+    if known is not None:
+        text, agree, beside = known
+        rows.append(("known", text))
+        complete &= agree
     compared: dict[str, Any] | None = None
     if options.check:
         text, agree, compared = _compare(options, report, next(others, None))
@@ -125,10 +131,28 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         "budget": options.budget if _is_limited(options, report) else None,
         "configuration": [number_text(x) for x in here or ()],
         **report.document(),
+        "known": beside,
         "check": compared,
     }
     said = f"budget {options.budget} s" if _is_limited(options, report) else ""
     return answer_of(options, name_case(case), (), rows, fields, complete, said=said, width=WIDTH)
+
+
+def _beside_known(report: MobilityReport, case: Case) -> tuple[str, bool, dict[str, Any]] | None:
+    """What the case knows of its reference configuration, whether it is so, and as JSON."""
+    known = case.truth_at_reference
+    if known is None:
+        return None
+    from nag.report.agreement import AgreementKind, compare_at_reference, reference_text
+
+    verdict = compare_at_reference(report, known)
+    found = {
+        "tangent_dimension": known.tangent_dimension,
+        "local_dimension": known.dimension,
+        "source": known.source,
+        "verdict": str(verdict),
+    }
+    return reference_text(verdict, known), verdict is not AgreementKind.DIFFERS, found
 
 
 def _other_equations(problem: Problem, at: tuple[Number, ...] | None) -> Iterator[OtherEquations]:

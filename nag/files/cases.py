@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from nag.mechanism.assembly import AssemblyModel
     from nag.mechanism.graph import Mechanism
 
-__all__ = ["Case", "CaseError", "NamedPoint", "Truth", "read_case"]
+__all__ = ["Case", "CaseError", "NamedPoint", "Truth", "TruthAtReference", "read_case"]
 
 _TOML = re.compile(r"^[ \t]*(?:title|kind)[ \t]*=[ \t]*[\"']", re.MULTILINE)
 
@@ -116,13 +116,29 @@ class Truth:
 
 
 @dataclass(frozen=True)
+class TruthAtReference:
+    """What is known of the reference configuration alone.
+
+    Attributes:
+        dimension: the local dimension, in all freedoms: the mobility.
+        tangent_dimension: of the configuration space's tangent space there.
+        source: where it is known from.
+    """
+
+    dimension: int
+    tangent_dimension: int
+    source: str
+
+
+@dataclass(frozen=True)
 class Case:
     """A case file, read and checked. Either `system` or `mechanism` is there.
 
     `symmetries` are those that the file declares; each was verified exactly on the equations.
     `family` is the one that the file declares the system to belong to. Where the file gives the
     parts of a mechanism but not how they are assembled, `system` is that of `assembly`. What the
-    file says is known is left out where parameters were given other values.
+    file says is known, of components (`truth`) or at the reference configuration alone
+    (`truth_at_reference`), is left out where parameters were given other values.
     """
 
     title: str
@@ -136,6 +152,7 @@ class Case:
     symmetries: tuple[SignedPermutation, ...] = ()
     family: FamilyMember | None = None
     assembly: AssemblyModel | None = None
+    truth_at_reference: TruthAtReference | None = None
 
     @property
     def described(self) -> Mechanism | AssemblyModel | PolynomialSystem:
@@ -193,16 +210,17 @@ def read_case(
     budget = Budget()
     table = top.table("parameters")
     parameters = read_parameters(table, budget)
-    truth = _read_truth(top, kind)
+    truth, at_reference = _read_truth(top, kind)
     if values:
         changed = read_parameters(with_values(table, values), budget)
-        truth = truth if changed == parameters else ()
+        if changed != parameters:
+            truth, at_reference = (), None
         parameters = changed
     numbers = _Numbers(parameters, budget)
     if kind != "system":
         made = _read_parts(kind, top, numbers.number)
         case = _assembly_case(made, title=title, kind=kind, path=path, truth=truth, of=parameters)
-        return _with_points(case, top, numbers)
+        return _with_points(replace(case, truth_at_reference=at_reference), top, numbers)
     system, family = _read_system(top, numbers)
     return Case(
         title,
@@ -489,10 +507,22 @@ def _read_symmetries(top: CaseTable, system: PolynomialSystem) -> tuple[SignedPe
     return tuple(symmetries)
 
 
-def _read_truth(top: CaseTable, kind: str) -> tuple[Truth, ...]:
+def _read_truth(top: CaseTable, kind: str) -> tuple[tuple[Truth, ...], TruthAtReference | None]:
     known = top.table("truth")
-    known.allow(("component",))
-    return tuple(_read_component(t, kind) for t in known.tables("component", "truth."))
+    known.allow(("component", "reference"))
+    components = tuple(_read_component(t, kind) for t in known.tables("component", "truth."))
+    if "reference" not in known.values:
+        return components, None
+    placed = kind == "mechanism" or isinstance(top.values.get("points"), dict)
+    if not placed:
+        known.fail("reference", "there is no reference configuration; give components instead")
+    table = known.table("reference")
+    table.allow(("dimension", "tangent_dimension", "source"))
+    dimension = table.count("dimension", 0)
+    tangent = table.count("tangent_dimension", 0)
+    if tangent < dimension:
+        table.fail("tangent_dimension", f"is {tangent}; it is as much as the dimension, or more")
+    return components, TruthAtReference(dimension, tangent, table.text("source"))
 
 
 def _read_component(table: CaseTable, kind: str) -> Truth:

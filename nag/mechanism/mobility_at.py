@@ -42,6 +42,7 @@ from nag.witness.witness import Decomposition, WitnessSet
 
 # What components are known by.
 SMOOTH = "one component passes through a smooth point, and is reduced there"
+ISOLATED = "an isolated configuration is a component"
 ALL_COMPONENTS = "a decomposition of all configurations"
 
 
@@ -88,8 +89,8 @@ def mobility(
             there are, ``"curves"`` for genus and bonds of curves, too.
         budget: seconds that the degree may take at a smooth configuration, counted by what a common
             processor does in them, so that the answer does not depend on the time that is taken;
-            what is not known then is bounded from below. At a singular one nothing is decomposed
-            that is sure to take longer.
+            what is not known then is bounded from below. At a singular one that is not isolated
+            nothing is decomposed that is sure to take longer.
         of: the name of a body whose freedoms are asked for, of a mechanism at a smooth
             configuration.
         tolerance: of a mechanism that is rigid as it is given, how far its loops may open, in
@@ -292,6 +293,8 @@ def _with_components(
     """A report, and the components through the configuration."""
     if detail == "through" and first.local.smooth:
         return _with_only_component(first, problem, budget, run)
+    if detail == "through" and first.local.upper == 0:
+        return replace(first, components=((problem.free, 1),), rests_on=ISOLATED)
     paths = fewest_estimated_paths(problem.system)
     if detail == "through" and not first.local.smooth and paths * LEAST_SECONDS > budget:
         reason = (

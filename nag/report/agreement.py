@@ -1,4 +1,4 @@
-"""A decomposition beside what a case says is known of it."""
+"""An answer beside what a case says is known: components, or the reference configuration."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from nag.witness.shown import ComponentKind, flat, kinds, kinds_text
 from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:
-    from nag.files.cases import Truth
+    from nag.files.cases import Truth, TruthAtReference
+    from nag.mechanism.mobility_report import MobilityReport
 
 
 class AgreementKind(StrEnum):
@@ -117,3 +118,28 @@ def agreement_text(agreement: Agreement) -> str:
     if agreement.unlisted:
         text += f"; nothing is known of: {kinds_text(agreement.unlisted)}"
     return text + sources
+
+
+def compare_at_reference(report: MobilityReport, known: TruthAtReference) -> AgreementKind:
+    """Compare the dimensions at a reference configuration with those that are known."""
+    pairs = (
+        (report.local_dimension, known.dimension),
+        (report.tangent_dimension, known.tangent_dimension),
+    )
+    if any(found is not None and found != wanted for found, wanted in pairs):
+        return AgreementKind.DIFFERS
+    decided = all(found is not None for found, _ in pairs)
+    return AgreementKind.AGREES if decided else AgreementKind.OPEN
+
+
+def reference_text(verdict: AgreementKind, known: TruthAtReference) -> str:
+    """That comparison as one sentence."""
+    text = {
+        AgreementKind.AGREES: "agrees with what is known",
+        AgreementKind.OPEN: "agrees with what is known as far as it is decided",
+        AgreementKind.DIFFERS: "differs from what is known",
+    }[verdict]
+    return (
+        f"{text}: tangent dimension {known.tangent_dimension}, local dimension {known.dimension} "
+        f"({known.source})"
+    )

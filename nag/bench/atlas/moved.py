@@ -117,8 +117,14 @@ SPARSE: dict[str, tuple[str, ...]] = {
     ),
     "sparse-walking": (
         "planar/jansen-leg", "planar/chebyshev-four-bar", "planar/lambda-linkage",
-        "planar/hart-inversor",
+        "planar/hart-inversor", "planar/klann-leg", "planar/peaucellier-placed",
     ),
+    "sparse-platforms": (
+        "spatial/wren-4", "spatial/wren-5", "spatial/wren-6", "spatial/hexapod-6-3-held",
+        "spatial/hexapod-6-4-held", "spatial/kinematotropic-7r", "spatial/rssr-zero-rod",
+        "spherical/agile-eye-held",
+    ),
+    "sparse-bipyramids": ("spatial/bipyramid", "spatial/bipyramid-pentagon"),
     "sparse-robots": (
         "robots/3-prs", "robots/3-rps", "robots/3-rrr-planar", "robots/3-rrr-spherical",
         "robots/3-rrs", "robots/3-sps-s", "robots/3-upu-snu", "robots/3-upu-tangential",

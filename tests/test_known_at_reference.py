@@ -1,0 +1,142 @@
+"""What frameworks that are too large to decompose do at their reference configuration."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from itertools import combinations
+
+import pytest
+from linkages import CASES
+from solved import shipped
+
+import nag
+from nag.algebra.exact_ranks import null_space, rank
+from nag.cli import main
+from nag.mechanism.axes import cross, difference, dot
+from nag.mechanism.framework import Framework
+from nag.mechanism.mobility_report import MobilityStatus
+from nag.report.agreement import AgreementKind, compare_at_reference
+
+KNOWN = sorted(f"mobility/{path.stem}" for path in (CASES / "mobility").glob("*.toml"))
+STEFFEN = ["ABF", "AEF", "ABP", "BCP", "CDP", "ADP", "ADE", "CDE"]
+STEFFEN += ["EFQ", "CEQ", "CQR", "FQR", "BFR", "BCR"]
+Point = tuple[Fraction, ...]
+
+
+def framework(name: str) -> Framework:
+    return shipped(name).assembly.framework
+
+
+def places(name: str) -> dict[str, Point]:
+    made = framework(name)
+    return dict(zip(made.points, made.placement, strict=True))
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("name", KNOWN)
+def test_dimensions_at_the_reference_are_those_that_are_known(name: str, seed: int) -> None:
+    case = shipped(name)
+    report = nag.mobility(case, detail="local", seed=seed)
+    assert compare_at_reference(report, case.truth_at_reference) is AgreementKind.AGREES
+
+
+@pytest.mark.parametrize("graph", ["k46", "k55"])
+@pytest.mark.parametrize("on_quadric", [True, False])
+def test_bipartite_frameworks_are_shaky_where_their_points_lie_on_a_quadric(
+    graph: str, on_quadric: bool
+) -> None:
+    name = f"mobility/{graph}{'-on-quadric' if on_quadric else ''}"
+    monomials = [
+        [1, *p, *(p[i] * p[j] for i in range(3) for j in range(i, 3))]
+        for p in places(name).values()
+    ]
+    assert rank(monomials) == (9 if on_quadric else 10)
+    assert shipped(name).truth_at_reference.tangent_dimension == on_quadric
+
+
+@pytest.mark.parametrize("name", [name for name in KNOWN if name.endswith("-on-quadric")])
+def test_a_stress_forbids_shaky_frameworks_to_move(name: str) -> None:
+    # Connelly & Whiteley, Second-order rigidity and prestress stability, 1996.
+    made, at = framework(name), places(name)
+    index = {point: 3 * i for i, point in enumerate(made.points)}
+    rows = []
+    for a, b in made.bars:
+        row = [Fraction(0)] * (3 * len(index))
+        for k, x in enumerate(difference(at[a], at[b])):
+            row[index[a] + k], row[index[b] + k] = x, -x
+        rows.append(row)
+    # Nothing turns or is shifted where three points are held so.
+    (a, b, c), held = made.points[:3], []
+    for place, axes in ((a, (0, 1, 2)), (b, (1, 2)), (c, (2,))):
+        for k in axes:
+            held.append([Fraction(i == index[place] + k) for i in range(3 * len(index))])
+    (velocity,) = null_space(rows + held, 3 * len(index))
+    stresses = null_space([list(column) for column in zip(*rows, strict=True)], len(rows))
+
+    def square(bar: tuple[str, str]) -> Fraction:
+        first, second = (velocity[index[p] : index[p] + 3] for p in bar)
+        gap = difference(first, second)
+        return dot(gap, gap)
+
+    assert any(sum(w * square(bar) for w, bar in zip(s, made.bars, strict=True)) for s in stresses)
+    report = nag.mobility(shipped(name), budget=0)
+    assert (report.status, report.components) == (MobilityStatus.SHAKY, ((0, 1),))
+
+
+def volume(a: Point, b: Point, c: Point, d: Point) -> Fraction:
+    return dot(difference(b, a), cross(difference(c, a), difference(d, a)))
+
+
+def sign(x: Fraction) -> int:
+    return (x > 0) - (x < 0)
+
+
+def may_meet(ends: list[Point], triangle: list[Point]) -> bool:
+    """Whether a segment meets a triangle; also where it lies in its plane."""
+    p, q = ends
+    a, b, c = triangle
+    sides = [sign(volume(a, b, c, end)) for end in ends]
+    if sides[0] * sides[1] > 0:
+        return False
+    turns = {sign(volume(p, q, *edge)) for edge in ((a, b), (b, c), (c, a))}
+    return (not sides[0] and not sides[1]) or not {1, -1} <= turns
+
+
+def test_steffens_polyhedron_is_a_sphere_whose_faces_do_not_cross() -> None:
+    at, made = places("mobility/steffen"), framework("mobility/steffen")
+    edges = [frozenset(pair) for face in STEFFEN for pair in combinations(face, 2)]
+    assert {frozenset(bar) for bar in made.bars} == set(edges)
+    assert all(edges.count(edge) == 2 for edge in edges)
+    assert len(at) - len(made.bars) + len(STEFFEN) == 2
+    for one, other in combinations(STEFFEN, 2):
+        common = set(one) & set(other)
+        if len(common) == 2:
+            assert volume(*(at[p] for p in {*one, *other})) != 0
+            continue
+        for face, cut in ((one, other), (other, one)):
+            for edge in combinations(face, 2):
+                if common.isdisjoint(edge):
+                    assert not may_meet([at[p] for p in edge], [at[p] for p in cut])
+
+
+@pytest.mark.parametrize(("first", "second"), [("ABP", "CDE"), ("FEQ", "CRB")])
+def test_steffens_polyhedron_has_two_line_symmetric_octahedra(first: str, second: str) -> None:
+    # A half turn exchanges opposite points: distances between all six are so.
+    at = places("mobility/steffen")
+    image = dict(zip(first + second, second + first, strict=True))
+    for p, q in combinations(first + second, 2):
+        gap, turned = difference(at[p], at[q]), difference(at[image[p]], at[image[q]])
+        assert dot(gap, gap) == dot(turned, turned)
+
+
+def test_what_a_case_knows_of_its_reference_is_compared(capsys, tmp_path) -> None:
+    case, file = CASES / "mobility" / "k46.toml", tmp_path / "k46.json"
+    assert main(["mobility", str(case), "--local", "--quiet", "--json", str(file)]) == 0
+    assert "agrees with what is known" in capsys.readouterr().out
+    assert json.loads(file.read_text("utf-8"))["known"]["verdict"] == "agrees"
+    wrong = tmp_path / "wrong.toml"
+    text = case.read_text("utf-8").replace("tangent_dimension = 0", "tangent_dimension = 1")
+    wrong.write_text(text, "utf-8")
+    assert main(["mobility", str(wrong), "--local", "--quiet"]) == 1
+    assert "differs from what is known" in capsys.readouterr().out
