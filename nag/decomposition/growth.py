@@ -34,8 +34,11 @@ from nag.witness.witness import PathCounts, Status, WitnessSet
 # Digits of loops as long as they find points, and of what is tracked from then on.
 DOUBLE, DOUBLE_DOUBLE = 16, 32
 # Slices that the first point is carried to, at most; loops, and such in turn that find nothing; and
-# from how many of those on slices lie near the origin.
-MOST_SLICES, MOST_LOOPS, MOST_QUIET, QUIET = 4, 200, 12, 4
+# from how many of those on every other slice lies near the origin.
+MOST_SLICES, MOST_LOOPS, MOST_QUIET, QUIET = 4, 200, 24, 4
+# Paths that loops which find nothing track together at least before they are given up: those of few
+# points say little.
+QUIET_PATHS = 64
 # Paths that are tracked before it is known what they take, and at most at once.
 FEW, MOST_AT_ONCE = 64, 1024
 # Seconds that a path takes besides its evaluations, that an evaluation takes for each variable of a
@@ -217,14 +220,14 @@ class _Growing:
             if linear:
                 return ""
             # Where a trace says that points are missing, it is for more loops to find them.
-            if linear is None and quiet >= MOST_QUIET:
+            if linear is None and quiet >= max(MOST_QUIET, QUIET_PATHS // len(self.points)):
                 return NOT_ALL
             self.run.tell("points of the component", len(self.points), 0)
             known = self.allowance.per_path.get(digits)
             some = min(len(self.points), self.allowance.most(digits) // 2)
             if not some or (known is not None and some < len(self.points)):
                 return BUDGET
-            found = self._run_loop(digits, some, quiet >= QUIET)
+            found = self._run_loop(digits, some, quiet >= QUIET and quiet % 2 == 0)
             quiet = 0 if found else quiet + (some == len(self.points))
             digits = DOUBLE if found and digits == DOUBLE else DOUBLE_DOUBLE
         return NOT_ALL
