@@ -1,4 +1,4 @@
-"""What frameworks that are too large to decompose do at their reference configuration."""
+"""What is too large to decompose does at its reference configuration what is known of it."""
 
 from __future__ import annotations
 
@@ -39,6 +39,21 @@ def test_dimensions_at_the_reference_are_those_that_are_known(name: str, seed: i
     case = shipped(name)
     report = nag.mobility(case, detail="local", seed=seed)
     assert compare_at_reference(report, case.truth_at_reference) is AgreementKind.AGREES
+
+
+@pytest.mark.parametrize(
+    ("name", "body", "freedoms", "motion"),
+    [
+        ("delta", "platform", 3, "translations"),
+        ("h4", "middle", 4, "translations and turns of one direction"),
+    ],
+)
+def test_a_robot_moves_its_platform_as_is_known(
+    name: str, body: str, freedoms: int, motion: str
+) -> None:
+    report = nag.mobility(shipped(f"mobility/{name}"), detail="local", of=body)
+    found = report.moving.body
+    assert (found.screws.rank, found.kind) == (freedoms, motion)
 
 
 @pytest.mark.parametrize("graph", ["k46", "k55"])
@@ -128,6 +143,13 @@ def test_steffens_polyhedron_has_two_line_symmetric_octahedra(first: str, second
     for p, q in combinations(first + second, 2):
         gap, turned = difference(at[p], at[q]), difference(at[image[p]], at[image[q]])
         assert dot(gap, gap) == dot(turned, turned)
+
+
+@pytest.mark.parametrize("seed", [*range(10), 17])
+def test_no_seed_finds_another_degree_of_the_motion_of_steffens_polyhedron(seed: int) -> None:
+    report = nag.mobility(shipped("mobility/steffen"), seed=seed)
+    ((dimension, degree),) = report.components
+    assert (dimension, degree) == (1, 40) or (degree is None and report.least_degree <= 40)
 
 
 def test_what_a_case_knows_of_its_reference_is_compared(capsys, tmp_path) -> None:
