@@ -363,6 +363,8 @@ mechanism.nearly_mobile.ROUNDING            1e-11   Gaps of a loop, over its siz
                                                     leaves.
 mechanism.nearly_mobile.WIDEST_GAP          0.03    Gaps beyond which a motion is not followed, and
                                                     the largest tolerance.
+mechanism.nearly_mobile.PARALLEL            9e-4    Squared sines of angles between lines that count
+                                                    as parallel, where a centre is looked for.
 mechanism.nearly_mobile.HINT                1e-6    Smallest singular value, beside the next, at
                                                     which a rigid mechanism may be meant to move.
 mechanism.overconstrained.CLOSE             1e-9    Lengths and sines of angles that are the same,
@@ -417,7 +419,7 @@ interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZ
 mechanism.framework_decomposition: ROUNDED; mechanism.inverse_kinematics: TINY, LEAST_DAMPING,
 LEAST_SHARE; mechanism.mobility_at: LEAST_SECONDS;
 mechanism.moving_parts: LENGTH, ARRIVED; mechanism.nearly_mobile: STEP,
-SHORTEST_STEP, STRAIGHT, LONGEST_SLIDE, WEIGHT, COMPLEX_STEP, NO_STEP, TINY, SMALL;
+SHORTEST_STEP, STRAIGHT, BEND, LONGEST_SLIDE, WEIGHTS, COMPLEX_STEP, NO_STEP, TINY, SMALL;
 mechanism.operation_modes: NEARER; files.export: ROUNDED; files.json_values: AGREES;
 check.four_way: ROUNDING; decomposition.shown: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:
 PATIENCE; cli.running: INTERVAL.

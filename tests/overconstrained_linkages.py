@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from linkages import CASES
 from scipy.optimize import least_squares
+from scipy.spatial.transform import Rotation
 
 from nag.files.cases import read_case
 from nag.mechanism.graph import Joint, Mechanism
@@ -37,6 +38,13 @@ def turned(lines: Lines) -> Lines:
     return lines[0] @ q, lines[1] @ q + np.array([0.12, -0.3, 0.21])
 
 
+def posed(lines: Lines, seed: int) -> Lines:
+    """The same somewhere else, at random."""
+    turn = Rotation.random(random_state=seed)
+    shift = np.random.default_rng(seed).standard_normal(3)
+    return turn.apply(lines[0]), turn.apply(lines[1]) + shift
+
+
 def unit(rows: Sequence[Sequence[float]]) -> np.ndarray:
     found = np.array(rows, dtype=float)
     return found / np.linalg.norm(found, axis=1, keepdims=True)
@@ -61,6 +69,12 @@ def plane_symmetric() -> Lines:
     order = [inside[0], axes[0], axes[1], inside[1], axes[1] @ MIRROR, axes[0] @ MIRROR]
     there = [places[0], points[0], points[1], places[1], points[1] @ MIRROR, points[0] @ MIRROR]
     return np.array(order), np.array(there)
+
+
+def spherical() -> Lines:
+    """Four lines through a point, each drawn at a point of its own."""
+    axes = unit([[0.3, 0.1, 0.9], [0.8, -0.2, 0.6], [0.9, 0.7, 0.3], [-0.2, 0.8, 0.5]])
+    return axes, axes * np.array([[1.1], [0.9], [1.2], [0.8]])
 
 
 def sarrus() -> Lines:

@@ -10,8 +10,10 @@ from overconstrained_linkages import (
     assembled,
     line_symmetric,
     plane_symmetric,
+    posed,
     rounded_loop,
     sarrus,
+    spherical,
     turned,
 )
 from scipy.optimize import least_squares
@@ -27,10 +29,12 @@ from nag.mechanism.overconstrained import known_linkage
 KINDS = {
     "a Bennett linkage": lambda: assembled("bennett"),
     "a Goldberg 5R linkage": lambda: assembled("goldberg-5r"),
+    "a Myard 5R linkage": lambda: assembled("myard-5r"),
     "a trihedral Bricard linkage": lambda: assembled("bricard-trihedral"),
     "a line-symmetric Bricard linkage": line_symmetric,
     "a plane-symmetric Bricard linkage": plane_symmetric,
     "a Sarrus linkage": sarrus,
+    "a spherical linkage": spherical,
 }
 
 
@@ -43,7 +47,19 @@ def general_lines(n: int, seed: int) -> Lines:
 @pytest.mark.parametrize("name", KINDS)
 def test_exact_lines_have_the_name_of_their_linkage(name: str) -> None:
     found = known_linkage(*turned(KINDS[name]()))
-    assert found is not None and name.split()[-2] in found
+    assert found is not None and name.split()[1] in found
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_the_name_depends_on_the_lines_alone(name: str) -> None:
+    axes, points = KINDS[name]()
+    known = known_linkage(axes, points)
+    for seed in range(8):
+        rng = np.random.default_rng(seed)
+        along, first = rng.standard_normal((len(axes), 1)), int(rng.integers(len(axes)))
+        order = np.roll(np.arange(len(axes))[:: rng.choice([1, -1])], first)
+        moved = posed((axes * rng.choice([-1, 1], (len(axes), 1)), points + along * axes), seed)
+        assert known_linkage(moved[0][order], moved[1][order]) == known
 
 
 @pytest.mark.parametrize("n", [4, 5, 6])
@@ -80,6 +96,24 @@ def test_a_rounded_linkage_is_nearly_mobile_and_next_to_what_was_rounded(
     assert max(found.change) < 30 * 10.0**-digits * (1 + found.size)
     narrow = find_near_motion(mechanism, 10.0 ** (-digits - 3))
     assert narrow is not None and not narrow.nearly_mobile
+
+
+@pytest.mark.parametrize("pose", [1, 2])
+@pytest.mark.parametrize("make", [line_symmetric, plane_symmetric])
+def test_where_motions_nearly_meet_the_change_is_no_larger_than_the_rounding(make, pose) -> None:
+    found = find_near_motion(rounded_loop(posed(make(), pose), 3), WIDEST_GAP)
+    assert found is not None and found.nearly_mobile and found.change is not None
+    assert max(found.change[0], found.change[1] / found.size) < 1e-3
+
+
+@pytest.mark.parametrize("length", [1e-3, 1.0, 1e3])
+def test_near_motions_of_lines_that_all_but_meet_are_measured_where_they_are_drawn(
+    length: float,
+) -> None:
+    axes, points = turned(spherical())
+    found = find_near_motion(rounded_loop((axes, length * points), 9), 1e-3)
+    assert found is not None and found.nearly_mobile
+    assert length / 2 < found.size < 2 * length
 
 
 def opening(mechanism: nag.Mechanism, angles: np.ndarray) -> np.ndarray:

@@ -37,19 +37,25 @@ STEP = 0.1
 SHORTEST_STEP = 0.1 / 2**6
 # Cosine between neighbouring tangents below which a step is halved.
 STRAIGHT = 0.998
+# Steps shorter than this are round a bend where two motions nearly meet: which of them goes on is
+# as uncertain as the numbers.
+BEND = STEP / 4
 # Positions after which a motion is not followed further.
 MOST_POSITIONS = 1000
 # Gaps beyond which a motion is not followed further, and slides.
 WIDEST_GAP = 0.03
 LONGEST_SLIDE = 10.0
+# Lines are all but parallel, if squared sines of their angles are no more than this.
+PARALLEL = WIDEST_GAP**2
 # Positions at which the axes are fitted: more than the equations that any of their linkages has.
 FITTED = 12
 # Conditions that hold up to so many changes were meant: they are of lengths and angles together.
 MEANT = 30
 # The second fit is at positions of the motion of the first.
 FITS = 2
-# What closing weighs against changing the axes, when both are least squares.
-WEIGHT = 1e5
+# What closing weighs against changing the axes, when both are least squares: little at first, as a
+# fit that must close from the outset stays at the next best linkage.
+WEIGHTS = (1e1, 1e3, 1e5)
 # What is left of a gap by rounding.
 ROUNDING = 1e-11
 COMPLEX_STEP = 1e-40
@@ -99,7 +105,8 @@ class NearMotion:
     Attributes:
         tolerance: the largest gap and change, in radians and parts of ``size``, of what is called
             nearly mobile.
-        size: of the mechanism: mean distance of its axes from their centre; 1 if they all meet.
+        size: of the mechanism: mean distance of its axes from their centre, or, where they all but
+            meet there, that of the joints' points; 1 if these are there too.
         singular_values: the smallest and the next one of the loops' closure, in radians and sizes.
         driven: the joint that turns or slides most to first order.
         driven_to: how far it goes either way, by radians or in length.
@@ -248,19 +255,11 @@ def find_near_motion(mechanism: Mechanism, tolerance: float) -> NearMotion | Non
     driven = _most_moved(chains, tangent)
     tangent = tangent if tangent[driven] > 0 else -tangent
     walk = _follow_both_ways(chains, tangent)
-    fitted = closed = None
-    for _ in range(FITS):
-        fitted = _fit(chains, walk, max(tolerance, WIDEST_GAP / 10))
-        if fitted is None:
-            break
-        closed = _follow_both_ways(fitted, tangent)
-        if not closed.whole or max(fitted.widest_gap(closed)) > ROUNDING:
-            break
-        # Beside a linkage that moves, its motion is the better guide: motions may nearly meet.
-        walk = closed.beside(chains)
+    near = _find_mobile(chains, walk, tangent, max(tolerance, WIDEST_GAP / 10))
     change, left_open, linkages = None, None, []
-    if fitted is not None and closed is not None:
-        change, left_open = chains.change_to(fitted), fitted.widest_gap(closed)
+    if near is not None:
+        fitted, walk = near.chains, near.beside
+        change, left_open = chains.change_to(fitted), near.left_open
         linkages = [_linkage_of(fitted, loop, max(change)) for loop in chains.loops]
     widest = chains.widest_gap(walk)
     along = walk.positions[:, driven]
@@ -353,12 +352,17 @@ class Chains:
         turning = np.array([s.turns for s in screws])
         centre = _nearest_point(axis[turning], point[turning])
         point = point - centre
+        drawn = point.copy()
         feet = point - np.sum(point * axis, axis=1, keepdims=True) * axis
         for k, screw in enumerate(screws):
             # Where a joint has one axis, any of its points is as good.
             if len(_lines(structure.joints[screw.joint])) == 1:
                 point[k] = feet[k]
-        size = float(np.sqrt(np.mean(np.sum(feet[turning] ** 2, axis=1)))) if turning.any() else 0.0
+        size = _mean_size(feet[turning])
+        drawn = _mean_size(drawn[turning])
+        # Lines that all but meet in a point are drawn on a sphere about it.
+        if size <= WIDEST_GAP * drawn:
+            size = drawn
         if size <= ROUNDING * (1 + float(np.abs(centre).max())):
             size = 1.0
         return cls(
@@ -498,17 +502,23 @@ def _product(loop: Loop, numbers: dict[str, range]) -> tuple[tuple[int, int], ..
     return tuple(found)
 
 
+def _mean_size(vectors: Array) -> float:
+    """The root of the mean of squared lengths; 0 of none."""
+    return float(np.sqrt(np.mean(np.sum(vectors**2, axis=1)))) if len(vectors) else 0.0
+
+
 def _nearest_point(axis: Array, point: Array) -> Array:
     """The point whose squared distances from lines have the least sum; their mean where it moves.
 
-    Of parallel lines it is the one nearest to the mean of their points.
+    Of lines that are all but parallel it is the one nearest to the mean of their points: where they
+    meet may be anywhere.
     """
     if not len(axis):
         return np.zeros(3)
     across = np.eye(3) - axis[:, :, None] * axis[:, None, :]
     mean = point.mean(axis=0)
     right = np.einsum("kij,kj->i", across, point - mean)
-    return mean + np.linalg.lstsq(across.sum(axis=0), right, rcond=ROUNDING)[0]
+    return mean + np.linalg.lstsq(across.sum(axis=0), right, rcond=PARALLEL)[0]
 
 
 def _displacement(
@@ -575,6 +585,18 @@ class Walk:
     def whole(self) -> bool:
         """Whether it goes around, or as far as slides are followed."""
         return End.CLOSED in self.ends or self.ends == (End.FAR, End.FAR)
+
+    @property
+    def to_bends(self) -> Walk:
+        """The part around the reference up to where a step was short, on both sides."""
+        steps = np.linalg.norm(np.diff(self.positions, axis=0), axis=1)
+        reference = int(np.flatnonzero(~self.positions.any(axis=1))[0])
+        short = np.flatnonzero(steps < BEND)
+        before, after = short[short < reference], short[short >= reference]
+        first = int(before[-1]) + 1 if len(before) else 0
+        last = int(after[0]) if len(after) else len(steps)
+        own = slice(first, last + 1)
+        return Walk(self.positions[own], self.tangents[own], self.ends)
 
     def beside(self, chains: Chains) -> Walk:
         """The positions of other chains next to these."""
@@ -657,6 +679,62 @@ def _across(tangent: Array) -> Array:
     return np.linalg.svd(tangent[None])[2][1:].T
 
 
+@dataclass(frozen=True)
+class _Mobile:
+    """Chains that close at several positions, and how they move.
+
+    Attributes:
+        chains: with changed axes.
+        moves: whether they close all along a whole motion.
+        left_open: their largest gap over the motion.
+        beside: the positions of the given chains next to it; those that were fitted where it does
+            not move.
+    """
+
+    chains: Chains
+    moves: bool
+    left_open: tuple[float, float]
+    beside: Walk
+
+
+def _find_mobile(chains: Chains, walk: Walk, tangent: Array, widest: float) -> _Mobile | None:
+    """The least change with which chains move, or else close at the positions of a walk.
+
+    A walk may have gone astray where motions nearly meet, so that first only what lies before is
+    fitted.
+    """
+    found: list[_Mobile] = []
+    straight = walk.to_bends
+    for guess in [straight, walk] if len(straight.positions) < len(walk.positions) else [walk]:
+        found += _fit_repeatedly(chains, walk, guess, tangent, widest)
+        moving = [each for each in found if each.moves]
+        if moving:
+            return min(moving, key=lambda each: max(chains.change_to(each.chains)))
+    return found[-1] if found else None
+
+
+def _fit_repeatedly(
+    chains: Chains, walk: Walk, guess: Walk, tangent: Array, widest: float
+) -> list[_Mobile]:
+    """Fits at positions of a guess, then of the motions that were found, each if it is a fit."""
+    found: list[_Mobile] = []
+    beside = walk
+    for _ in range(FITS):
+        fitted = _fit(chains, guess, widest)
+        if fitted is None:
+            break
+        closed = _follow_both_ways(fitted, tangent)
+        left_open = fitted.widest_gap(closed)
+        moves = closed.whole and max(left_open) <= ROUNDING
+        if moves:
+            # Beside a linkage that moves, its motion is the better guide.
+            guess = beside = closed.beside(chains)
+        found.append(_Mobile(fitted, moves, left_open, beside))
+        if not moves:
+            break
+    return found
+
+
 def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
     """The least change of places and axes with which the loops close at a few positions.
 
@@ -697,15 +775,17 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
         return found.reshape(FITTED * rows, -1)
 
     unchanged = np.eye(m, m + FITTED * (n - 1))
-    x = least_squares(
-        lambda x: np.concatenate([WEIGHT * opening(x), x[:m]]),
-        np.zeros(m + FITTED * (n - 1)),
-        lambda x: np.vstack([WEIGHT * derivative(x), unchanged]),
-        ftol=TINY,
-        xtol=TINY,
-        gtol=TINY,
-        max_nfev=MOST_EVALUATIONS,
-    ).x
+    x = np.zeros(m + FITTED * (n - 1))
+    for weight in WEIGHTS:
+        x = least_squares(
+            lambda x, w=weight: np.concatenate([w * opening(x), x[:m]]),
+            x,
+            lambda x, w=weight: np.vstack([w * derivative(x), unchanged]),
+            ftol=TINY,
+            xtol=TINY,
+            gtol=TINY,
+            max_nfev=MOST_EVALUATIONS,
+        ).x
     for _ in range(SHORTEST_STEPS):
         x = x - np.linalg.lstsq(derivative(x), opening(x), rcond=SMALL)[0]
     closed = np.abs(opening(x)).max() < ROUNDING

@@ -247,7 +247,7 @@ def _is_myard(links: Links) -> bool:
         and links.same(a[0], a[4])
         and links.same(a[1], a[3])
         and links.same(a[2], 0)
-        and links.same_angle(abs(twist[0]), -abs(twist[4]))
+        and links.same_angle(twist[0], -twist[4])
         and any(links.same_angle(twist[2], sign * 2 * twist[0]) for sign in (1, -1))
         and links.same(a[0], a[1] * abs(np.sin(twist[0])))
     )
