@@ -189,7 +189,7 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
     Raises:
         UsageError: if nothing moves in it, or no configuration of it is known or given.
     """
-    from nag.mechanism.mobility_at import check_body, tree_of
+    from nag.mechanism.mobility_at import check_body, product_of_loops, tree_of
     from nag.mechanism.problem import in_real_coordinates
 
     case = read_case_file(options.case, options.set)
@@ -209,7 +209,11 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
         mechanism = case.mechanism
         counted = counted_row(gruebler_kutzbach(mechanism), space_of(mechanism.joints))
         say_first(options, name_case(case), [counted], WIDTH)
-    case, problem = read_problem(options)
+    problem = None
+    if case.kind == "mechanism" and options.at is None and options.formulation is None:
+        problem = product_of_loops(case.mechanism, _detail(options), chosen_run(options))
+    if problem is None:
+        case, problem = read_problem(options)
     if problem.model is None:
         raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
     if options.at is not None:
@@ -227,6 +231,13 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
     return case, problem
 
 
+def _detail(options: argparse.Namespace) -> Detail:
+    """What is asked for."""
+    if options.components or options.curves:
+        return "curves" if options.curves else "components"
+    return "local" if options.local else "through"
+
+
 def _reports(
     options: argparse.Namespace,
     given: Case | Problem,
@@ -237,15 +248,12 @@ def _reports(
     from nag.mechanism.mobility_at import NoAssembly, mobility_in_steps
     from nag.numerics.local_dimension import NoSolution
 
-    detail: Detail = "local" if options.local else "through"
-    if options.components or options.curves:
-        detail = "curves" if options.curves else "components"
     budget = options.budget if budget is None else budget
     try:
         yield from mobility_in_steps(
             given,
             at,
-            detail=detail,
+            detail=_detail(options),
             budget=budget,
             of=options.of,
             tolerance=options.tolerance,

@@ -12,7 +12,8 @@ cut by a slice at once) and `superset` (equation by equation) on `hypersurface` 
 `factor`) begin elsewhere and end alike. `through` says which components a case's points are on,
 `singular_points` (on `rank_drop` and `linear_hull`) where a component is singular,
 `singular_members` and `sweep` what parameters change, `curve_genus` by `branch_points` the genus;
-`shown` is what of singular points and sweeps is printed.
+`fibre_product` both, exactly, of curves joined in single variables; `shown` is what of singular
+points and sweeps is printed.
 
 To add a method of decomposition, write a file that makes a `nag.Decomposition` of a `method.Task`,
 or None where it does not apply; in `decompose` a function of the task, and of `method.Others`

@@ -14,6 +14,7 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import quote
 from nag.decomposition.curve_genus import GenusError, genus
+from nag.decomposition.fibre_product import FibreProduct, find_fibre_product
 from nag.decomposition.growth import grow_component
 from nag.decomposition.through import through_points, zero_at
 from nag.errors import MechanismError, NagError
@@ -149,7 +150,10 @@ def mobility_in_steps(
         first = _without_loops(tree)
         yield replace(first, moving=_moving_parts(tree, first, None, of, run))
         return
-    problem = problem_of(mechanism, formulation=formulation)
+    problem = None
+    if point is None and formulation == "auto":
+        problem = product_of_loops(mechanism, detail, run)
+    problem = problem or problem_of(mechanism, formulation=formulation)
     if problem.model is None:
         check_mechanism(problem.system, "the parts of a case, case.assembly")
     check_body(of, problem.mechanism.mechanism if problem.mechanism is not None else None)
@@ -165,7 +169,14 @@ def mobility_in_steps(
     if problem.mechanism is not None:
         first = _with_parts(first, problem.mechanism, point is None, at, of, tolerance, run)
     yield first
-    if detail != "local":
+    if detail == "local":
+        return
+    curve = None
+    if detail != "components" and point is None and first.local.smooth:
+        curve = _product_of(problem, run)
+    if curve is not None:
+        yield _with_product(first, problem, curve)
+    else:
         yield _with_components(first, problem, at, detail, budget, run)
 
 
@@ -199,6 +210,55 @@ def tree_of(given: Any) -> Mechanism | None:
         check_mechanism(mechanism, "the parts of a case, case.assembly")
         return None if loop_structure(mechanism).loops else mechanism
     return None
+
+
+def product_of_loops(
+    given: Any, detail: Detail = "through", run: Run = DEFAULT_RUN
+) -> Problem | None:
+    """The problem of a mechanism in half-angles, where these say without paths what is asked for.
+
+    None for any other, and for what is no mechanism at its reference configuration.
+    """
+    if detail not in ("through", "curves") or not _has_four_bars(given):
+        return None
+    try:
+        problem = problem_of(given, formulation="H")
+    except MechanismError:
+        return None
+    return None if _product_of(problem, run) is None else problem
+
+
+def _product_of(problem: Problem, run: Run) -> FibreProduct | None:
+    """The curve through the reference, where it is known without paths, with its degree."""
+    if problem.formulation != "H" or problem.reference is None:
+        return None
+    found = find_fibre_product(problem.system, problem.reference, run.random(47))
+    known = found is not None and found.factors > 1 and found.degree is not None
+    return found if known else None
+
+
+def _has_four_bars(given: Any) -> bool:
+    """Whether what is given is a mechanism with several loops, each of four turns."""
+    mechanism = given.described if is_a(given, "nag.files.cases", "Case") else given
+    if not isinstance(mechanism, Mechanism):
+        return False
+    loops = loop_structure(mechanism).loops
+    joints = [loop.joints for loop in loops]
+    return len(loops) > 1 and all(
+        len(own) == 4 and all(j.of_type.turns_only for j in own) for own in joints
+    )
+
+
+def _with_product(first: MobilityReport, problem: Problem, curve: FibreProduct) -> MobilityReport:
+    """A report of a smooth configuration on a curve that is known without paths."""
+    loops = count_text(curve.factors, "loop")
+    why = f"{SMOOTH}; exactly, as a product of the curves of {loops} over the turns that they share"
+    return replace(
+        first,
+        components=((1 + problem.free, curve.degree),),
+        curves=(CurveOfMotion(curve.degree, curve.genus, None),),
+        rests_on=why,
+    )
 
 
 def _local_report(problem: Problem, at: Sequence[Number], run: Run) -> MobilityReport:

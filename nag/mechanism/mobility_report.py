@@ -91,7 +91,8 @@ class MobilityReport:
             None where it is not known; None if they were not looked for or are not known.
         open: why the components are not known; empty if they are.
         local: the local dimension in the model, and what it rests on; None without loops.
-        curves: the curves through the configuration, where they were asked for.
+        curves: the curves through the configuration, where they were asked for, or are known
+            without paths.
         free_of: whose the ``free`` ones are, as text; empty where there are none.
         zero_links: which links have length zero, as text.
         general: of parts that are not assembled, a component of the largest dimension: the report
