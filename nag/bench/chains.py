@@ -16,6 +16,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.files.cases import Truth
 from nag.mechanism.axes import difference
 from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.model import model
 from nag.mechanism.quaternion import Quaternion, multiply, norm_squared, rotate
 
 Vector = tuple[Fraction, Fraction, Fraction]
@@ -33,6 +34,23 @@ BENNETT: tuple[Line, ...] = tuple(
             ("6720/6893", "91896/448045", "38797/448045"),
         ),
         (("2730/3277", "2600/3277", "0"), ("2240/3277", "-2352/3277", "-15/113")),
+    )
+)
+# Two Bennett linkages with a link in common, which is left out with one of its joints: Goldberg's.
+GOLDBERG: tuple[Line, ...] = tuple(
+    (tuple(map(Fraction, point)), tuple(map(Fraction, axis)))  # type: ignore[misc]
+    for point, axis in (
+        (("0", "0", "0"), ("0", "0", "1")),
+        (("84/145", "16/29", "0"), ("16/29", "-84/145", "3/5")),
+        (("597/3145", "64/629", "-48/629"), ("80/629", "-171/629", "600/629")),
+        (
+            ("97041/267325", "-16704/53465", "-58128/267325"),
+            ("-85872/267325", "-22617/53465", "226496/267325"),
+        ),
+        (
+            ("-204743/908905", "206976/908905", "-155232/908905"),
+            ("51744/181781", "41741/181781", "169188/181781"),
+        ),
     )
 )
 # The cosine and the sine of half a turn of no special angle, up to scale.
@@ -85,6 +103,40 @@ def bennett_loops(n: int) -> Mechanism:
         bodies = (bodies[2], f"x{i}", f"y{i}", bodies[1])
         joints += ring(i, cell, bodies, 1)
     return Mechanism("base", tuple(joints))
+
+
+def goldberg_loops(n: int) -> Mechanism:
+    """n Goldberg 5R linkages in a row, the first joint of each the fourth of the one before."""
+    cell = GOLDBERG
+    bodies = ("base", "w0", "x0", "y0", "z0")
+    joints = ring(0, cell, bodies, 0)
+    for i in range(1, n):
+        cell = attach_cell(GOLDBERG, cell[3])
+        bodies = (bodies[3], f"w{i}", f"x{i}", f"y{i}", bodies[2])
+        joints += ring(i, cell, bodies, 1)
+    return Mechanism("base", tuple(joints))
+
+
+def scissors(n: int) -> Mechanism:
+    """A lattice that unfolds: n + 1 pairs of crossed bars, n parallelograms between them.
+
+    Bars of two lengths cross in their middles, and neighbouring pairs are joined at their ends.
+    """
+    first = Fraction(4, 5), Fraction(3, 5), Fraction(0)
+    second = Fraction(18, 13), Fraction(-15, 26), Fraction(0)
+
+    def point(i: int, j: int) -> Vector:
+        x, y, z = (i * a + j * b for a, b in zip(first, second, strict=True))
+        return x, y, z
+
+    joints = []
+    for i in range(n + 1):
+        joints.append(Joint(f"M{i}", "revolute", (f"U{i}", f"V{i}"), point(i, i), Z))
+        if i:
+            top, bottom = (f"U{i - 1}", f"V{i}"), (f"V{i - 1}", f"U{i}")
+            joints.append(Joint(f"T{i}", "revolute", top, point(i, i - 1), Z))
+            joints.append(Joint(f"B{i}", "revolute", bottom, point(i - 1, i), Z))
+    return Mechanism("U0", tuple(joints))
 
 
 def ring(number: int, cell: Sequence[Line], bodies: Sequence[str], first: int) -> tuple[Joint, ...]:
@@ -180,6 +232,22 @@ def _of_bennett_loops(n: int) -> tuple[Truth, ...]:
     return (Truth(dimension=1, degree=max(2 * n - 1, 2), formulation="H"),)
 
 
+def _of_goldberg_loops(n: int) -> tuple[Truth, ...]:
+    # Half-angles are linear fractions of one of them, also from cell to cell; those of the third
+    # joint of each cell, where two Bennett linkages turn together, are of degree 2.
+    kept = model(goldberg_loops(n), formulation="H").system.variables
+    degree = sum(2 if name.endswith("_2") else 1 for name in kept)
+    return (Truth(dimension=1, degree=degree, formulation="H"),)
+
+
+def _of_scissors(n: int) -> tuple[Truth, ...]:
+    # Each parallelogram may fold. With c + is = v for the bar that crosses the first one, all bars
+    # stay parallel to these, or some go with D = v (a - b v) / (a v - b), others with D / v, as a
+    # second fold undoes the first: zeros and poles of v, and of D at two more places.
+    unfolded = Truth(dimension=1, degree=2, formulation="E")
+    return (unfolded, Truth(dimension=1, degree=4, count=2**n - 1, formulation="E"))
+
+
 def _of_polygons(n: int) -> tuple[Truth, ...]:
     # n + 2 circles and two linear equations, which meet twice at infinity.
     return (Truth(dimension=n, degree=2 ** (n + 2) - 2, formulation="E"),)
@@ -191,6 +259,8 @@ CHAINS: Mapping[str, Chain] = MappingProxyType(
         "four-bars": Chain(four_bars, _of_four_bars, 6, 12),
         "parallelograms": Chain(parallelograms, _of_parallelograms, 5, 12),
         "bennett-loops": Chain(bennett_loops, _of_bennett_loops, 6, 12),
+        "goldberg-loops": Chain(goldberg_loops, _of_goldberg_loops, 3, 6),
+        "scissors": Chain(scissors, _of_scissors, 5, 8),
         "polygons": Chain(polygons, _of_polygons, 5, 12),
     }
 )

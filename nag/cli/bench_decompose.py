@@ -19,7 +19,15 @@ CASES = Path("cases")
 # Macaulay2 is given up after so many seconds.
 PATIENCE = 200.0
 # The names of `nag.bench.chains.CHAINS`, which takes longer to load than help to be given.
-CHAINS = ("rhombi", "four-bars", "parallelograms", "bennett-loops", "polygons")
+CHAINS = (
+    "rhombi",
+    "four-bars",
+    "parallelograms",
+    "bennett-loops",
+    "goldberg-loops",
+    "scissors",
+    "polygons",
+)
 MOST_CELLS = 12
 # Run unless names are given.
 NAMES = (
