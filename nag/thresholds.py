@@ -342,6 +342,52 @@ decomposition.branch_points.NOTHING         -90     Decimal logarithm of a pivot
                                                     matrix that is zero, of 200 digits.
 interpolation.point_cloud.SMALL             1e-5    Singular values of tangents, over the largest,
                                                     of directions that the projection loses.
+real.fibre_table.VANISHING                  0.6     Share of the digits to which coefficients beyond
+                                                    the degree vanish; else the fibres are not those
+                                                    of a curve.
+real.critical_values.NOTHING                0.6     The same of coefficients of products over fibres
+                                                    that are zero.
+real.critical_values.SOMETHING              0.4     The same of leading ones that are not; between
+                                                    them more digits are taken.
+real.critical_values.CERTAIN                1e3     Values round a cluster of zeros, over rounding
+                                                    errors and what parts multiple zeros, from which
+                                                    on these stay inside.
+real.critical_values.ALONE                  1e-2    Size of a cluster of zeros beside the distance
+                                                    of the next.
+real.critical_values.REAL                   0.15    Share of the digits to which imaginary parts of
+                                                    middles of clusters vanish that are real; others
+                                                    need more digits.
+real.real_fibres.BESIDE                     0.25    Share of the digits beside a critical value at
+                                                    which its fibre is looked at.
+real.real_fibres.TOGETHER                   0.05    The same of distances there of points that come
+                                                    together, up to five of them; what is a hundred
+                                                    times as far does not, and between them more
+                                                    digits are taken.
+real.real_fibres.BETWEEN                    1e2     The hundred times.
+real.real_fibres.REAL                       0.5     Share of the digits to which imaginary parts
+                                                    vanish of points over real values that are real.
+real.real_fibres.COMPLEX                    0.35    The same of those that are not; between them
+                                                    more digits are taken.
+real.real_fibres.ROUNDING                   1e-12   Imaginary parts of vertices, in doubles, that
+                                                    are real.
+real.real_fibres.NOT_REAL                   1e-6    And of those that are not; between them more
+                                                    digits are taken.
+real.closure.AT_INFINITY                    1e-9    Homogeneous coordinates of length one that are
+                                                    zero at vertices known to more digits.
+real.closure.NO_NORM                        1e-7    The same of norms of displacements.
+real.arcs.NEARER                            0.3     Distance from the vertex that an arc goes to,
+                                                    beside that from the next one; else it is looked
+                                                    nearer to the end.
+real.arcs.SAME                              1e-2    The same of an arc's end from a point that is
+                                                    known in digits; else arcs were mixed up.
+real.arcs.SINGULAR                          1e-11   Least singular value at a vertex that is
+                                                    singular: these are known to rounding.
+real.arcs.REGULAR                           1e-9    And at one that is regular; what falls between
+                                                    is undecided.
+real.arc_tracing.SHRINK                     0.05    Newton's second correction beside the first,
+                                                    where another branch is as many times as far as
+                                                    the point is off.
+real.find_curve.SAME                        1e-12   Difference of critical values of two methods.
 mechanism.assembly.REAL                     1e-8    Imaginary parts of real assemblies, relative.
 mechanism.real_assemblies.NONZERO           1e-8    Values at an assembly that must not vanish.
 mechanism.inverse_kinematics.REACHED        1e-10   Relative residual of a pose that a leg reaches;
@@ -415,7 +461,10 @@ ROUGH; decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROU
 decomposition.ends: ROUNDED; decomposition.growth: PATH, FACTOR, ENTRY, STEP;
 decomposition.superset: REGULAR; decomposition.power_sums:
 EQUATIONS, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
-interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
+interpolation.precise_samples: ROUNDED; real.arc_tracing: ARRIVED, CHORD, CORRECTION, EASY, FIRST,
+LARGEST, LEAST, MOVED, REACHED, ROUNDED, TURN; real.arcs: NEAR_END; real.critical_values: ASIDE,
+PARTED; real.even_points: CHORD, HALF_ANGLE, KEPT, TURN; real.fibre_table: SAME; real.find_curve:
+LEAST_RADIUS; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
 mechanism.framework_decomposition: ROUNDED; mechanism.inverse_kinematics: TINY, LEAST_DAMPING,
 LEAST_SHARE; mechanism.mobility_at: LEAST_SECONDS;
 mechanism.moving_parts: LENGTH, ARRIVED; mechanism.nearly_mobile: STEP,

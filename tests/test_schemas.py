@@ -193,6 +193,10 @@ def write_everything(
         ask("certify", ask(command, str(complex_case)), rest=["--quiet"])
     ask("model", str(complex_case), rest=[])
     ask("check", str(CASES / "four-bar.toml"))
+    equations = "y^2 - x^2*(x - 1)"
+    for answer in (nag.decompose(equations), nag.decompose(nag.read_case(CASES / "bennett.toml"))):
+        curve = nag.find_real_curve(answer.components[0])
+        found.setdefault(("nag-real-curve", 1), []).append(json.loads(json.dumps(curve.document())))
     found["nag-decomposition", 2].append(json.loads(json.dumps(nag.decompose(SHEETS).document())))
     return found
 

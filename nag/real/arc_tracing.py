@@ -1,0 +1,256 @@
+"""Arcs of a real curve, traced over intervals of a pencil, all together.
+
+Over the interval between the points ``P0`` and ``P1`` of the pencil, the arc over
+``(1 - s) P0 + s P1`` is followed from the middle towards both ends, in arc length. How far it has
+come is told by the angle ``a`` with ``s = (1 - cos a) / 2``: near a fold at an end the points are
+smooth functions of it, as they are no longer of ``s``. Newton's method is that of Gauss on all
+equations of the curve: there may be more than are needed, and at real points no choice of some of
+them is generic.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.errors import ComponentError
+from nag.real.closure import Closure
+
+# First step in the angle and the largest one, and the least in arc length beside the first.
+FIRST, LARGEST, LEAST = 0.02, 0.2, 1e-8
+# Cosine of the largest turn of the tangent in a step, and longest chord of normalised points.
+TURN, CHORD = 0.98, 0.15
+# First corrections beside the step, and later ones beside those before.
+# The latter tell how near another branch is, in steps.
+CORRECTION, SHRINK = 0.1, 0.05
+# Part of what a step may be off and turn that makes the next one longer.
+EASY = 0.25
+# Newton's corrections that are rounding: certainly, and where they do not shrink any more.
+ARRIVED, ROUNDED = 1e-13, 1e-10
+# Part of a step that rounding may move a point by.
+MOVED = 1e-2
+MOST_CORRECTIONS = 6
+# Difference from an angle from which Newton's method leads there.
+REACHED = 1e-4
+
+
+class TracingError(ComponentError):
+    """An arc that was lost, with the reason."""
+
+
+@dataclass(frozen=True, eq=False)
+class Intervals:
+    """Intervals of the pencil, one for each arc.
+
+    Attributes:
+        first, last: homogeneous points ``P0`` and ``P1``, shape ``(E, 2)``.
+    """
+
+    first: np.ndarray
+    last: np.ndarray
+
+    def only(self, chosen: np.ndarray) -> Intervals:
+        """Some of them."""
+        return Intervals(self.first[chosen], self.last[chosen])
+
+    def at(self, angles: np.ndarray) -> np.ndarray:
+        """Points of the pencil, shape ``(E, 2)``."""
+        s = np.sin(angles / 2)[:, None] ** 2
+        return (1 - s) * self.first + s * self.last
+
+    def angles(self, values: np.ndarray) -> np.ndarray:
+        """Angles of points at which ``A`` and ``B`` have these values, shape ``(E, 2)``.
+
+        Beyond an end they are negative, or larger than a half turn.
+        """
+        a, b = values.T
+        # The pencil's point is (B : A): s is where it is between the ends.
+        low = self.first[:, 0] * a - self.first[:, 1] * b
+        high = self.last[:, 0] * a - self.last[:, 1] * b
+        s = low / (low - high)
+        inside = 2 * np.arcsin(np.sqrt(np.clip(s, 0, 1)))
+        return np.where(s < 0, -1.0, np.where(s > 1, np.pi + 1, inside))
+
+    def slopes(self, angles: np.ndarray) -> np.ndarray:
+        """Their derivatives by the angle."""
+        return (np.sin(angles) / 2)[:, None] * (self.last - self.first)
+
+
+def trace_arcs(
+    closure: Closure,
+    intervals: Intervals,
+    starts: np.ndarray,
+    begin: np.ndarray,
+    end: np.ndarray,
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """The arcs from angles to others: for each its angles, and its points, normalised.
+
+    Steps are in arc length: angles do not tell points well where a fold is near to a node.
+
+    Args:
+        starts: homogeneous real points, shape ``(E, size)``.
+        begin, end: angles, shape ``(E,)``.
+
+    Raises:
+        TracingError: if steps become too short, or angles do not grow.
+    """
+    count = len(starts)
+    sense = np.sign(end - begin)
+    angle, x = begin.astype(float).copy(), closure.normalised(starts)
+    speeds = _speeds(closure, intervals, angle, x) * sense[:, None]
+    lengths = np.linalg.norm(speeds, axis=1)
+    if not (np.isfinite(lengths) & (lengths > 0)).all():
+        raise TracingError("an arc does not begin")
+    tangent, step = speeds / lengths[:, None], FIRST * lengths
+    forward = np.sign(_crossing(closure, intervals, angle, x, tangent))
+    least, bend = LEAST * step, np.zeros_like(x)
+    angles = [[a] for a in angle]
+    points = [[p] for p in x.copy()]
+    active = np.arange(count)
+    while len(active):
+        h, old = step[active], angle[active]
+        guess = x[active] + h[:, None] * tangent[active] + (h**2 / 2)[:, None] * bend[active]
+        found, first, good = bring_to_curve(closure, guess, tangent[active], h)
+        found = closure.aligned(found, x[active])
+        chord = np.linalg.norm(found - x[active], axis=1)
+        there = intervals.only(active).angles(closure.values(found)[:, -2:])
+        next_ = tangents_at(closure, found, tangent[active])
+        cosine = (next_ * tangent[active]).sum(axis=1)
+        gain = (there - old) * sense[active]
+        good &= (first <= CORRECTION * h + ROUNDED) & (chord < CHORD) & (cosine > TURN)
+        good &= (gain > 0) & (gain < LARGEST)
+        # Beyond a fold the arc would lead back.
+        crossing = _crossing(closure, intervals.only(active), there, found, next_)
+        good &= crossing * forward[active] > 0
+        left = (end[active] - old) * sense[active]
+        beyond = gain > left + REACHED
+        taken = active[good & ~beyond]
+        some = good & ~beyond
+        bend[taken] = (next_[some] - tangent[taken]) / h[some, None]
+        angle[taken], x[taken], tangent[taken] = there[some], found[some], next_[some]
+        for i in taken:
+            angles[i].append(angle[i])
+            points[i].append(x[i].copy())
+        easy = (first < EASY * CORRECTION * h) & (cosine > 1 - EASY * (1 - TURN))
+        easy &= (chord < CHORD / 2) & (gain < LARGEST / 2)
+        # Nearly all of the way to the end, and then all of it.
+        shorter = np.where(good & beyond, h * left / np.where(gain > 0, gain, 1), h / 3)
+        step[active] = np.where(some, np.where(easy, 2 * h, h), shorter)
+        if (step[active] < least[active]).any():
+            raise TracingError("an arc was lost: steps became too short")
+        active = active[np.abs(end[active] - angle[active]) > REACHED]
+    landed = _land(closure, intervals, end, x)
+    for own, last in zip(points, landed, strict=True):
+        own[-1] = last
+    return [(np.array(a), np.array(p)) for a, p in zip(angles, points, strict=True)]
+
+
+def _matrices(closure: Closure, x: np.ndarray, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Slopes and values of the equations, of a hyperplane through each point and of patches."""
+    slopes, values = closure.jacobians(x)[:, :-2], closure.values(x)[:, :-2]
+    patches = np.zeros((len(x), len(closure.groups), closure.size))
+    for g in range(len(closure.groups)):
+        patches[:, g] = np.where(closure.group_of == g, x, 0)
+    matrix = np.concatenate([slopes, patches, normal[:, None]], axis=1)
+    right = np.concatenate([values, np.zeros((len(x), len(closure.groups) + 1))], axis=1)
+    return matrix, right
+
+
+def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Least squares, shape ``(P, size)``; not finite where a matrix is singular."""
+    q, r = np.linalg.qr(matrix)
+    product = np.einsum("pij,pi->pj", q, right)
+    diagonal = np.abs(np.diagonal(r, axis1=1, axis2=2)).min(axis=1)
+    safe = diagonal > 0
+    result = np.full(product.shape, np.nan)
+    if safe.any():
+        result[safe] = np.linalg.solve(r[safe], product[safe][..., None])[..., 0]
+    return result
+
+
+@np.errstate(all="ignore")
+def bring_to_curve(
+    closure: Closure, x: np.ndarray, tangent: np.ndarray, step: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points of the curve across tangents from guesses, first corrections, and success."""
+    x, rounding = closure.normalised(x), np.maximum(ROUNDED, MOVED * step)
+    first, last = np.zeros(len(x)), np.full(len(x), np.inf)
+    done, good = np.zeros(len(x), dtype=bool), np.ones(len(x), dtype=bool)
+    for k in range(MOST_CORRECTIONS):
+        todo = np.flatnonzero(~done & good)
+        if not len(todo):
+            break
+        delta = _solve(*_matrices(closure, x[todo], tangent[todo]))
+        sizes = np.linalg.norm(delta, axis=1)
+        fine = np.isfinite(sizes) & (sizes < 1)
+        moved = x[todo].copy()
+        moved[fine] -= delta[fine]
+        x[todo] = closure.normalised(moved)
+        if k == 0:
+            first[todo] = sizes
+        small = sizes < ARRIVED
+        # Rounding keeps the corrections at badly conditioned points from shrinking further.
+        stalled = (sizes > SHRINK * last[todo]) & (sizes < rounding[todo])
+        good[todo] = fine & ((sizes <= SHRINK * last[todo]) | small | stalled)
+        done[todo] = small | stalled
+        last[todo] = sizes
+    return x, first, good & done
+
+
+@np.errstate(all="ignore")
+def tangents_at(closure: Closure, x: np.ndarray, near: np.ndarray) -> np.ndarray:
+    """Unit tangents in the sense of others."""
+    matrix, right = _matrices(closure, x, near)
+    right[:] = 0
+    right[:, -1] = 1
+    found = _solve(matrix, right)
+    return np.nan_to_num(found / np.linalg.norm(found, axis=1)[:, None])
+
+
+@np.errstate(all="ignore")
+def _crossing(
+    closure: Closure,
+    intervals: Intervals,
+    angles: np.ndarray,
+    x: np.ndarray,
+    tangent: np.ndarray,
+) -> np.ndarray:
+    """How fast tangents cross the pencil's hyperplanes; of another sign beyond a fold."""
+    slopes = closure.jacobians(x)
+    pencil = intervals.at(np.clip(angles, 0, np.pi))
+    normal = pencil[:, 1:] * slopes[:, -1] - pencil[:, :1] * slopes[:, -2]
+    return (normal * tangent).sum(axis=1)
+
+
+@np.errstate(all="ignore")
+def _speeds(
+    closure: Closure, intervals: Intervals, angles: np.ndarray, x: np.ndarray
+) -> np.ndarray:
+    """Derivatives of points by the angle."""
+    matrix, right, _ = _over(closure, intervals.at(angles), x)
+    values, change = closure.values(x), intervals.slopes(angles)
+    right[:] = 0
+    right[:, -1] = change[:, 0] * values[:, -2] - change[:, 1] * values[:, -1]
+    return _solve(matrix, right)
+
+
+@np.errstate(all="ignore")
+def _land(closure: Closure, intervals: Intervals, angles: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Points over angles, from such as are next to them."""
+    for _ in range(3):
+        matrix, right, values = _over(closure, intervals.at(angles), x)
+        right[:, -1] = values
+        delta = _solve(matrix, right)
+        x = closure.aligned(closure.normalised(x - np.nan_to_num(delta)), x)
+    return x
+
+
+def _over(
+    closure: Closure, pencil: np.ndarray, x: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """As `_matrices`, with the pencil's hyperplane; and its values."""
+    slopes, values = closure.jacobians(x), closure.values(x)
+    p, q = pencil[:, :1], pencil[:, 1:]
+    matrix, right = _matrices(closure, x, q * slopes[:, -1] - p * slopes[:, -2])
+    return matrix, right, q[:, 0] * values[:, -1] - p[:, 0] * values[:, -2]

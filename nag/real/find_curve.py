@@ -1,0 +1,291 @@
+"""All real points of a one-dimensional component, as a graph.
+
+A linear form with random rational coefficients makes the curve a covering of the line. Its real
+special values are found from fibres in many digits; between them real points neither appear nor
+vanish, and arcs through them are traced to the special points at both ends. Where arcs meet
+smoothly they are joined. Every number on the way is known twice: how many real points there are on
+both sides of each value, to which vertices they go, which sheets meet there.
+
+References:
+    Lu, Bates, Sommese & Wampler, Finding all real points of a complex curve, 2007;
+    Besana, Di Rocco, Hauenstein, Sommese & Wampler, Cell decomposition of almost smooth real
+    algebraic surfaces, 2013.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import flint
+import networkx
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.errors import ComponentError, NagError
+from nag.numerics.natural_coordinates import NaturalCoordinates
+from nag.real.arc_tracing import TracingError
+from nag.real.arcs import Skeleton, find_arcs, join_arcs
+from nag.real.closure import Closure, turns_of
+from nag.real.critical_values import (
+    UnclearDigitsError,
+    determinant_degree,
+    discriminant_degree,
+    discriminant_values,
+    real_zeros,
+)
+from nag.real.curve import RealCurve, RealEdge, Turn, Verdict, chart_of
+from nag.real.fibre_table import (
+    MORE_SAMPLES,
+    CircleOfFibres,
+    FibreError,
+    FibreTable,
+    fibre_table,
+    sample_circle,
+)
+from nag.real.real_fibres import SpecialFibre, real_fibre, special_fibre
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.witness.change_of_coordinates import carry_component, coordinates_of
+from nag.witness.component_equations import component_fibres
+from nag.witness.fibres import Fibre
+from nag.witness.witness import WitnessSet
+
+# Digits of fibres, tried in turn where they do not decide; and linear forms in all.
+DIGITS, ATTEMPTS = (120, 250, 500), 4
+# Points of fibres up to which both methods of finding critical values run, and check each other.
+MOST_CHECKED = 600
+# Critical values that both methods find are the same to so many digits.
+SAME = 1e-12
+# The circle's radius, at least.
+LEAST_RADIUS = 1e-3
+
+
+class RealCurveError(ComponentError):
+    """A component whose real curve is not found, with the reason."""
+
+
+@takes_run
+def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCurve:
+    """The complete real part of a one-dimensional component.
+
+    Args:
+        component: one of the components of a `nag.Decomposition`.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+
+    Returns:
+        Vertices, edges and pieces; undecided, with the reason, where a check failed.
+
+    Raises:
+        RealCurveError: if the component's equations stay singular along it.
+        NagError: if the component is no curve.
+
+    >>> import nag
+    >>> lemniscate = nag.decompose("(x^2 + y^2)^2 = 2*(x^2 - y^2)").components[0]
+    >>> curve = nag.find_real_curve(lemniscate)
+    >>> str(curve.verdict), len(curve.edges), [str(vertex.kind) for vertex in curve.vertices]
+    ('complete', 2, ['singular'])
+    """
+    if component.dimension != 1:
+        raise NagError(f"component: it has dimension {component.dimension}; a curve has 1")
+    given = component._known_system()
+    natural = coordinates_of(given)
+    system = natural.system(given)
+    component = carry_component(component, natural, system)
+    fibres = component_fibres(system, component)
+    equations = _equations(system, component, fibres)
+    turns = turns_of(system)
+    reason, level = "", 0
+    for attempt in range(ATTEMPTS):
+        rng = run.random(11, attempt)
+        try:
+            found = _find(system, component, fibres, equations, turns, DIGITS[level], rng, run)
+            return _in_given_coordinates(found, given, natural)
+        except TracingError as error:
+            # Another form has other folds, that need not be as near to what is singular.
+            reason = reason or str(error)
+        except (UnclearDigitsError, FibreError) as error:
+            reason, level = reason or str(error), level + 1
+            if level == len(DIGITS):
+                break
+    return RealCurve(given.variables, turns_of(given), (), (), (), Verdict.UNDECIDED, reason)
+
+
+def _equations(
+    system: PolynomialSystem, component: WitnessSet, fibres: Sequence[Fibre]
+) -> tuple[Polynomial, ...]:
+    """Equations whose Jacobian has full rank at general points of the curve."""
+    if component.corank == 1:
+        return system.polynomials
+    if len(fibres) == 1 and not fibres[0].cut.aux:
+        return fibres[0].cut.polynomials
+    raise RealCurveError(
+        "the component is not reduced: its equations are singular at all of its points, and only "
+        "with unknowns added they are not; give equations of which it is a simple zero set"
+    )
+
+
+def _find(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    fibres: Sequence[Fibre],
+    equations: Sequence[Polynomial],
+    turns: Sequence[Turn],
+    digits: int,
+    rng: np.random.Generator,
+    run: Run,
+) -> RealCurve:
+    form = rng.integers(64, 128, system.n) * rng.choice([-1, 1], system.n) / 128
+    sizes = np.abs(np.vstack([fibre.x for fibre in fibres]) @ form)
+    radius = float(np.ldexp(1.0, int(np.ceil(np.log2(max(LEAST_RADIUS, sizes.max()))))))
+    circle, degrees = _sample(system, component, fibres, form, radius, digits, rng, run)
+    table = fibre_table(circle, rng)
+    closure = Closure.of(equations, system, form)
+    specials = _special_fibres(circle, degrees, table, closure, rng)
+    arcs = find_arcs(table, closure, specials, radius)
+    skeleton = join_arcs(closure, specials, arcs, turns)
+    doubt = skeleton.doubt or _too_many_pieces(skeleton, circle.degree)
+    residual = _residual(system, skeleton)
+    return RealCurve(
+        system.variables,
+        tuple(turns),
+        skeleton.vertices,
+        skeleton.edges,
+        skeleton.pieces,
+        Verdict.UNDECIDED if doubt else Verdict.COMPLETE,
+        doubt,
+        tuple(float(s.pencil[0]) for s in specials[:-1]),
+        residual,
+    )
+
+
+def _sample(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    fibres: Sequence[Fibre],
+    form: np.ndarray,
+    radius: float,
+    digits: int,
+    rng: np.random.Generator,
+    run: Run,
+) -> tuple[CircleOfFibres, tuple[int, int | None]]:
+    """Fibres over a circle, with the degrees of products of differences and of determinants.
+
+    As many as the smaller of both needs, or the larger, where these are few.
+    """
+    d = component.degree
+    discriminant = discriminant_degree(d, True)
+    determinant: int | None = None
+    if len(fibres) == 1 and not fibres[0].cut.aux:
+        multidegree = [] if component.multidegree is None else component.multidegree.tolist()
+        if system.groups and sum(multidegree) != d:
+            multidegree = [d] * len(system.groups)
+        bounds = [determinant_degree(fibres[0].cut, system, multidegree or [d])]
+        if system.groups:
+            bounds.append(d * sum(max(f.degree - 1, 0) for f in fibres[0].cut.polynomials))
+        determinant = min(bounds)
+    known = [b for b in (discriminant, determinant) if b is not None]
+    wanted = max(known) if max(known) * d <= MOST_CHECKED else min(known)
+    count = max(wanted, d + 1) + 1 + MORE_SAMPLES
+    circle = sample_circle(fibres, form, radius, count, digits, rng, run)
+    if not circle.real:
+        needed = max(discriminant_degree(d, False), 2 * d + 1) + 1 + MORE_SAMPLES
+        if needed > count:
+            circle = sample_circle(fibres, form, radius, needed, digits, rng, run)
+        return circle, (discriminant_degree(d, False), None)
+    return circle, (discriminant, determinant)
+
+
+def _special_fibres(
+    circle: CircleOfFibres,
+    degrees: tuple[int, int | None],
+    table: FibreTable,
+    closure: Closure,
+    rng: np.random.Generator,
+) -> list[SpecialFibre]:
+    """The fibres over values at which real points meet, ascending, and last that over infinity.
+
+    Raises:
+        UnclearDigitsError: if the two methods disagree.
+    """
+    enough = circle.count - MORE_SAMPLES
+    found: list[list[SpecialFibre]] = []
+    discriminant, determinant = degrees
+    if discriminant < enough:
+        values = discriminant_values(circle, rng)
+        found.append(_singular_fibres(circle, values, discriminant, table, closure))
+    if determinant is not None and determinant < enough and circle.determinants is not None:
+        found.append(_singular_fibres(circle, circle.determinants, determinant, table, closure))
+    if len(found) == 2:
+        one, other = ([s.pencil[0] for s in each] for each in found)
+        if len(one) != len(other) or not np.allclose(one, other, rtol=0, atol=SAME * circle.radius):
+            raise UnclearDigitsError("two methods find different critical values")
+    specials = found[0]
+    if not specials:
+        # Any other value serves to cut loops that reach from infinity to infinity.
+        value = flint.arb(float(rng.integers(-32, 32)) / 128)
+        specials = [special_fibre(table, closure, value)]
+    return [*specials, _infinite_fibre(circle, table, closure, specials)]
+
+
+def _singular_fibres(
+    circle: CircleOfFibres,
+    values: Sequence[flint.acb],
+    top: int,
+    table: FibreTable,
+    closure: Closure,
+) -> list[SpecialFibre]:
+    zeros = real_zeros(circle, values, top)
+    fibres = [special_fibre(table, closure, zero.value) for zero in zeros]
+    return [fibre for fibre in fibres if fibre.singular]
+
+
+def _infinite_fibre(
+    circle: CircleOfFibres, table: FibreTable, closure: Closure, specials: Sequence[SpecialFibre]
+) -> SpecialFibre:
+    """The fibre over infinity; empty where no real arc goes there."""
+    first, last = specials[0].pencil[0], specials[-1].pencil[0]
+    beyond = (first - circle.radius, last + circle.radius)
+    if not any(real_fibre(table, closure, np.array([t, 1.0]))[1].any() for t in beyond):
+        nothing = np.zeros((0, closure.size), dtype=complex)
+        none = np.zeros(0, dtype=int)
+        return SpecialFibre(np.array([1.0, 0.0]), nothing, none, none.astype(bool))
+    return special_fibre(table, closure, None)
+
+
+def _too_many_pieces(skeleton: Skeleton, degree: int) -> str:
+    """Harnack's bound: no more pieces than the largest genus of a curve of the degree, and one.
+
+    Arcs that meet at infinity are one piece of the closure.
+    """
+    graph = networkx.MultiGraph()
+    for k, edge in enumerate(skeleton.edges):
+        ends = ((("loop", k) if v is None else v) for v in (edge.start, edge.end))
+        graph.add_edge(*ends)
+    pieces = networkx.number_connected_components(graph)
+    most = (degree - 1) * (degree - 2) // 2 + 1
+    if pieces > most:
+        return f"{pieces} pieces were found where a curve of degree {degree} has {most} at most"
+    return ""
+
+
+def _residual(system: PolynomialSystem, skeleton: Skeleton) -> float:
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    worst = [float(evaluator.residuals(e.points + 0j).max(initial=0.0)) for e in skeleton.edges]
+    return max(worst, default=0.0)
+
+
+def _in_given_coordinates(
+    found: RealCurve, system: PolynomialSystem, natural: NaturalCoordinates
+) -> RealCurve:
+    if natural.is_identity:
+        return found
+    back = natural.inverse
+    turns = turns_of(system)
+    vertices = tuple(replace(v, point=back.points(v.point)) for v in found.vertices)
+    edges = []
+    for edge in found.edges:
+        points = back.points(edge.points)
+        edges.append(RealEdge(edge.start, edge.end, points, chart_of(points, turns)))
+    return replace(found, turns=turns, vertices=vertices, edges=tuple(edges))

@@ -1,0 +1,231 @@
+"""Complete real curves: their pieces, vertices and arcs, against what is known of each."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import nag
+from nag.algebra.evaluation import Evaluator
+from nag.real.curve import PieceKind, VertexKind
+
+CASES = Path(__file__).parents[1] / "cases"
+LOOP, NETWORK, OPEN, POINT = PieceKind
+SINGULAR, ISOLATED, INFINITE = VertexKind
+
+# Equations with the pieces and vertices of all their components together.
+CURVES: dict[str, tuple[list[str], dict[PieceKind, int], dict[VertexKind, int], int]] = {
+    "lemniscate": (["(x^2 + y^2)^2 - 2*(x^2 - y^2)"], {NETWORK: 1}, {SINGULAR: 1}, 2),
+    "quadrifolium": (["(x^2 + y^2)^3 - 4*x^2*y^2"], {NETWORK: 1}, {SINGULAR: 1}, 4),
+    "cubic with a point": (
+        ["y^2 - x^2*(x - 1)"],
+        {OPEN: 1, POINT: 1},
+        {ISOLATED: 1, INFINITE: 1},
+        1,
+    ),
+    "circle and points": (
+        ["(x^2 + y^2 - 1)*((x^2 - 1)^2 + (y^2 - 1)^2)"],
+        {LOOP: 1, POINT: 8},
+        {ISOLATED: 8},
+        1,
+    ),
+    "four ovals": (["(x^2 + 4*y^2 - 4)*(4*x^2 + y^2 - 4) + 1/10"], {LOOP: 4}, {}, 4),
+    "Viviani": (
+        ["x^2 + y^2 + z^2 - 4", "(x - 1)^2 + y^2 - 1"],
+        {NETWORK: 1},
+        {SINGULAR: 1},
+        2,
+    ),
+    "cusp": (["y^2 - x^3"], {NETWORK: 1}, {SINGULAR: 1, INFINITE: 1}, 2),
+    "twisted cubic": (["y - x^2", "z - x^3"], {OPEN: 1}, {INFINITE: 1}, 1),
+    "hyperbola": (["x*y - 1"], {OPEN: 2}, {INFINITE: 2}, 2),
+    "line": (["2*x + 3*y - 1"], {OPEN: 1}, {INFINITE: 1}, 1),
+    "ellipse twice": (["(x^2 + 3*y^2 - 1)^2"], {LOOP: 1}, {}, 1),
+    "no real points": (["x^2 + y^2 + 1"], {}, {}, 0),
+    "cubic with an oval": (["y^2 - x^3 + x"], {LOOP: 1, OPEN: 1}, {INFINITE: 1}, 2),
+}
+# The same of mechanisms.
+MECHANISMS = {
+    "bennett": ({LOOP: 1}, {}, 1),
+    "planar/four-bar-folding": ({NETWORK: 1}, {SINGULAR: 1}, 2),
+    "planar/four-bar-rhombus": ({LOOP: 3}, {}, 3),
+    "planar/slider-crank": ({LOOP: 2}, {}, 2),
+}
+
+
+def real_curves(answer: nag.Decomposition, seed: int = 0) -> list[nag.RealCurve]:
+    return [nag.find_real_curve(c, seed=seed) for c in answer.components]
+
+
+@cache
+def of_equations(name: str) -> tuple[nag.Decomposition, list[nag.RealCurve]]:
+    answer = nag.decompose(CURVES[name][0])
+    return answer, real_curves(answer)
+
+
+@cache
+def of_case(name: str) -> tuple[nag.Decomposition, list[nag.RealCurve]]:
+    answer = nag.decompose(nag.read_case(CASES / f"{name}.toml"))
+    return answer, real_curves(answer)
+
+
+def counted(curves: list[nag.RealCurve]) -> tuple[dict, dict, int]:
+    pieces = Counter(piece.kind for curve in curves for piece in curve.pieces)
+    kinds = Counter(vertex.kind for curve in curves for vertex in curve.vertices)
+    return dict(pieces), dict(kinds), sum(len(curve.edges) for curve in curves)
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_curves_have_the_pieces_that_are_known(name: str) -> None:
+    _, curves = of_equations(name)
+    assert all(curve.complete for curve in curves)
+    assert counted(curves) == CURVES[name][1:]
+
+
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_mechanisms_have_the_circuits_that_are_known(name: str) -> None:
+    _, curves = of_case(name)
+    assert all(curve.complete for curve in curves)
+    # Where components of a mechanism meet, the equations are singular on each.
+    pieces, _, _ = counted(curves)
+    assert sum(pieces.values()) == sum(MECHANISMS[name][0].values())
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_arcs_are_dense_ordered_and_on_the_curve(name: str) -> None:
+    answer, curves = of_equations(name)
+    evaluator = Evaluator.of(answer.system.polynomials, answer.system.n)
+    for curve in curves:
+        for edge in curve.edges:
+            assert evaluator.residuals(edge.points + 0j).max() < 1e-13
+            # On the sphere on which infinity is a point like others.
+            lifted = np.hstack([np.ones((len(edge), 1)), edge.points])
+            lifted /= np.linalg.norm(lifted, axis=1)[:, None]
+            chords = np.diff(lifted, axis=0)
+            lengths = np.linalg.norm(chords, axis=1)
+            assert lengths.max() < 0.1
+            assert lengths.min() > 1e-6
+            cosines = (chords[1:] * chords[:-1]).sum(axis=1) / lengths[1:] / lengths[:-1]
+            assert cosines.min() > 0.95
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_arcs_begin_and_end_at_their_vertices(name: str) -> None:
+    for curve in of_equations(name)[1]:
+        for edge in curve.edges:
+            if edge.closed:
+                assert edge.end is None
+                assert np.array_equal(edge.points[0], edge.points[-1])
+            for v, at in ((edge.start, edge.points[0]), (edge.end, edge.points[-1])):
+                if v is not None and curve.vertices[v].kind is not INFINITE:
+                    assert np.array_equal(curve.vertices[v].point, at)
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_every_vertex_has_even_degree(name: str) -> None:
+    for curve in of_equations(name)[1]:
+        assert all(degree % 2 == 0 for _, degree in curve.graph.degree())
+        assert curve.graph.number_of_edges() == len(curve.edges)
+
+
+def test_vertices_are_where_they_are_known_to_be() -> None:
+    (cubic,) = of_equations("cubic with a point")[1]
+    (isolated,) = (v for v in cubic.vertices if v.kind is ISOLATED)
+    assert np.abs(isolated.point).max() < 1e-15
+    (viviani,) = of_equations("Viviani")[1]
+    assert np.abs(viviani.vertices[0].point - [2, 0, 0]).max() < 1e-15
+    points = [v.point for c in of_equations("circle and points")[1] for v in c.vertices]
+    corners = sorted(tuple(np.round(p, 12)) for p in points)
+    assert corners == sorted(2 * [(a, b) for a in (-1.0, 1.0) for b in (-1.0, 1.0)])
+    (parabola,) = real_curves(nag.decompose("y - x^2"))
+    assert np.abs(np.abs(parabola.vertices[0].point) - [0, 1]).max() < 1e-12
+
+
+@pytest.mark.parametrize("seed", range(1, 4))
+@pytest.mark.parametrize("name", ["lemniscate", "four ovals", "cusp", "cubic with an oval"])
+def test_the_projection_does_not_matter(name: str, seed: int) -> None:
+    answer, curves = of_equations(name)
+    others = real_curves(answer, seed)
+    assert counted(others) == counted(curves)
+    lengths = [
+        sorted(
+            np.linalg.norm(np.diff(e.points, axis=0), axis=1).sum() for c in some for e in c.edges
+        )
+        for some in (curves, others)
+    ]
+    if not any(v.kind is INFINITE for c in curves for v in c.vertices):
+        # Polygons with corners on the curve are shorter by the square of their turns.
+        assert np.allclose(*lengths, rtol=1e-2)
+
+
+def test_half_angles_pass_through_infinity() -> None:
+    _, (curve,) = of_case("bennett")
+    (edge,) = curve.edges
+    assert len(curve.turns) == 2
+    # Both joints turn fully: half-angles by half a turn.
+    assert np.allclose(np.abs(edge.chart[-1] - edge.chart[0]), np.pi, atol=1e-12)
+    assert np.abs(np.diff(edge.chart, axis=0)).max() < 0.5
+    for turn in curve.turns:
+        y = edge.points[:, turn.variable]
+        tangents = np.tan(edge.chart[:, turn.variable])
+        near = np.abs(y) < 10
+        assert np.allclose(turn.centre + turn.radius * tangents[near], y[near])
+
+
+def grashof(lengths: list[int]) -> int | None:
+    """Circuits of a four-bar that closes; None where it folds, or does not close."""
+    ordered = sorted(lengths)
+    if ordered[3] >= sum(ordered[:3]) or ordered[0] + ordered[3] == ordered[1] + ordered[2]:
+        return None
+    return 2 if ordered[0] + ordered[3] < ordered[1] + ordered[2] else 1
+
+
+def four_bar(lengths: list[int]) -> nag.Decomposition:
+    """Crank, coupler, rocker and ground, in points of the pins."""
+    a, b, c, g = lengths
+    return nag.decompose(
+        [f"x^2 + y^2 - {a}^2", f"(x - u)^2 + (y - v)^2 - {b}^2", f"(u - {g})^2 + v^2 - {c}^2"]
+    )
+
+
+@settings(max_examples=5, deadline=None, derandomize=True)
+@given(st.lists(st.integers(2, 12), min_size=4, max_size=4).filter(lambda ls: grashof(ls)))
+def test_four_bars_have_the_circuits_of_grashofs_rule(lengths: list[int]) -> None:
+    curves = real_curves(four_bar(lengths))
+    assert all(curve.complete for curve in curves)
+    assert counted(curves) == ({LOOP: grashof(lengths)}, {}, grashof(lengths))
+
+
+def test_a_linkage_that_cannot_be_assembled_has_no_real_points() -> None:
+    (curve,) = real_curves(four_bar([2, 2, 3, 9]))
+    assert curve.complete and not curve.pieces
+    assert "no real points" in str(curve)
+
+
+def test_a_surface_is_refused_in_one_line() -> None:
+    plane = nag.decompose("x + y + z").components[0]
+    with pytest.raises(nag.NagError, match="dimension 2; a curve has 1"):
+        nag.find_real_curve(plane)
+
+
+def test_curves_of_multiplicity_are_right_or_refused() -> None:
+    (line,) = real_curves(nag.decompose(["x^2 - 2*x*y + y^2"]))
+    assert counted([line]) == ({OPEN: 1}, {INFINITE: 1}, 1)
+    double = nag.decompose(["x^2 + y^2 + z^2 - 1", "x^2 + y^2 - 1"]).components[0]
+    with pytest.raises(nag.ComponentError, match="not reduced"):
+        nag.find_real_curve(double)
+
+
+def test_documents_are_json_and_runs_repeat() -> None:
+    answer, (curve,) = of_equations("lemniscate")
+    again = nag.find_real_curve(answer.components[0])
+    assert again == curve
+    assert json.loads(json.dumps(curve.document())) == again.document()
+    assert [len(row) for row in curve.rows()] == [5, 5]
