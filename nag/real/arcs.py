@@ -308,29 +308,34 @@ def _begun_afar(closure: Closure, points: np.ndarray) -> np.ndarray:
     return np.vstack([points[first:-1], points[: first + 1]])
 
 
-def _pieces(vertices: Sequence[RealVertex], edges: Sequence[RealEdge]) -> tuple[RealPiece, ...]:
-    """Connected pieces; at infinity nothing is connected."""
-    parent = list(range(len(vertices)))
+def connect(pairs: Sequence[tuple[int, int]]) -> dict[int, int]:
+    """For each number one of those that pairs connect it with, the same for all of them."""
+    parent: dict[int, int] = {}
 
     def root(v: int) -> int:
-        while parent[v] != v:
+        while parent.setdefault(v, v) != v:
             v = parent[v]
         return v
+
+    for v, w in pairs:
+        parent[root(v)] = root(w)
+    return {v: root(v) for v in list(parent)}
+
+
+def _pieces(vertices: Sequence[RealVertex], edges: Sequence[RealEdge]) -> tuple[RealPiece, ...]:
+    """Connected pieces; at infinity nothing is connected."""
 
     def finite(edge: RealEdge) -> list[int]:
         ends = [v for v in (edge.start, edge.end) if v is not None]
         return [v for v in ends if vertices[v].kind is not VertexKind.INFINITE]
 
-    for edge in edges:
-        own = finite(edge)
-        for v in own[1:]:
-            parent[root(v)] = root(own[0])
+    roots = connect([(own[0], own[-1]) for edge in edges if (own := finite(edge))])
     groups: dict[int, list[int]] = {}
     pieces: list[RealPiece] = []
     for k, edge in enumerate(edges):
         own = finite(edge)
         if own:
-            groups.setdefault(root(own[0]), []).append(k)
+            groups.setdefault(roots[own[0]], []).append(k)
         else:
             ends = tuple(sorted({v for v in (edge.start, edge.end) if v is not None}))
             kind = PieceKind.CLOSED_LOOP if edge.closed else PieceKind.OPEN_ARC

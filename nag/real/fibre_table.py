@@ -256,23 +256,23 @@ def fibre_table(circle: CircleOfFibres, rng: np.random.Generator) -> FibreTable:
     n = len(circle.form)
     weights = [flint.acb(int(c)) / 64 for c in rng.integers(32, 96, n) * rng.choice([-1, 1], n)]
     sheets = len(circle.all_points(0))
-    rows = []
+    rows: list[Point] = []
     with in_bits(bits_of(circle.digits + SPARE)):
         for k in range(circle.count):
+            if circle.real and k >= circle.count - circle.count // 2:
+                rows.append([middle(c.conjugate()) for c in rows[circle.count - 1 - k]])
+                continue
             points = circle.all_points(k)
-            forms = [
-                middle(sum((a * b for a, b in zip(weights, x, strict=True)), flint.acb(0)))
-                for x in points
-            ]
             own, numerators = flint.acb_poly([1]), [flint.acb_poly([0])] * n
-            for z, x in zip(forms, points, strict=True):
+            for x in points:
+                z = middle(sum((a * b for a, b in zip(weights, x, strict=True)), flint.acb(0)))
                 factor = flint.acb_poly([-z, 1])
                 numerators = [g * factor + own * c for g, c in zip(numerators, x, strict=True)]
                 own = own * factor
             row = [own[sheets - k] for k in range(1, sheets + 1)]
             row += [g[sheets - 1 - k] for g in numerators for k in range(sheets)]
             rows.append([middle(c) for c in row])
-        table = circle.coefficients(rows, circle.count - 1)
+        table = circle.coefficients(rows, min(sheets + MORE_SAMPLES, circle.count - 1))
         # The k-th coefficient is of degree k, that of a numerator k + 1 at most.
         degrees = [*range(1, sheets + 1), *(list(range(1, sheets + 1)) * n)]
         polynomials = []

@@ -18,7 +18,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import flint
-import networkx
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
@@ -27,7 +26,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.real.arc_tracing import TracingError
-from nag.real.arcs import Skeleton, find_arcs, join_arcs
+from nag.real.arcs import Skeleton, connect, find_arcs, join_arcs
 from nag.real.closure import Closure, turns_of
 from nag.real.critical_values import (
     UnclearDigitsError,
@@ -259,11 +258,10 @@ def _too_many_pieces(skeleton: Skeleton, degree: int) -> str:
 
     Arcs that meet at infinity are one piece of the closure.
     """
-    graph = networkx.MultiGraph()
-    for k, edge in enumerate(skeleton.edges):
-        ends = ((("loop", k) if v is None else v) for v in (edge.start, edge.end))
-        graph.add_edge(*ends)
-    pieces = networkx.number_connected_components(graph)
+    loops = sum(edge.closed for edge in skeleton.edges)
+    ends = [(e.start, e.end) for e in skeleton.edges if e.start is not None and e.end is not None]
+    meeting = {v for pair in ends for v in pair}
+    pieces = loops + len({root for v, root in connect(ends).items() if v in meeting})
     most = (degree - 1) * (degree - 2) // 2 + 1
     if pieces > most:
         return f"{pieces} pieces were found where a curve of degree {degree} has {most} at most"
