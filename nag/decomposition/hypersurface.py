@@ -49,12 +49,15 @@ class HypersurfaceSection:
     Attributes:
         kept: points on the hypersurface, by dimension.
         ends: ends of the paths of the others, by dimension.
-        counts: of these paths.
     """
 
     kept: Mapping[int, Sequence[Fibre]]
     ends: Mapping[int, Sequence[SliceEnds]]
-    counts: PathCounts
+
+    @property
+    def counts(self) -> PathCounts:
+        """Of these paths."""
+        return sum((ends.counts for own in self.ends.values() for ends in own), PathCounts())
 
     @property
     def singular(self) -> int:
@@ -153,7 +156,7 @@ def hypersurface_section(
     sets: Mapping[int, Sequence[Fibre]], f: Polynomial, rng: np.random.Generator, run: Run
 ) -> HypersurfaceSection:
     """All points of sets, by dimension, where ``f`` vanishes, and how many paths led there."""
-    gamma, counts = complex(unit_complex(rng)), PathCounts()
+    gamma = complex(unit_complex(rng))
     kept: dict[int, list[Fibre]] = {}
     ends: dict[int, list[SliceEnds]] = {}
     for d in sorted(sets, reverse=True):
@@ -166,6 +169,5 @@ def hypersurface_section(
                 kept.setdefault(d, []).append(fibre.only(on))
             if d > 0 and f.degree > 0 and not on.all():
                 new = intersect(fibre.only(~on), f, gamma, run)
-                counts += new.counts
                 ends.setdefault(d - 1, []).append(new)
-    return HypersurfaceSection(kept, ends, counts)
+    return HypersurfaceSection(kept, ends)

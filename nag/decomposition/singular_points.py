@@ -154,7 +154,7 @@ class SingularLocus:
 
 
 @dataclass(eq=False)
-class _Candidates:
+class _SingularSearch:
     """Points where something may be singular, and what was left open on the way to them.
 
     Attributes:
@@ -284,7 +284,7 @@ def singular_locus(
     whole = carry_decomposition(given, natural)
     chosen = list(range(len(whole.components))) if only is None else sorted(set(only))
     own = _own_equations(whole, run.random(8), run)
-    search = _Candidates(whole, own, run)
+    search = _SingularSearch(whole, own, run)
     for i in chosen:
         search.on_component(i)
     search.of_pairs(chosen)
@@ -342,7 +342,7 @@ def _own_equations(
 
 
 def _judge_candidates(
-    search: _Candidates, rng: np.random.Generator, run: Run
+    search: _SingularSearch, rng: np.random.Generator, run: Run
 ) -> tuple[SingularSet, ...]:
     points: list[SingularSet] = []
     known, errors = np.zeros((0, search.whole.system.n), dtype=complex), np.zeros(0)
@@ -371,7 +371,7 @@ def _judge_candidates(
 
 
 def _judge_candidate(
-    search: _Candidates, found: SetOfPoints, rng: np.random.Generator, run: Run
+    search: _SingularSearch, found: SetOfPoints, rng: np.random.Generator, run: Run
 ) -> SingularSet | None:
     """What a candidate is; None if the components are smooth there and do not meet."""
     whole, x, error = search.whole, found.points[0], max(found.error, ROUNDED)

@@ -62,18 +62,21 @@ def find_vanishing(fibre: Fibre, f: Polynomial) -> list[bool | None]:
     ]
 
 
-def zero_in_digits(fibre: Fibre, i: int) -> PrecisePoint | None:
-    """A point of a fibre, added unknowns included, to `POINT_DIGITS` digits.
+def zero_in_digits(
+    fibre: Fibre, i: int, digits: int = POINT_DIGITS, spare: int = 2
+) -> PrecisePoint | None:
+    """A point of a fibre, added unknowns included, to so many digits.
 
-    One that is close to others is known to as many more as these differ by. None where Newton's
-    method does not lead to it.
+    One that is close to others is known to ``spare`` times as many more as these differ by. None
+    where Newton's method does not lead to it.
     """
     polynomials, z = fibre.cut.polynomials, fibre.points[i]
     if i not in fibre.fine:
-        return precise_zero(BallPolynomials.of(polynomials, pad_rows(fibre.rows, 1 + len(z))), z)
+        exact = BallPolynomials.of(polynomials, pad_rows(fibre.rows, 1 + len(z)))
+        return precise_zero(exact, z, digits)
     fine = fibre.fine[i]
-    more = int(2 * np.log10(max(fine.curvature, 1.0)))
-    return zero_from(polynomials, fibre.rows, fine, POINT_DIGITS + more)
+    more = int(spare * np.log10(max(fine.curvature, 1.0)))
+    return zero_from(polynomials, fibre.rows, fine, digits + more)
 
 
 def _vanish_at(fibre: Fibre, i: int, equations: Sequence[Polynomial]) -> bool | None:

@@ -20,14 +20,12 @@ import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.precise_point import PrecisePoint, precise_zero
+from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import WRITTEN, choose_alike, possible_zeros
 from nag.tracking.newton import Refined, refine
-from nag.witness.close_points import PointInWords, zero_from
 from nag.witness.confirm import zero_in_digits
-from nag.witness.cutting import Cut, sharpen
+from nag.witness.cutting import sharpen
 from nag.witness.fibres import Fibre, homogeneous
 from nag.witness.frame import EPS, Frame
 from nag.witness.multiplicity import ACCURACY
@@ -105,7 +103,7 @@ def exact_points(fibre: Fibre, digits: int) -> ExactPoints:
         digits: behind the decimal point of coordinates of size one. Those of double-double are as
             many as the condition of the point leaves; ``radii`` tells.
     """
-    n, rows, bits = fibre.cut.n, fibre.rows, unit_of(digits)
+    n, bits = fibre.cut.n, unit_of(digits)
     values = np.zeros((len(fibre), 2 * n), dtype=object)
     radii = np.full(len(fibre), np.inf)
     if digits <= DOUBLE_DOUBLE:
@@ -113,7 +111,7 @@ def exact_points(fibre: Fibre, digits: int) -> ExactPoints:
     radii[list(fibre.fine)] = np.inf
     balls = ~np.isfinite(radii)
     for i in np.flatnonzero(balls).tolist():
-        found = _in_balls(fibre.cut, rows, fibre.points[i], fibre.fine.get(i), digits)
+        found = zero_in_digits(fibre, i, digits, spare=1)
         if found is not None:
             values[i] = _whole(found.centre[:n], bits)
             radii[i] = float(found.radii.max(initial=0.0)) + 2.0**-bits
@@ -189,17 +187,6 @@ def _whole(point: Sequence[flint.acb], bits: int) -> np.ndarray:
     parts = [x.real for x in point] + [x.imag for x in point]
     ratios = [(int(m), int(e) + bits) for m, e in (x.mid().man_exp() for x in parts)]
     return np.array([m << e if e > 0 else m >> -e for m, e in ratios], dtype=object)
-
-
-def _in_balls(
-    cut: Cut, rows: np.ndarray, z: np.ndarray, fine: PointInWords | None, digits: int
-) -> PrecisePoint | None:
-    """A point to so many digits; to as many more as it is close to others by, if it is."""
-    if fine is None:
-        return precise_zero(
-            BallPolynomials.of(cut.polynomials, pad_rows(rows, 1 + len(z))), z, digits
-        )
-    return zero_from(cut.polynomials, rows, fine, digits + int(np.log10(max(fine.curvature, 1.0))))
 
 
 # Digits that double-double is said to have, and those that are asked of balls.
