@@ -183,12 +183,16 @@ class Examined:
         if not frame.exact:
             there = [_on_slice(fibre) for fibre in there]
         if frame.is_plain:
-            radii = carry_radii(frame, inner.x, inner.radii)
-            lifted = SharpPoints(tuple(there), radii, inner.digits)
+            known = np.split(inner.radii, np.cumsum([len(fibre) for fibre in there])[:-1])
+            pairs = zip(inner.fibres, known, strict=True)
+            radii = [carry_radii(frame, fibre.x, own) for fibre, own in pairs]
+            lifted = SharpPoints(tuple(there), np.vstack(radii), inner.digits)
         else:
             lifted = sharpen_points(there)
         coranks = np.array([k for f in inner.fibres for k in _coranks(reduction.equations, f, rng)])
-        residuals = reduction.original.residuals(lifted.x).max(axis=1, initial=0.0)
+        # Residuals that are rounding errors depend on what is evaluated together.
+        at_points = [reduction.original.residuals(fibre.x) for fibre in lifted.fibres]
+        residuals = np.vstack(at_points).max(axis=1, initial=0.0)
         return cls(reduction, points.rows, cut, own, inner, lifted, coranks, residuals)
 
 
