@@ -11,4 +11,10 @@ doubles do not tell apart); then the operations on a set as it is given (`given_
 `gauss_newton`. `change_of_coordinates` leads to natural ones, where these operations begin, and
 back; `frame` leads from what solving linear equations left, and from an orbit to its components;
 `certificate` with `component_claims`, and `certified_loops` prove.
+
+Points on a slice are held by what is known of them: a `fibres.Fibre` has those that one square
+system cuts, `points.Points` those of several systems under indices that stay, `fibres.SliceEnds`
+where paths ended, `exact_points.SharpPoints` points to rounding with their errors, and a
+`witness.WitnessSet` these with what was found out of the component. Points of all dimensions on one
+flag of slices are a `nag.decomposition.superset.Superset`.
 """
