@@ -30,8 +30,8 @@ MORE_SAMPLES = 4
 SAME = 0.5
 # Part of the digits in which coefficients beyond the degree must vanish.
 VANISHING = 0.6
-# Bits in which zeros are separated, beside those worked in.
-MOST_TIMES = 16
+# Bits in which zeros are separated, beside those worked in, tried in turn.
+MOST_TIMES = (4, 16, 64)
 
 Point = list[flint.acb]
 
@@ -202,13 +202,22 @@ def _fibre_over(
 def roots_of(polynomial: flint.acb_poly, digits: int) -> list[flint.acb]:
     """The zeros of a polynomial of exact coefficients, to so many digits.
 
+    They are looked for in a variable that is turned: from symmetric starts, as those of real
+    polynomials stay, iterations do not part two zeros that are almost real.
+
     Raises:
         FibreError: if they are not told from each other.
     """
-    try:
-        return polynomial.roots(tol=flint.arb(10) ** -digits, maxprec=MOST_TIMES * flint.ctx.prec)
-    except ValueError:
-        raise FibreError("zeros of a polynomial are not told from each other") from None
+    coefficients = polynomial.coeffs()
+    for turn, times in enumerate(MOST_TIMES, 1):
+        unit = middle(flint.acb(0, turn).exp())
+        turned = flint.acb_poly([middle(c * unit**i) for i, c in enumerate(coefficients)])
+        try:
+            roots = turned.roots(tol=flint.arb(10) ** -digits, maxprec=times * flint.ctx.prec)
+        except ValueError:
+            continue
+        return [z * unit for z in roots]
+    raise FibreError("zeros of a polynomial are not told from each other")
 
 
 @dataclass(frozen=True, eq=False)
