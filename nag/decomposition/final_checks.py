@@ -142,8 +142,7 @@ class Examined:
         """Those that have one of these indices, in an order that does not depend on them."""
         asked = np.zeros(1 + max(self.own.max(initial=-1), indices.max(initial=-1)), dtype=bool)
         asked[indices] = True
-        places = np.flatnonzero(asked[self.own])
-        places = places[self.inner.only(places).order()]
+        places = self.inner.order(np.flatnonzero(asked[self.own]))
         return replace(
             self,
             own=self.own[places],
@@ -183,9 +182,11 @@ class Examined:
         if not frame.exact:
             there = [_on_slice(fibre) for fibre in there]
         if frame.is_plain:
-            known = np.split(inner.radii, np.cumsum([len(fibre) for fibre in there])[:-1])
-            pairs = zip(inner.fibres, known, strict=True)
-            radii = [carry_radii(frame, fibre.x, own) for fibre, own in pairs]
+            radii, first = [], 0
+            for fibre in inner.fibres:
+                own_radii = inner.radii[first : first + len(fibre)]
+                radii.append(carry_radii(frame, fibre.x, own_radii))
+                first += len(fibre)
             lifted = SharpPoints(tuple(there), np.vstack(radii), inner.digits)
         else:
             lifted = sharpen_points(there)

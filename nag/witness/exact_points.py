@@ -11,7 +11,7 @@ top of it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -65,7 +65,7 @@ class ExactPoints:
     radii: np.ndarray
     balls: np.ndarray
 
-    def only(self, indices: Sequence[int]) -> ExactPoints:
+    def only(self, indices: Sequence[int] | slice) -> ExactPoints:
         """Some of the points."""
         return ExactPoints(
             self.values[indices], self.bits, self.radii[indices], self.balls[indices]
@@ -226,24 +226,27 @@ class SharpPoints:
         return float(relative_errors(self.x, self.radii).max(initial=EPS))
 
     def only(self, places: np.ndarray) -> SharpPoints:
-        """Some of the points, in this order but for its going from one fibre to the next."""
-        fibres, chosen, first = [], [np.zeros(0, dtype=int)], 0
-        for fibre in self.fibres:
-            own = places[(places >= first) & (places < first + len(fibre))]
-            if len(own):
-                fibres.append(fibre.only(own - first))
-                chosen.append(own)
-            first += len(fibre)
-        order = np.concatenate(chosen)
-        return SharpPoints(tuple(fibres), self.radii[order], self.digits[order])
+        """Some of the points, those of each fibre together, in this order within one."""
+        parts = list(self._by_fibre(places))
+        order = np.concatenate([places[:0], *(first + own for _, first, own in parts)])
+        fibres = tuple(fibre.only(own) for fibre, _, own in parts)
+        return SharpPoints(fibres, self.radii[order], self.digits[order])
 
-    def order(self) -> np.ndarray:
-        """Places of the points, fibre by fibre in an order that does not depend on their own."""
-        places, first = [np.zeros(0, dtype=int)], 0
+    def order(self, places: np.ndarray) -> np.ndarray:
+        """Places of points, fibre by fibre in an order that does not depend on their own."""
+        parts = self._by_fibre(places)
+        ordered = [first + own[_order_points(fibre.points[own])] for fibre, first, own in parts]
+        return np.concatenate([places[:0], *ordered])
+
+    def _by_fibre(self, places: np.ndarray) -> Iterator[tuple[Fibre, int, np.ndarray]]:
+        """Fibres with points at some places: the place of the first one, and those within it."""
+        first = 0
         for fibre in self.fibres:
-            places.append(first + _order_points(fibre.points))
+            within = places - first
+            own = within[(within >= 0) & (within < len(fibre))]
+            if len(own):
+                yield fibre, first, own
             first += len(fibre)
-        return np.concatenate(places)
 
 
 def sharpen_points(fibres: Sequence[Fibre], known: ExactPoints | None = None) -> SharpPoints:
@@ -254,7 +257,7 @@ def sharpen_points(fibres: Sequence[Fibre], known: ExactPoints | None = None) ->
     """
     parts, first = [], 0
     for fibre in fibres:
-        own = None if known is None else known.only(range(first, first + len(fibre)))
+        own = None if known is None else known.only(slice(first, first + len(fibre)))
         parts.append(_sharpen(fibre, own))
         first += len(fibre)
     sharp, radii, digits = zip(*parts, strict=True)

@@ -125,7 +125,7 @@ def witness_at(
             f"{paths.at_infinity} at infinity and {paths.failed} where the intersection is not "
             "transversal"
         )
-    there = there.only(there.order())
+    there = there.only(there.order(np.arange(len(there))))
     moved = replace(
         here,
         slice=to_slice(rows),
