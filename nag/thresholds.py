@@ -464,7 +464,8 @@ EQUATIONS, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
 interpolation.precise_samples: ROUNDED; real.arc_tracing: ARRIVED, CHORD, CORRECTION, EASY, FIRST,
 LARGEST, LEAST, MOVED, REACHED, ROUNDED, TURN; real.arcs: NEAR_END; real.critical_values: ASIDE,
 PARTED; real.even_points: CHORD, HALF_ANGLE, KEPT, TURN; real.fibre_table: SAME; real.find_curve:
-LEAST_RADIUS; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
+LEAST_RADIUS; real.real_pieces: SIZES; real.real_samples: SPREAD; mechanism.bonds: NEAR, NEARER,
+LEAST_SIZE;
 mechanism.framework_decomposition: ROUNDED; mechanism.inverse_kinematics: TINY, LEAST_DAMPING,
 LEAST_SHARE; mechanism.mobility_at: LEAST_SECONDS;
 mechanism.moving_parts: LENGTH, ARRIVED; mechanism.nearly_mobile: STEP,

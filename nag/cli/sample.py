@@ -32,6 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--count", type=_count, default=10, metavar="N", help="number of points (default: 10)"
     )
+    parser.add_argument("--real", action="store_true", help="real points only")
 
 
 def run(options: argparse.Namespace) -> CommandAnswer:
@@ -44,7 +45,12 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     component = component_of(found, options.component, "--component")
     system = found.decomposition.system
     try:
-        samples = sample(system, component, options.count, run=chosen_run(options))
+        if options.real:
+            from nag.real.real_samples import sample_real
+
+            samples = sample_real(component, options.count, run=chosen_run(options))
+        else:
+            samples = sample(system, component, options.count, run=chosen_run(options))
         doubt = ""
     except SamplingError as error:
         samples, doubt = error.found, str(error)

@@ -1,13 +1,14 @@
-"""The real part of components: all real points of a curve, as a graph.
+"""The real part of components: all real points of a curve, as a graph, and some of larger sets.
 
 Read in this order, bottom-up: `curve` (the data; `shown` for users), `fibre_table` (fibres in many
 digits over all values of a linear form, from a circle of them), `critical_values` (over which of
 them real points may meet), `closure` (the curve in a product of projective spaces, so that
 half-angles pass through infinity), `real_fibres` (vertices over special values, real points between
-them), `arc_tracing` (from one to the other), `even_points` (along arcs), `arcs` (what they
-make up), and `find_curve`, which
-puts all of it together and says what was not certain.
+them), `arc_tracing` (from one to the other), `even_points` (along arcs), `arcs` (what they make
+up), and `find_curve`, which puts all of it together and says what was not certain. `real_pieces`
+(whether a component of any dimension has real points) and `real_samples` (random ones) are on
+these.
 
 Real curves inside complex surfaces, where these are singular or meet their conjugates, are not
-looked for: of a component of dimension two and more nothing is said here.
+looked for.
 """

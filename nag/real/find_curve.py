@@ -55,6 +55,8 @@ from nag.witness.witness import WitnessSet
 DIGITS, ATTEMPTS = (120, 250, 500), 4
 # Points of fibres up to which both methods of finding critical values run, and check each other.
 MOST_CHECKED = 600
+# Points of fibres in all at most.
+MOST_POINTS = 40_000
 # Critical values that both methods find are the same to so many digits.
 SAME = 1e-12
 # The circle's radius, at least.
@@ -77,7 +79,8 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
         Vertices, edges and pieces; undecided, with the reason, where a check failed.
 
     Raises:
-        RealCurveError: if the component's equations stay singular along it.
+        RealCurveError: if the component's equations stay singular along it, or its degree is too
+            large.
         NagError: if the component is no curve.
 
     >>> import nag
@@ -185,6 +188,11 @@ def _sample(
             bounds.append(d * sum(max(f.degree - 1, 0) for f in fibres[0].cut.polynomials))
         determinant = min(bounds)
     known = [b for b in (discriminant, determinant) if b is not None]
+    if min(known) * d > MOST_POINTS:
+        raise RealCurveError(
+            f"the curve has degree {d}: critical values would take {min(known) * d} points of "
+            f"fibres, and {MOST_POINTS} are taken at most"
+        )
     wanted = max(known) if max(known) * d <= MOST_CHECKED else min(known)
     count = max(wanted, d + 1) + 1 + MORE_SAMPLES
     circle = sample_circle(fibres, form, radius, count, digits, rng, run)

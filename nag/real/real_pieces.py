@@ -1,0 +1,298 @@
+"""Real points of a component: whether there are any, and one on each connected piece.
+
+Of a finite set they are those of its points that are real, of a curve what the complete picture of
+it says. On each connected piece of the real part of a larger set, which is closed, some point is
+nearest to a given one (Seidenberg 1954): with n - d of the equations f it satisfies
+``x - p = J^T l``, a system in x and l whose isolated solutions are found, if the nearest point is
+smooth (Hauenstein 2012; Wu & Reid 2013). Where that takes too many paths, Newton's method looks for
+real points round random ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from fractions import Fraction
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.errors import StartError
+from nag.numerics.coincidence import coincident
+from nag.numerics.read_only import equal_values, fixed_array
+from nag.numerics.zero_values import LEAST, ON
+from nag.real.curve import RealCurve
+from nag.real.find_curve import RealCurveError, find_real_curve
+from nag.solving.solve import solve
+from nag.text.table import lines_of, one_line, point_text
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.witness.change_of_coordinates import carry_component, coordinates_of
+from nag.witness.component_equations import component_fibres
+from nag.witness.cutting import Cut
+from nag.witness.fibres import Fibre
+from nag.witness.membership import Membership, is_member
+from nag.witness.real_points import real_points_near
+from nag.witness.witness import WitnessSet
+
+# Paths of the system of nearest points, by the product of its degrees, up to which it is solved.
+MOST_PATHS = 3000
+# Random points round which Newton's method looks for real ones, of each size.
+PLACES, SIZES = 3, (0.3, 1.0, 3.0)
+
+
+class Reality(StrEnum):
+    """Whether a component has real points.
+
+    It has none, which is proved, where its picture is complete; where none was found there may be
+    some.
+    """
+
+    FOUND = "found"
+    NONE_FOUND = "none found"
+    NONE = "none, proved"
+
+
+@dataclass(frozen=True, eq=False)
+class RealPieces:
+    """Real points of a component.
+
+    Attributes:
+        points: real, shape ``(k, n)``.
+        dimensions: of the real part round each, or -1 where it is not known.
+        reality: whether there are any.
+        each_piece: whether one on each connected piece is among them.
+        reason: what that rests on, or what is not known.
+    """
+
+    points: np.ndarray
+    dimensions: tuple[int, ...]
+    reality: Reality
+    each_piece: bool
+    reason: str
+
+    __eq__ = equal_values
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", fixed_array(self.points, float))
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        rows = [("answer", answer_text(self)), ("rests on", self.reason)]
+        rows += [("point", point_text(x)) for x in self.points[:1]]
+        return lines_of("RealPieces", rows)
+
+
+def answer_text(found: RealPieces) -> str:
+    """Whether there are real points, in words."""
+    if found.reality is not Reality.FOUND:
+        return f"real points: {found.reality}"
+    number = len(found)
+    pieces = "one on each connected piece" if found.each_piece else "perhaps not on each piece"
+    return f"{number} real point{'s' * (number > 1)}, {pieces}"
+
+
+@takes_run
+def find_real_points(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealPieces:
+    """Real points of a component of any dimension, one on each connected piece where they are had.
+
+    Args:
+        component: one of the components of a `nag.Decomposition`.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+
+    >>> import nag
+    >>> sphere, = nag.decompose("x^2 + y^2 + z^2 = 1").components
+    >>> found = nag.find_real_points(sphere)
+    >>> str(found.reality), bool(abs((found.points**2).sum(axis=1) - 1).max() < 1e-12)
+    ('found', True)
+    >>> points, = nag.decompose(["x^2 = 2", "y = x"]).components
+    >>> len(nag.find_real_points(points))
+    2
+    """
+    if component.dimension == 0:
+        return _of_finite_set(component)
+    if component.dimension == 1:
+        return _of_curve(component, run)
+    return _of_larger_set(component, run)
+
+
+def _of_finite_set(component: WitnessSet) -> RealPieces:
+    off, radii = np.abs(component.points.imag), component.radii
+    real = (off <= radii).all(axis=1)
+    if real.any():
+        reason = "points that are not away from their conjugates by more than their errors"
+        points = component.points[real].real
+        return RealPieces(points, (0,) * len(points), Reality.FOUND, True, reason)
+    nothing = np.zeros((0, component.points.shape[1]))
+    reason = "all points are away from their conjugates by more than their errors"
+    return RealPieces(nothing, (), Reality.NONE, True, reason)
+
+
+def _of_curve(component: WitnessSet, run: Run) -> RealPieces:
+    try:
+        curve = find_real_curve(component, run=run)
+    except RealCurveError as error:
+        return _near_random_points(component, str(error), run)
+    if not curve.complete:
+        return _near_random_points(component, curve.reason, run)
+    points, dimensions = points_of_pieces(curve)
+    reality = Reality.FOUND if len(points) else Reality.NONE
+    reason = "all real points of a curve, from its fibres in many digits"
+    return RealPieces(points, dimensions, reality, True, reason)
+
+
+def points_of_pieces(curve: RealCurve) -> tuple[np.ndarray, tuple[int, ...]]:
+    """A point on each piece of a curve, a smooth one of arcs, and the dimensions there."""
+    points, dimensions = [], []
+    for piece in curve.pieces:
+        if piece.edges:
+            own = curve.edges[piece.edges[0]].points
+            points.append(own[len(own) // 2])
+        else:
+            points.append(curve.vertices[piece.vertices[0]].point)
+        dimensions.append(int(bool(piece.edges)))
+    shape = len(points), len(curve.variables)
+    return np.array(points, dtype=float).reshape(shape), tuple(dimensions)
+
+
+def _of_larger_set(component: WitnessSet, run: Run) -> RealPieces:
+    given = component._known_system()
+    natural = coordinates_of(given)
+    system = natural.system(given)
+    here = carry_component(component, natural, system)
+    fibres = component_fibres(system, here)
+    cut = fibres[0].cut
+    if cut.aux:
+        reason = "the component is not reduced: its nearest points are not looked for"
+        return _near_random_points(component, reason, run)
+    rng = run.random(12)
+    target = [Fraction(int(c), 64) for c in rng.integers(-128, 128, system.n)]
+    nearest = nearest_points_system(cut, target)
+    if np.prod([float(f.degree) for f in nearest.polynomials]) > MOST_PATHS:
+        reason = f"nearest points would take more than {MOST_PATHS} paths"
+        return _near_random_points(component, reason, run)
+    try:
+        found = solve(nearest, run=run)
+    except StartError as error:
+        return _near_random_points(component, str(error), run)
+    starts = np.array([s.point[: system.n] for s in found.real]).reshape(-1, system.n).real
+    points, undecided = _members(system, fibres, starts, rng, run)
+    complete = found.complete and not undecided and not len(found.on_components)
+    doubt = "" if complete else "some nearest points may be missing"
+    doubt = doubt or _singular_doubt(cut, rng, run)
+    if not len(points):
+        if not doubt:
+            reason = "no nearest point of a random one is real, and none is singular"
+            return RealPieces(np.zeros((0, system.n)), (), Reality.NONE, True, reason)
+        return _near_random_points(component, f"no real nearest point was found; {doubt}", run)
+    dimensions = tuple(_dimension_at(system, here, x) for x in points)
+    reason = f"points whose distance from a random one is stationary; {doubt or 'all of them'}"
+    back = natural.inverse.points(points)
+    return RealPieces(back, dimensions, Reality.FOUND, not doubt, reason)
+
+
+def _singular_doubt(cut: Cut, rng: np.random.Generator, run: Run) -> str:
+    """Why a piece may have no smooth nearest point; empty where no real point is singular."""
+    system = singular_points_system(cut, rng)
+    if np.prod([float(f.degree) for f in system.polynomials[: system.n]]) > MOST_PATHS:
+        return f"singular points would take more than {MOST_PATHS} paths"
+    try:
+        found = solve(system, run=run)
+    except StartError as error:
+        return str(error)
+    if found.complete and not (len(found.on_components) or found.real or found.pathless):
+        return ""
+    return "pieces whose nearest point is singular may be missing"
+
+
+def singular_points_system(cut: Cut, rng: np.random.Generator) -> PolynomialSystem:
+    """Equations of points at which gradients depend on each other, with multipliers."""
+    n, m = cut.n, len(cut.polynomials)
+    total = n + m
+    rows = [f.with_variables(total, range(n)) for f in cut.polynomials]
+    multipliers = Polynomial.variables(total)[n:]
+    for i in range(n):
+        slopes = (f.derivative(i).with_variables(total, range(n)) for f in cut.polynomials)
+        products = (m * slope for m, slope in zip(multipliers, slopes, strict=True))
+        rows.append(sum(products, Polynomial(total, {})))
+    weights = (Fraction(int(c), 64) for c in rng.integers(32, 96, m))
+    patch = sum((w * m for w, m in zip(weights, multipliers, strict=True)), Polynomial(total, {}))
+    names = (*(f"x{i}" for i in range(n)), *(f"l{j}" for j in range(m)))
+    return PolynomialSystem(names, (*rows, patch - Polynomial.constant(total, 1)))
+
+
+def nearest_points_system(cut: Cut, target: Sequence[Fraction]) -> PolynomialSystem:
+    """Equations of points x whose distance from a target is stationary, with multipliers.
+
+    Args:
+        cut: the equations f; the others are ``x - p = J^T l``.
+    """
+    n, m = cut.n, len(cut.polynomials)
+    total = n + m
+    variables = Polynomial.variables(total)
+    rows = [f.with_variables(total, range(n)) for f in cut.polynomials]
+    normals = []
+    for i in range(n):
+        normal = variables[i] - Polynomial.constant(total, target[i])
+        for j, f in enumerate(cut.polynomials):
+            slope = f.derivative(i).with_variables(total, range(n))
+            normal = normal - variables[n + j] * slope
+        normals.append(normal)
+    names = (*(f"x{i}" for i in range(n)), *(f"l{j}" for j in range(m)))
+    return PolynomialSystem(names, (*rows, *normals))
+
+
+def _members(
+    system: PolynomialSystem,
+    fibres: Sequence[Fibre],
+    points: np.ndarray,
+    rng: np.random.Generator,
+    run: Run,
+) -> tuple[np.ndarray, int]:
+    """Those of the points that lie on the component, each once, and how many are not decided."""
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    known, undecided = np.zeros((0, system.n)), 0
+    for x in points:
+        if evaluator.residuals(x[None] + 0j).max(initial=0.0) > ON:
+            continue
+        if coincident(known, x, 0.0).any():
+            continue
+        answer, _ = is_member(x + 0j, LEAST, fibres, rng, run)
+        undecided += answer is Membership.UNDECIDED
+        if answer is Membership.MEMBER:
+            known = np.vstack([known, x])
+    return known, undecided
+
+
+def _dimension_at(system: PolynomialSystem, component: WitnessSet, x: np.ndarray) -> int:
+    """The component's dimension where the equations have the rank that they have on it."""
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    s = np.linalg.svd(evaluator.balanced_jacobian(x + 0j), compute_uv=False)
+    rank = system.n - component.corank
+    smooth = rank == 0 or s[rank - 1] > ON * s[0]
+    return component.dimension if smooth else -1
+
+
+def _near_random_points(component: WitnessSet, why: str, run: Run) -> RealPieces:
+    """What Newton's method finds round random points."""
+    system = component._known_system()
+    size = float(np.median(np.abs(component.points)))
+    rng = run.random(13)
+    for scale in SIZES:
+        for _ in range(PLACES):
+            near = scale * max(size, 1.0) * rng.standard_normal(system.n)
+            found = real_points_near(system, component, near, run=run, starts=6)
+            if len(found):
+                points = np.asarray(found.points)[:1]
+                dimension = _dimension_at(system, component, points[0])
+                reason = f"Newton's method from random points; {why}"
+                return RealPieces(points, (dimension,), Reality.FOUND, False, reason)
+    nothing = np.zeros((0, system.n))
+    reason = f"nor by Newton's method from random points; {why}"
+    return RealPieces(nothing, (), Reality.NONE_FOUND, False, reason)

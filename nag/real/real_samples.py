@@ -1,0 +1,105 @@
+"""Random real points of a component."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.given import check_whole
+from nag.errors import ComponentError, NagError
+from nag.real.find_curve import find_real_curve
+from nag.real.real_pieces import Reality, find_real_points
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.witness.frame import EPS
+from nag.witness.real_points import real_points_near
+from nag.witness.sampling import Samples
+from nag.witness.witness import WitnessSet
+
+# Random points, in sizes of the component's real points, that real ones are looked for beside; and
+# how many are tried for each that is wanted.
+SPREAD, TRIES = 1.0, 4
+
+
+class NoRealPointsError(NagError):
+    """Real points were asked of a component that has none."""
+
+
+def _why_none(reality: Reality, reason: str) -> NagError:
+    kind = NoRealPointsError if reality is Reality.NONE else ComponentError
+    return kind(f"real points: {reality}{reason and ': '}{reason}")
+
+
+@takes_run
+def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) -> Samples:
+    """Random real points of a component.
+
+    Those of a finite set and of a curve are drawn from all of them, of a curve each arc as often as
+    it is long; those of a larger set are real points near random ones, which favours what is seen
+    from there.
+
+    Args:
+        component: one of the components of a `nag.Decomposition`.
+        count: how many.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+
+    Returns:
+        The points, of which the imaginary parts are zero.
+
+    Raises:
+        NoRealPointsError: if there are none.
+        ComponentError: if none, or not as many, were found.
+    """
+    check_whole(count, "count")
+    rng = run.random(14)
+    system = component._known_system()
+    if component.dimension == 1:
+        points = _of_curve(component, count, rng, run)
+    else:
+        found = find_real_points(component, run=run)
+        if found.reality is not Reality.FOUND:
+            raise _why_none(found.reality, found.reason)
+        points = np.asarray(found.points)
+        if component.dimension == 0:
+            points = points[rng.integers(len(points), size=count)]
+        else:
+            points = _near(component, points, count, rng, run)
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    residual = float(evaluator.residuals(points + 0j).max(initial=0.0))
+    return Samples(points + 0j, residual, max(residual, EPS))
+
+
+def _of_curve(component: WitnessSet, count: int, rng: np.random.Generator, run: Run) -> np.ndarray:
+    curve = find_real_curve(component, run=run)
+    if curve.edges:
+        steps = [np.linalg.norm(np.diff(e.chart, axis=0), axis=1) for e in curve.edges]
+        # An arc's points but for the first; they are on the curve to rounding.
+        points = np.vstack([e.points[1:] for e in curve.edges])
+        lengths = np.concatenate(steps)
+        return points[rng.choice(len(points), size=count, p=lengths / lengths.sum())]
+    isolated = [v.point for v in curve.vertices]
+    if not isolated:
+        none = Reality.NONE if curve.complete else Reality.NONE_FOUND
+        raise _why_none(none, curve.reason)
+    return np.array(isolated)[rng.integers(len(isolated), size=count)]
+
+
+def _near(
+    component: WitnessSet,
+    known: np.ndarray,
+    count: int,
+    rng: np.random.Generator,
+    run: Run,
+) -> np.ndarray:
+    system = component._known_system()
+    size = SPREAD * (1 + float(np.abs(known).max()))
+    found: list[np.ndarray] = []
+    for _ in range(TRIES * count):
+        if len(found) == count:
+            break
+        near = known[rng.integers(len(known))] + size * rng.standard_normal(system.n)
+        points = real_points_near(system, component, near, starts=1, run=run)
+        if len(points):
+            found.append(np.asarray(points.points)[0])
+    if len(found) < count:
+        raise ComponentError(f"{len(found)} of {count} random real points were found")
+    return np.array(found).reshape(count, system.n)

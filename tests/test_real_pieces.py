@@ -1,0 +1,111 @@
+"""Whether components have real points: one on each piece, none found, or none at all."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import nag
+from nag.cli import main
+from nag.mechanism.framework_model import cartesian_model
+from nag.real.real_pieces import Reality
+from nag.real.real_samples import NoRealPointsError, sample_real
+
+FOUND, NONE_FOUND, NONE = Reality.FOUND, Reality.NONE_FOUND, Reality.NONE
+
+
+def pieces(*equations: str, seed: int = 0) -> list[nag.RealPieces]:
+    return [nag.find_real_points(c, seed=seed) for c in nag.decompose(list(equations)).components]
+
+
+# Components in the order of answers: whether they have real points.
+KNOWN = {
+    "sphere": (["x^2 + y^2 + z^2 = 1"], [FOUND]),
+    "imaginary sphere": (["x^2 + y^2 + z^2 = -1"], [NONE]),
+    "Fermat quartic": (["x^4 + y^4 + z^4 + 1"], [NONE]),
+    "two points and none": (["(x^2 - 2)*(x^2 + 2)", "y = x"], [FOUND, FOUND, NONE, NONE]),
+    "circles": (["(x^2 + y^2 - 1)*(x^2 + y^2 + 1)"], [FOUND, NONE]),
+    "conjugate lines": (["x^2 + y^2"], [FOUND, FOUND]),
+    "quadrics in space": (["x^2 + y^2 + z^2 + w^2 = 1", "x*y = z*w"], [FOUND]),
+}
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_components_have_real_points_where_they_are_known_to(name: str) -> None:
+    equations, known = KNOWN[name]
+    assert sorted(each.reality for each in pieces(*equations)) == sorted(known)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_every_sheet_of_a_surface_has_a_point(seed: int) -> None:
+    (found,) = pieces("x*y*z = 1", seed=seed)
+    assert found.each_piece and set(found.dimensions) == {2}
+    assert np.abs(found.points.prod(axis=1) - 1).max() < 1e-12
+    signs = {tuple(s) for s in np.sign(found.points).astype(int).tolist()}
+    assert signs == {(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)}
+
+
+def test_a_point_that_is_nearest_because_it_is_singular_is_not_left_out_silently() -> None:
+    # A double cone, and a real point on a surface that is otherwise complex.
+    (cone,) = pieces("x^2 + y^2 = z^2")
+    assert cone.reality is FOUND and not cone.each_piece
+    (point,) = pieces("x^2 + y^2 + z^2*(1 + z^2) = 0")
+    assert point.reality is not NONE
+
+
+def test_the_finite_and_the_one_dimensional_are_complete() -> None:
+    (oval,) = pieces("y^2 = x^3 - x")
+    assert oval.each_piece and oval.dimensions == (1, 1)
+    (cubic,) = pieces("y^2 = x^2*(x - 1)")
+    assert sorted(cubic.dimensions) == [0, 1]
+
+
+def test_peaucelliers_inversor_is_real_where_its_rhombus_folds() -> None:
+    case = nag.read_case("cases/planar/peaucellier.toml")
+    answer = nag.decompose(cartesian_model(case.assembly.framework))
+    curves = [c for c in answer.components if c.dimension == 1]
+    assert len(curves) == 2
+    ends = []
+    for curve in curves:
+        found = nag.find_real_points(curve)
+        assert found.reality is FOUND and found.dimensions == (0,)
+        # OB - BC = 3 = 2 OA: the ends of the rhombus fall together, at distances in units of OA.
+        x = dict(zip(answer.system.variables, found.points[0].tolist(), strict=True))
+        assert np.hypot(x["x_C"], x["y_C"]) == pytest.approx(2, abs=1e-12)
+        ends.append(np.hypot(x["x_P"], x["y_P"]))
+    # The inverse of C, and C itself.
+    assert sorted(ends) == pytest.approx([2, 14 / 3], abs=1e-12)
+
+
+@pytest.mark.parametrize("equations", [["x^2 + y^2 = 1"], ["x*y*z = 1"], ["x^2 = 2", "y = x"]])
+def test_real_samples_are_real_and_on_the_component(equations: list[str]) -> None:
+    answer = nag.decompose(equations)
+    component = answer.components[0]
+    samples = sample_real(component, 5)
+    assert samples.points.shape == (5, answer.system.n)
+    assert np.array_equal(samples.points.imag, np.zeros_like(samples.points.imag))
+    assert samples.residual < 1e-12
+    assert all(component.contains(x) for x in samples.points)
+    assert sample_real(component, 5) == samples
+
+
+def test_real_samples_are_asked_for_at_the_prompt(tmp_path, capsys) -> None:
+    text = 'title = "t"\nkind = "system"\nvariables = ["x", "y"]\nequations = ["x^2 + y^2 = {}"]\n'
+    file, out = tmp_path / "circle.toml", tmp_path / "out.json"
+    file.write_text(text.format(1))
+    assert main(["sample", str(file), "--real", "--count", "4", "--json", str(out)]) == 0
+    points = np.array(json.loads(out.read_text())["points"])
+    assert np.abs((points[..., 0] ** 2).sum(axis=1) - 1).max() < 1e-12
+    assert not points[..., 1].any()
+    file.write_text(text.format(-1))
+    capsys.readouterr()
+    assert main(["sample", str(file), "--real"]) == 2
+    assert "real points: none, proved" in capsys.readouterr().err
+
+
+def test_none_is_drawn_where_there_is_none() -> None:
+    (sphere,) = nag.decompose("x^2 + y^2 + z^2 = -1").components
+    with pytest.raises(NoRealPointsError, match="none, proved"):
+        sample_real(sphere, 1)
