@@ -372,6 +372,12 @@ real.real_fibres.ROUNDING                   1e-12   Imaginary parts of vertices,
                                                     are real.
 real.real_fibres.NOT_REAL                   1e-6    And of those that are not; between them more
                                                     digits are taken.
+real.real_fibres.FAR_TOGETHER               0.24    Share of the order of a large value to which
+                                                    points there come together at infinity.
+real.real_fibres.FAR_BETWEEN                10      Times that distance from which on they do not;
+                                                    between them more digits are taken.
+real.real_fibres.FAR_REAL                   0.75    The same share of imaginary parts of real ones.
+real.real_fibres.FAR_COMPLEX                0.35    And of others; between them likewise.
 real.closure.AT_INFINITY                    1e-9    Homogeneous coordinates of length one that are
                                                     zero at vertices known to more digits.
 real.closure.NO_NORM                        1e-7    The same of norms of displacements.

@@ -44,7 +44,7 @@ from nag.real.fibre_table import (
     fibre_table,
     sample_circle,
 )
-from nag.real.real_fibres import SpecialFibre, real_fibre, special_fibre
+from nag.real.real_fibres import SpecialFibre, infinite_fibre, real_fibre, special_fibre
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
@@ -144,7 +144,8 @@ def _find(
     circle, degrees = _sample(system, component, fibres, form, radius, digits, rng, run)
     table = fibre_table(circle, rng)
     closure = Closure.of(equations, system, form)
-    specials = _special_fibres(circle, degrees, table, closure, rng)
+    alike = 1 if component.multidegree is None else int(component.multidegree.max(initial=1))
+    specials = _special_fibres(circle, degrees, table, closure, alike, rng)
     arcs = find_arcs(table, closure, specials, radius)
     skeleton = join_arcs(closure, specials, arcs, turns)
     doubt = skeleton.doubt or _too_many_pieces(skeleton, circle.degree)
@@ -209,6 +210,7 @@ def _special_fibres(
     degrees: tuple[int, int | None],
     table: FibreTable,
     closure: Closure,
+    alike: int,
     rng: np.random.Generator,
 ) -> list[SpecialFibre]:
     """The fibres over values at which real points meet, ascending, and last that over infinity.
@@ -233,7 +235,7 @@ def _special_fibres(
         # Any other value serves to cut loops that reach from infinity to infinity.
         value = flint.arb(float(rng.integers(-32, 32)) / 128)
         specials = [special_fibre(table, closure, value)]
-    return [*specials, _infinite_fibre(circle, table, closure, specials)]
+    return [*specials, _over_infinity(circle, table, closure, alike, specials)]
 
 
 def _singular_fibres(
@@ -248,8 +250,12 @@ def _singular_fibres(
     return [fibre for fibre in fibres if fibre.singular]
 
 
-def _infinite_fibre(
-    circle: CircleOfFibres, table: FibreTable, closure: Closure, specials: Sequence[SpecialFibre]
+def _over_infinity(
+    circle: CircleOfFibres,
+    table: FibreTable,
+    closure: Closure,
+    alike: int,
+    specials: Sequence[SpecialFibre],
 ) -> SpecialFibre:
     """The fibre over infinity; empty where no real arc goes there."""
     first, last = specials[0].pencil[0], specials[-1].pencil[0]
@@ -258,7 +264,7 @@ def _infinite_fibre(
         nothing = np.zeros((0, closure.size), dtype=complex)
         none = np.zeros(0, dtype=int)
         return SpecialFibre(np.array([1.0, 0.0]), nothing, none, none.astype(bool))
-    return special_fibre(table, closure, None)
+    return infinite_fibre(table, closure, alike)
 
 
 def _too_many_pieces(skeleton: Skeleton, degree: int) -> str:

@@ -24,6 +24,11 @@ BESIDE, TOGETHER, BETWEEN = 0.25, 0.05, 1e2
 REAL, COMPLEX = 0.5, 0.35
 # Imaginary parts of vertices that are real: rounding in doubles, and what is beyond it.
 ROUNDING, NOT_REAL = 1e-12, 1e-6
+# Decimal order of values at which infinity is looked at, at least; and parts of it: distances there
+# of points that come together, and how many times that is between; imaginary parts of real ones,
+# and of others.
+LEAST_ORDER = 10
+FAR_TOGETHER, FAR_BETWEEN, FAR_REAL, FAR_COMPLEX = 0.24, 10.0, 0.75, 0.35
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,8 +53,8 @@ class SpecialFibre:
         return bool((self.real & (self.sheets > 1)).any())
 
 
-def special_fibre(table: FibreTable, closure: Closure, value: flint.arb | None) -> SpecialFibre:
-    """The points over a value, in radii; over infinity where it is None.
+def special_fibre(table: FibreTable, closure: Closure, value: flint.arb) -> SpecialFibre:
+    """The points over a value, in radii.
 
     Raises:
         UnclearDigitsError: if it is not clear which points come together.
@@ -57,39 +62,61 @@ def special_fibre(table: FibreTable, closure: Closure, value: flint.arb | None) 
     with in_bits(bits_of(table.digits + SPARE)):
         step = flint.arb(10) ** round(-BESIDE * table.digits)
         radius = flint.arb(table.radius)
-        if value is None:
-            at, pencil = radius / step, np.array([1.0, 0.0])
-        else:
-            at = (value + step) * radius
-            pencil = np.array([float(value * radius), 1.0])
-        fibre = table.at(at)
-    points = homogeneous_points(closure, fibre, table.digits)
+        pencil = np.array([float(value * radius), 1.0])
+        fibre = table.at((value + step) * radius)
+    points = homogeneous_points(closure, fibre)
     together = 10 ** (-TOGETHER * table.digits)
-    clusters = _clusters(closure.distances(points, points), together)
-    middles, real = [], []
+    middles = []
+    clusters = _clusters(closure.distances(points, points), together, BETWEEN * together)
     for members in clusters:
-        if value is None:
-            own = points[members]
-            middle = _aligned(closure, own).mean(axis=0)
-        else:
-            with in_bits(bits_of(table.digits + SPARE)):
-                x = [
-                    sum(column, flint.acb(0)) / len(members)
-                    for column in zip(*(fibre[i] for i in members), strict=True)
-                ]
-            middle = doubles(x)
-            middle = closure.homogeneous(middle[None])[0]
-        middle = _turned_real(closure, closure.normalised(middle[None])[0])
-        off = float(np.abs(middle.imag).max())
-        if ROUNDING < off < NOT_REAL:
-            raise UnclearDigitsError("it is not clear which vertices are real")
-        real.append(off <= ROUNDING)
-        middles.append(middle)
+        with in_bits(bits_of(table.digits + SPARE)):
+            columns = zip(*(fibre[i] for i in members), strict=True)
+            x = [sum(column, flint.acb(0)) / len(members) for column in columns]
+        middles.append(closure.homogeneous(doubles(x)[None])[0])
+    return _of_middles(closure, pencil, middles, clusters, ROUNDING, NOT_REAL)
+
+
+def infinite_fibre(table: FibreTable, closure: Closure, alike: int) -> SpecialFibre:
+    """The points over infinity.
+
+    Args:
+        alike: how many sheets go there along one direction, at most: digits are lost for each.
+
+    Raises:
+        UnclearDigitsError: if it is not clear which points come together.
+    """
+    order = table.digits / (2 * (1 + alike))
+    if order < LEAST_ORDER:
+        raise UnclearDigitsError("many sheets go to infinity alike")
+    with in_bits(bits_of(table.digits + SPARE)):
+        fibre = table.at(flint.arb(table.radius) * flint.arb(10) ** round(order))
+    points = homogeneous_points(closure, fibre)
+    together = 10 ** (-FAR_TOGETHER * order)
+    clusters = _clusters(closure.distances(points, points), together, FAR_BETWEEN * together)
+    middles = [_aligned(closure, points[members]).mean(axis=0) for members in clusters]
+    limits = (10 ** (-part * order) for part in (FAR_REAL, FAR_COMPLEX))
+    return _of_middles(closure, np.array([1.0, 0.0]), middles, clusters, *limits)
+
+
+def _of_middles(
+    closure: Closure,
+    pencil: np.ndarray,
+    middles: Sequence[np.ndarray],
+    clusters: Sequence[Sequence[int]],
+    rounding: float,
+    not_real: float,
+) -> SpecialFibre:
+    """A fibre of the middles of clusters, which are real up to the limits."""
+    points = closure.normalised(np.array(middles))
+    points = np.array([_turned_real(closure, point) for point in points])
+    off = np.abs(points.imag).max(axis=1)
+    if ((off > rounding) & (off < not_real)).any():
+        raise UnclearDigitsError("it is not clear which vertices are real")
     sheets = np.array([len(members) for members in clusters])
-    return SpecialFibre(pencil, np.array(middles), sheets, np.array(real, dtype=bool))
+    return SpecialFibre(pencil, points, sheets, off <= rounding)
 
 
-def homogeneous_points(closure: Closure, fibre: Sequence[Point], digits: int) -> np.ndarray:
+def homogeneous_points(closure: Closure, fibre: Sequence[Point]) -> np.ndarray:
     """Points in many digits as normalised ones in doubles."""
     return closure.homogeneous(np.array([doubles(x) for x in fibre]))
 
@@ -114,8 +141,9 @@ def _aligned(closure: Closure, points: np.ndarray) -> np.ndarray:
     return result
 
 
-def _clusters(distances: np.ndarray, together: float) -> list[list[int]]:
-    between = (distances > together) & (distances < BETWEEN * together)
+def _clusters(distances: np.ndarray, together: float, apart: float) -> list[list[int]]:
+    """Indices of points in lists of those that come together."""
+    between = (distances > together) & (distances < apart)
     left, result = list(range(len(distances))), []
     while left:
         cluster = [left.pop(0)]
@@ -151,5 +179,5 @@ def real_fibre(
             if off > real_limit * size and off < complex_limit * size:
                 raise UnclearDigitsError("it is not clear which points are real")
             real.append(bool(off <= real_limit * size))
-    points = homogeneous_points(closure, fibre, table.digits)
+    points = homogeneous_points(closure, fibre)
     return points, np.array(real, dtype=bool)

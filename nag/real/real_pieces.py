@@ -106,14 +106,19 @@ def find_real_points(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealPi
         component: one of the components of a `nag.Decomposition`.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
+    Returns:
+        The points, whether there are any, and what that rests on.
+
+    Raises:
+        nag.ComponentError: if the witness points are no regular zeros of equations that cut it.
+
     >>> import nag
     >>> sphere, = nag.decompose("x^2 + y^2 + z^2 = 1").components
     >>> found = nag.find_real_points(sphere)
     >>> str(found.reality), bool(abs((found.points**2).sum(axis=1) - 1).max() < 1e-12)
     ('found', True)
-    >>> points, = nag.decompose(["x^2 = 2", "y = x"]).components
-    >>> len(nag.find_real_points(points))
-    2
+    >>> [len(nag.find_real_points(c)) for c in nag.decompose("x^4 = 4").components]
+    [1, 1, 0, 0]
     """
     if component.dimension == 0:
         return _of_finite_set(component)
