@@ -48,6 +48,28 @@ CURVES: dict[str, tuple[list[str], dict[PieceKind, int], dict[VertexKind, int], 
     "hyperbola": (["x*y - 1"], {OPEN: 2}, {INFINITE: 2}, 2),
     "line": (["2*x + 3*y - 1"], {OPEN: 1}, {INFINITE: 1}, 1),
     "ellipse twice": (["(x^2 + 3*y^2 - 1)^2"], {LOOP: 1}, {}, 1),
+    "tacnode": (["y^2 - x^4*(1 - x^2)"], {NETWORK: 1}, {SINGULAR: 1}, 2),
+    "trifolium": (["(x^2 + y^2)^2 - x*(x^2 - 3*y^2)"], {NETWORK: 1}, {SINGULAR: 1}, 3),
+    "deltoid": (
+        ["(x^2 + y^2)^2 + 18*(x^2 + y^2) - 27 - 8*(x^3 - 3*x*y^2)"],
+        {NETWORK: 1},
+        {SINGULAR: 3},
+        3,
+    ),
+    "ramphoid cusp": (["(y - x^2)^2 - x^5"], {NETWORK: 1}, {SINGULAR: 1, INFINITE: 1}, 2),
+    "conchoid": (
+        ["(x - 1)^2*(x^2 + y^2) - x^2/4"],
+        {OPEN: 2, POINT: 1},
+        {ISOLATED: 1, INFINITE: 1},
+        2,
+    ),
+    # Robinson 1973: an irreducible sextic, nowhere negative, with ten zeros, two of them infinite.
+    "Robinson": (
+        ["x^6 + y^6 + 1 - x^4*y^2 - x^4 - y^4*x^2 - y^4 - x^2 - y^2 + 3*x^2*y^2"],
+        {POINT: 8},
+        {ISOLATED: 8},
+        0,
+    ),
     "no real points": (["x^2 + y^2 + 1"], {}, {}, 0),
     "cubic with an oval": (["y^2 - x^3 + x"], {LOOP: 1, OPEN: 1}, {INFINITE: 1}, 2),
 }

@@ -74,6 +74,8 @@ def find_arcs(
     for k, (left, right) in enumerate(pairs):
         one = Intervals(left[None], right[None])
         points, real = real_fibre(table, closure, one.at(np.array([np.pi / 2]))[0])
+        if (len(points) - int(real.sum())) % 2:
+            raise TracingError("the number of points that are not real is odd")
         if not real.any():
             continue
         middles = _real_points(closure, points[real])
