@@ -1,17 +1,21 @@
 """Solutions of every model are configurations of the mechanism: they satisfy all constraints."""
 
 from fractions import Fraction
+from pathlib import Path
 
 import mpmath
 import numpy as np
 import pytest
 from linkages import case, exact, four_bar, general_loop, newton, residual, spherical_four_bar
 
+import nag
 from nag.algebra.number import is_zero
 from nag.mechanism.axes import dot
 from nag.mechanism.graph import Joint, Mechanism
-from nag.mechanism.model import model
+from nag.mechanism.model import formulations, model
 from nag.mechanism.quaternion import conjugate, norm_squared, rotate
+
+CASES = Path(__file__).parent.parent / "cases"
 
 
 def error(m, lifted) -> float:
@@ -190,3 +194,22 @@ def test_a_point_with_the_wrong_number_of_coordinates_is_refused():
     m = model(case("bennett"), "H")
     with pytest.raises(ValueError, match="3 coordinates, the model 2"):
         m.lift([0.0, 1.0, 2.0])
+
+
+@pytest.mark.parametrize("name", ["spatial/rssr", "bennett", "spatial/rccc", "planar/oldham"])
+def test_many_points_are_lifted_as_each_of_them(name) -> None:
+    mechanism = nag.read_case(CASES / f"{name}.toml").mechanism
+    rng = np.random.default_rng(0)
+    for formulation in formulations(mechanism):
+        made = model(mechanism, formulation)
+        near = np.array([float(x) for x in made.reference])
+        points = near + 0.05 * rng.standard_normal((6, len(near)))
+        many = made.lift([points[:, i] for i in range(len(near))])
+        for k, point in enumerate(points):
+            one = made.lift(list(point))
+            for body in one.euler:
+                for a, b in ((one.euler, many.euler), (one.position, many.position)):
+                    each = [np.broadcast_to(x, 6)[k] for x in b[body]]
+                    near_by = np.abs(np.array(a[body], dtype=complex) - each).max()
+                    # Of turns in the plane the root and the angle differ off the curve.
+                    assert near_by < (0.2 if made.space == "planar" else 1e-14)

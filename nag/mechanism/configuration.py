@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import Any
 
 import flint
+import numpy as np
 
 from nag.algebra.number import Number, square_root, to_mpf
 from nag.mechanism.loops import LoopStructure
@@ -28,7 +29,9 @@ class Configuration:
         position: the place of each body's reference point, as tuples of 3 numbers. A body's
             reference point is the one that is at the global origin in the reference configuration.
 
-    Entries are exact where the lifted point was exact, else complex, balls or `mpmath` numbers.
+    Entries are exact where the lifted point was exact, else complex, balls or `mpmath` numbers; of
+    many real points that are lifted at once, coordinate by coordinate, arrays or one number for all
+    of them.
     """
 
     euler: Mapping[str, tuple[Any, ...]]
@@ -63,7 +66,12 @@ class Arithmetic:
 
 
 def arithmetic_of(point: Sequence[Any]) -> Arithmetic:
-    """The arithmetic in which a point is lifted: exact, balls, `mpmath` or complex doubles."""
+    """The arithmetic in which a point is lifted: exact, balls, `mpmath` or complex doubles.
+
+    Coordinates that are arrays, of many real points at once, are real doubles.
+    """
+    if any(isinstance(x, np.ndarray) for x in point):
+        return Arithmetic(float, np.sqrt)
     if any(isinstance(x, flint.acb) for x in point):
         return Arithmetic(to_ball, flint.acb.sqrt)
     if all(isinstance(x, int | Number) for x in point):
@@ -88,7 +96,7 @@ def as_entries(point: Sequence[Any]) -> tuple[Any, ...]:
     for x in point:
         if isinstance(x, int):
             x = Fraction(x)
-        elif not isinstance(x, Number | flint.acb) and not _is_multiprecision(x):
+        elif not isinstance(x, Number | flint.acb | np.ndarray) and not _is_multiprecision(x):
             x = complex(x)
         entries.append(x)
     return tuple(entries)

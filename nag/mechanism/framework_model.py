@@ -18,6 +18,8 @@ from fractions import Fraction
 from math import sqrt
 from typing import Any
 
+import numpy as np
+
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
@@ -44,6 +46,8 @@ class FrameworkModel(AssemblyModel):
             two where the third one moves.
         smaller: the same framework in coordinates in which components are found by fewer paths.
         instead: other coordinates, and how many paths they would take.
+        held: coordinates of the pinned points; empty in isotropic coordinates.
+        metric: squared lengths of the orthogonal vectors that coordinates count along; empty there.
     """
 
     framework: Framework
@@ -54,6 +58,8 @@ class FrameworkModel(AssemblyModel):
     symmetries: tuple[SignedPermutation, ...]
     smaller: FrameworkModel | None = None
     instead: tuple[str, int] | None = None
+    held: tuple[Place, ...] = ()
+    metric: tuple[Number, ...] = ()
 
     formulation_text = "of a framework"
     solution = "realisation"
@@ -126,6 +132,28 @@ class FrameworkModel(AssemblyModel):
     def paths(self) -> int:
         """Estimated number of paths that equation by equation are tracked at most."""
         return fewest_estimated_paths(self.system)
+
+    def places_at(self, point: Sequence[Any]) -> dict[str, tuple[Any, ...]]:
+        """The points' places in lengths, in the orthonormal frame of the pinned ones.
+
+        Args:
+            point: of a model that is not in isotropic coordinates, doubles or arrays of them.
+        """
+        units = [sqrt(float(m)) for m in self.metric]
+        d = len(units)
+        at: dict[str, Sequence[Any]] = dict(zip(self.pinned, self.held, strict=True))
+        if self.has_moving_third:
+            at[self.pinned[-1]] = (*point[:2], 0)
+        free = self.framework.points_not_on(self.pinned)
+        start = len(point) - d * len(free)
+        at |= {p: point[start + d * i : start + d * (i + 1)] for i, p in enumerate(free)}
+        return {
+            name: tuple(
+                (x if isinstance(x, np.ndarray) else float(x)) * u
+                for x, u in zip(own, units, strict=True)
+            )
+            for name, own in at.items()
+        }
 
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real realisation, to within rounding."""
@@ -407,7 +435,10 @@ def _metric_model(
     if framework.placement is not None:
         held = reference[pinned[-1]][:2] if third_moves else ()
         at = (*held, *(x for p in free for x in reference[p]))
-    return FrameworkModel(framework, pinned, letters, system, at, symmetries)
+    held_at = tuple(tuple(reference[p]) for p in pinned)
+    return FrameworkModel(
+        framework, pinned, letters, system, at, symmetries, held=held_at, metric=tuple(metric)
+    )
 
 
 def _unknowns(

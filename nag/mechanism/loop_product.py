@@ -23,6 +23,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from nag.algebra.exact_ranks import left_inverse, null_space, rank
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
@@ -135,11 +137,22 @@ def closing_equations(
 def split_product(w: Sequence[Any], size: Callable[[Any], float] = abs) -> tuple[Any, Any]:
     """Homogeneous coordinates of two factors from w00, w10, w01 and w11, those of their product."""
     matrix = ((w[0], w[2]), (w[1], w[3]))
+    if any(isinstance(x, np.ndarray) for x in w):
+        return _split_products(np.array(np.broadcast_arrays(*w)))
     # The matrix has rank one; its largest entry is never zero, w00 is at half a turn.
     row, column = max(
         ((i, j) for i in (0, 1) for j in (0, 1)), key=lambda ij: size(matrix[ij[0]][ij[1]])
     )
     return (matrix[0][column], matrix[1][column]), matrix[row]
+
+
+def _split_products(w: np.ndarray) -> tuple[Any, Any]:
+    """The same of many products at once, shape ``(4, k)``."""
+    matrix = w[[0, 2, 1, 3]].reshape(2, 2, -1)
+    row, column = np.divmod(np.abs(matrix).reshape(4, -1).argmax(axis=0), 2)
+    each = np.arange(w.shape[1])
+    first, second = matrix[:, column, each], matrix[row, :, each].T
+    return tuple(first), tuple(second)
 
 
 def conjugate_product(

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
+
 from nag.algebra.elimination import Elimination
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
@@ -217,6 +219,12 @@ def _half_turn(turn: Turn, normal: Vector, squared: Any, arithmetic: Arithmetic)
     """Euler parameters of a turn (c, s) about ``normal``, from the larger of the two halves."""
     c, s = turn
     axis = [arithmetic.convert(x) for x in normal]
+    if isinstance(c, np.ndarray):
+        # Of many real turns at once, each by its angle: no root is taken of what may be rounded
+        # below zero.
+        length = arithmetic.sqrt(squared)
+        half = np.arctan2(length * s, c) / 2
+        return (np.cos(half), *(x * (np.sin(half) / length) for x in axis))
     if abs(1 + c) >= abs(1 - c):
         cosine = arithmetic.sqrt((1 + c) / 2)
         return (cosine, *(x * (s / (2 * cosine)) for x in axis))

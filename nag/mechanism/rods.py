@@ -19,6 +19,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
+
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
@@ -345,6 +347,8 @@ def _shortest_turn(
 ) -> Quaternion:
     """A unit quaternion that turns one vector to another of the same length."""
     squared, product = dot(before, before), dot(before, after)
+    if any(isinstance(x, np.ndarray) for x in after):
+        return _shortest_turns(before, after)
     if abs(squared + product) <= abs(squared) / 1000:
         # Nearly opposite: half a turn across the first vector, then the short way.
         half = (0 * squared, *_across(before))
@@ -352,6 +356,21 @@ def _shortest_turn(
         rest = _shortest_turn(opposite_vector, after, arithmetic)
         return multiply(rest, _unit(half, arithmetic))
     return _unit((squared + product, *cross(before, after)), arithmetic)
+
+
+def _shortest_turns(before: Sequence[Any], after: Sequence[Any]) -> Quaternion:
+    """The same to many vectors at once, arrays of coordinates."""
+    real = Arithmetic(float, np.sqrt)
+    before = tuple(float(x) for x in before)
+    squared, product = dot(before, before), dot(before, after)
+    near = abs(squared + product) <= squared / 1000
+    back = tuple(-x for x in before)
+    # Either is taken where it is well conditioned, and of any length elsewhere.
+    one = np.where(near, 1.0, squared + product)
+    short = _unit((one, *cross(before, after)), real)
+    rest = _unit((np.where(near, squared - product, 1.0), *cross(back, after)), real)
+    long = multiply(rest, _unit((0.0, *_across(before)), real))
+    return tuple(np.where(near, x, y) for x, y in zip(long, short, strict=True))
 
 
 def _across(vector: Sequence[Any]) -> Sequence[Any]:
