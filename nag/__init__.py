@@ -70,6 +70,7 @@ _HOME = {
     "mobility": "nag.mechanism.mobility_at",
     "model": "nag.mechanism.model",
     "modes": "nag.mechanism.operation_modes",
+    "motion": "nag.kinematics.motion",
     "read_case": "nag.files.cases",
     "read_decomposition": "nag.files.export",
     "read_solutions": "nag.files.solutions_export",

@@ -52,6 +52,13 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "local dimension, the components through it, and what that means.",
     ),
     (
+        "motion",
+        "show how a mechanism of one freedom really moves",
+        "Show how a mechanism of one freedom really moves: its circuits, how far each joint turns "
+        "and where it stands still; all bodies along each circuit as a table, and a page in which "
+        "they move.",
+    ),
+    (
         "modes",
         "find the operation modes of a parallel robot",
         "Find the operation modes of a parallel robot, the components of its platform's poses: the "

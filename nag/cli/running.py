@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 # What NumPy's linear algebra reads, when it is loaded, of how many threads it is to have.
 LINEAR_ALGEBRA_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+# Options that name a file to be written.
+TARGETS = ("json", "csv", "html")
 Progress = Callable[[str, int, int], None]
 
 # Seconds between two updates of the line: often enough to look alive, too seldom to cost time.
@@ -152,10 +154,11 @@ def begin(options: argparse.Namespace) -> None:
     options.started = time.perf_counter()
     for name in LINEAR_ALGEBRA_THREADS:
         os.environ.setdefault(name, "1")
-    target = getattr(options, "json", None)
-    if target is not None:
-        source = getattr(options, "case", None) or getattr(options, "export", "")
-        _check_target(target, source if isinstance(source, str) else "")
+    source = getattr(options, "case", None) or getattr(options, "export", "")
+    for name in TARGETS:
+        target = getattr(options, name, None)
+        if target is not None:
+            _check_target(name, target, source if isinstance(source, str) else "")
 
 
 @contextlib.contextmanager
@@ -191,8 +194,8 @@ def run_row(
 
 
 @contextlib.contextmanager
-def writing_json() -> Iterator[None]:
-    """Write an answer inside the block.
+def writing_to(option: str) -> Iterator[None]:
+    """Write the file that an option names inside the block.
 
     Raises:
         UsageError: if it cannot be written.
@@ -202,11 +205,11 @@ def writing_json() -> Iterator[None]:
     try:
         yield
     except TargetError as error:
-        raise UsageError(f"--json: {error}") from None
+        raise UsageError(f"--{option}: {error}") from None
 
 
-def write_document(document: dict[str, Any] | str, target: str) -> None:
-    """Write a JSON object, or its text.
+def write_document(document: dict[str, Any] | str, target: str, option: str = "json") -> None:
+    """Write a JSON object, or a text, to the file that an option names.
 
     Raises:
         UsageError: if the file cannot be written.
@@ -215,17 +218,17 @@ def write_document(document: dict[str, Any] | str, target: str) -> None:
     from nag.text.json_text import lay_out
 
     text = document if isinstance(document, str) else lay_out(document) + "\n"
-    with writing_json():
+    with writing_to(option):
         write_target(target, text)
 
 
-def _check_target(target: str, source: str) -> None:
+def _check_target(option: str, target: str, source: str) -> None:
     from nag.files.written_file import check_target
 
-    with writing_json():
+    with writing_to(option):
         check_target(target)
     if os.path.exists(target) and os.path.exists(source) and os.path.samefile(target, source):
-        raise UsageError(f"--json: {target}: is the case file; name another file")
+        raise UsageError(f"--{option}: {target}: is the case file; name another file")
 
 
 class ProgressLine:

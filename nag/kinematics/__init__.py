@@ -1,0 +1,9 @@
+"""How a mechanism moves really: all bodies along the real curves of its configurations.
+
+Read in this order, bottom-up: `poses` (places and turns of bodies at many points at once), `scene`
+on `poses` (bodies and joints of a mechanism, a linkage, a framework or a table, and where they are
+at points of its equations), `joint_values` (angles and slides), `walks` (how arcs of a real curve
+follow each other), `path` on `scene` and `walks` (one motion along them, evenly sampled),
+`turning_points` (where joints stand still), `motion` (all that is said of a mechanism; `shown` for
+users).
+"""

@@ -1,0 +1,608 @@
+"""The real motions of a mechanism with one freedom: its circuits, and how far joints move."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal, get_args
+
+import numpy as np
+
+from nag.algebra.given import check_choice
+from nag.decomposition.through import through_points
+from nag.errors import NagError
+from nag.kinematics.joint_values import joint_coordinates
+from nag.kinematics.path import Curve, Path, sample_path
+from nag.kinematics.poses import Poses, pose_distances
+from nag.kinematics.scene import Scene, scene_of
+from nag.kinematics.turning_points import TurningPoint, Values, values_along
+from nag.kinematics.walks import Walk, points_of, walks_of
+from nag.mechanism.model import Model
+from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
+from nag.real.curve import RealCurve
+from nag.text.table import count_text, one_line
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.witness.frame import expand_orbits
+from nag.witness.witness import Decomposition, WitnessSet
+
+# Samples of each circuit; an even number of steps, so that halves of coverings are whole ones.
+SAMPLES = 360
+LEAST_SAMPLES, MOST_SAMPLES = 12, 100_000
+# Distances of configurations, in radians and sizes, at which two are one: vertices are known to
+# half of the digits at least.
+SAME = 1e-6
+# Of the distance of two samples: how far another circuit's samples may be from the line between
+# two neighbouring ones, if both are the same motion.
+BESIDE = 0.1
+# Coordinates of vertices that are so near infinity that nothing is asked of them.
+FAR = 1e6
+# Steps along a curve to a point that may be on it.
+APPROACHES = 6
+
+Which = Literal["reference", "all"]
+
+
+class MotionError(NagError):
+    """What has no motion of one freedom, with the reason."""
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A singular configuration on a circuit, where a motion may go on as another one.
+
+    Attributes:
+        sample: index of the sample next to it.
+        arc: how far it is along the circuit.
+        vertex: index of the vertex of the real curve.
+        circuits: numbers of the other circuits through it, and of this one if it returns there.
+        components: indices of other components through it; None where that is not decided.
+    """
+
+    sample: int
+    arc: float
+    vertex: int
+    circuits: tuple[int, ...]
+    components: tuple[int, ...] | None
+
+
+@dataclass(frozen=True, eq=False)
+class Circuit:
+    """One motion, sampled at even distances.
+
+    Attributes:
+        number: from 1.
+        component: index of the component that it runs on, in `Motion.components`.
+        closed: whether it returns to where it began.
+        from_reference: whether it begins at the reference configuration.
+        through_reference: whether that lies on it.
+        arc: how far each sample is from the first, shape ``(k,)``: the root of the sum over bodies
+            of squared angles, and squared ways over the size of the mechanism.
+        points: in the variables of the equations, shape ``(k, n)``; infinite where a half-angle is
+            that of half a turn from its chart's middle.
+        poses: of all bodies.
+        values: angles and slides of the joints.
+        crossings: singular configurations on its way.
+    """
+
+    number: int
+    component: int
+    closed: bool
+    from_reference: bool
+    through_reference: bool
+    arc: np.ndarray
+    points: np.ndarray
+    poses: Poses
+    values: Values
+    crossings: tuple[Crossing, ...]
+
+    @property
+    def length(self) -> float:
+        """The whole way."""
+        return float(self.arc[-1])
+
+    def __len__(self) -> int:
+        return len(self.arc)
+
+    def document(self, scene: Scene) -> dict[str, Any]:
+        """The circuit as a JSON object."""
+        values = self.values
+        return {
+            "number": self.number,
+            "component": self.component,
+            "closed": self.closed,
+            "from_reference": self.from_reference,
+            "through_reference": self.through_reference,
+            "length": self.length,
+            "joints": [
+                {
+                    "name": each.name,
+                    "smallest": float(values.ranges[i, 0]),
+                    "largest": float(values.ranges[i, 1]),
+                    "whole_turns": int(values.turns[i]),
+                    "turns_fully": values.turns_fully(i),
+                    "still": bool(values.still[i]),
+                    "turning_points": [
+                        {"arc": p.arc, "value": p.value, "kind": p.kind}
+                        for p in values.turning
+                        if p.coordinate == each.name
+                    ],
+                    "values": values.values[:, i].tolist(),
+                }
+                for i, each in enumerate(values.coordinates)
+            ],
+            "crossings": [
+                {
+                    "arc": c.arc,
+                    "circuits": list(c.circuits),
+                    "components": None if c.components is None else list(c.components),
+                }
+                for c in self.crossings
+            ],
+            "arc": self.arc.tolist(),
+            "bodies": [
+                {
+                    "name": name,
+                    "positions": self.poses.places[i].tolist(),
+                    "quaternions": self.poses.turns[i].tolist(),
+                }
+                for i, name in enumerate(scene.bodies)
+            ],
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Real motions of a mechanism.
+
+    Attributes:
+        scene: its bodies and joints.
+        components: those that were looked at, of dimension one.
+        curves: the real points of each.
+        circuits: the motions on them.
+        freedoms: dimension of the configuration space there, freedoms of parts that were left out
+            of the equations included.
+        counted: what Gruebler and Kutzbach count.
+        idle: which parts turn idly, in words; empty where none does or it is not known.
+        which: whether only motions through the reference configuration were asked for.
+        notes: what is not known, or was left out.
+    """
+
+    scene: Scene
+    components: tuple[WitnessSet, ...]
+    curves: tuple[RealCurve, ...]
+    circuits: tuple[Circuit, ...]
+    freedoms: int
+    counted: int
+    idle: str
+    which: Which
+    notes: tuple[str, ...]
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing is left open."""
+        return not self.notes
+
+    def __str__(self) -> str:
+        from nag.kinematics.shown import motion_text
+
+        return motion_text(self)
+
+    __repr__ = one_line
+
+    @property
+    def sentence(self) -> str:
+        """The mobility in one sentence."""
+        freedoms = count_text(self.freedoms, "freedom")
+        return f"it moves with {freedoms}, counting predicts {self.counted}"
+
+    def table(self, circuit: int = 1, *, angles: str = "degrees") -> dict[str, np.ndarray]:
+        """One circuit as columns, each of shape ``(k,)``, as `pandas.DataFrame` takes them.
+
+        ``circuit`` and ``arc``; angles and slides by the names of the joints; of each body
+        ``name.x`` to ``name.z``, the place of its frame's origin, and ``name.q0`` to ``name.q3``,
+        its unit quaternion.
+
+        Args:
+            circuit: its number, from 1.
+            angles: ``"degrees"`` or ``"radians"``.
+        """
+        check_choice(angles, "angles", ("degrees", "radians"))
+        own = self.circuit(circuit)
+        columns = {"circuit": np.full(len(own), own.number), "arc": own.arc}
+        for i, each in enumerate(own.values.coordinates):
+            column = own.values.values[:, i]
+            turned = each.kind == "angle" and angles == "degrees"
+            columns[each.name] = np.degrees(column) if turned else column
+        for i, name in enumerate(self.scene.bodies):
+            columns |= {f"{name}.{x}": own.poses.places[i, :, k] for k, x in enumerate("xyz")}
+            columns |= {f"{name}.q{k}": own.poses.turns[i, :, k] for k in range(4)}
+        return columns
+
+    def circuit(self, number: int) -> Circuit:
+        """The circuit of a number, from 1.
+
+        Raises:
+            NagError: if there is none.
+        """
+        own = next((c for c in self.circuits if c.number == number), None)
+        if own is None:
+            numbers = ", ".join(str(c.number) for c in self.circuits)
+            raise NagError(f"circuit: {number} is none; they are {numbers}")
+        return own
+
+    def document(self) -> dict[str, Any]:
+        """The motion as a JSON object without its head; angles are in radians."""
+        scene = self.scene
+        return {
+            "mobility": {"freedoms": self.freedoms, "counted": self.counted},
+            "idle": self.idle,
+            "notes": list(self.notes),
+            "bodies": list(scene.bodies),
+            "ground": scene.bodies[scene.ground],
+            "coordinates": [
+                {"name": c.name, "joint": c.joint, "kind": c.kind} for c in joint_coordinates(scene)
+            ],
+            "components": [
+                {"dimension": c.dimension, "degree": c.degree, "multiplicity": c.multiplicity}
+                for c in self.components
+            ],
+            "circuits": [c.document(scene) for c in self.circuits],
+        }
+
+
+@takes_run
+def motion(
+    mechanism: Any,
+    *,
+    circuit: Which = "reference",
+    samples: int = SAMPLES,
+    formulation: str = "auto",
+    run: Run = DEFAULT_RUN,
+) -> Motion:
+    """How a mechanism of one freedom really moves: all joints and bodies along each circuit.
+
+    Args:
+        mechanism: a mechanism, a case, a linkage, a framework or a table, or a problem of one.
+        circuit: ``"reference"`` for the motions through the reference configuration, where there is
+            one; ``"all"`` for those of all components of dimension one.
+        samples: into how many even steps each circuit is divided.
+        formulation: of a mechanism's model, as for `nag.model`.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+
+    Raises:
+        MotionError: if it does not move with one freedom, or has no real motion.
+        NagError: if an argument makes no sense; the message says which, and what would.
+    """
+    check_choice(circuit, "circuit", get_args(Which))
+    problem = in_real_coordinates(problem_of(mechanism, formulation=formulation))
+    return motion_of(problem, circuit=circuit, samples=samples, run=run)
+
+
+def motion_of(
+    problem: Problem,
+    *,
+    circuit: Which = "reference",
+    samples: int = SAMPLES,
+    run: Run = DEFAULT_RUN,
+    curve_of: Callable[[WitnessSet], RealCurve] | None = None,
+) -> Motion:
+    """The same of a problem in real coordinates.
+
+    Args:
+        curve_of: finds the real points of a component; by default `nag.real` does.
+    """
+    if not isinstance(samples, int) or not LEAST_SAMPLES <= samples <= MOST_SAMPLES:
+        raise NagError(f"samples: give a whole number from {LEAST_SAMPLES} to {MOST_SAMPLES}")
+    scene = scene_of(problem)
+    if not problem.system.n:
+        raise MotionError("no equation has an unknown: nothing moves but what is in no loop")
+    which: Which = circuit if scene.from_reference else "all"
+    decomposition = problem.decompose(run=run)
+    notes = [] if decomposition.complete else [f"components: {'; '.join(decomposition.notes)}"]
+    found, others = _choose_components(problem, decomposition, which, run, notes)
+    curve_of = curve_of or (lambda component: _real_curve(component, run))
+    curves = []
+    for i, component in enumerate(found):
+        if run.progress is not None:
+            run.progress("real curves", i, len(found))
+        curves.append(curve_of(component))
+    notes += [
+        f"component {i + 1}: {curve.reason or 'its real points are undecided'}"
+        for i, curve in enumerate(curves)
+        if not curve.complete
+    ]
+    circuits = _circuits(problem, scene, curves, which, samples)
+    if not circuits and not notes:
+        raise MotionError(_no_motion(curves))
+    finished = _with_crossings(circuits, curves, found, others, run)
+    made = problem.model
+    return Motion(
+        scene,
+        tuple(found),
+        tuple(curves),
+        tuple(finished),
+        1 + problem.free,
+        made.gruebler_kutzbach,
+        _idle(problem, run),
+        which,
+        tuple(notes),
+    )
+
+
+def _real_curve(component: WitnessSet, run: Run) -> RealCurve:
+    from nag.real.find_curve import find_real_curve
+
+    return find_real_curve(component, run=run)
+
+
+def _choose_components(
+    problem: Problem,
+    decomposition: Decomposition,
+    which: Which,
+    run: Run,
+    notes: list[str],
+) -> tuple[list[WitnessSet], Decomposition]:
+    """The components to look at, and all that there are."""
+    expanded = expand_orbits(decomposition)
+    if which == "reference":
+        name = ("the reference configuration", tuple(problem.reference or ()))
+        (through,) = through_points(decomposition, [name], run.threads)
+        if through.doubt:
+            notes.append(through.doubt)
+        own = [expanded.components[i] for i in through.components]
+        where = "at the reference configuration"
+    else:
+        # Of sign changes of Euler parameters the images are the same configurations.
+        same = isinstance(problem.model, Model) and problem.model.sign_group > 1
+        own = list((decomposition if same else expanded).components)
+        where = ""
+    curves = [c for c in own if c.dimension == 1]
+    largest = max((c.dimension for c in own), default=0)
+    if not curves and not notes:
+        if largest > 1:
+            raise MotionError(
+                f"it moves with {count_text(largest + problem.free, 'freedom')} {where}".rstrip()
+                + "; a motion is that of a mechanism with one: hold joints (type rigid)"
+            )
+        raise MotionError(f"it does not move {where}".rstrip() + "; see nag mobility")
+    larger = sum(c.dimension > 1 for c in own)
+    if larger and curves:
+        notes.append(
+            f"{count_text(larger, 'component')} of dimension 2 or more "
+            f"{'is' if larger == 1 else 'are'} left out"
+        )
+    return curves, expanded
+
+
+def _no_motion(curves: Sequence[RealCurve]) -> str:
+    isolated = sum(len(curve.pieces) for curve in curves)
+    if isolated:
+        points = count_text(isolated, "isolated point")
+        return f"it has no real motion: its components have {points} that are real, and no curve"
+    return "it has no real motion: its components have no real points"
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """A circuit, what it was made of, and how far along that it ends."""
+
+    circuit: Circuit
+    path: Path
+    end: float
+
+
+def _circuits(
+    problem: Problem, scene: Scene, curves: Sequence[RealCurve], which: Which, samples: int
+) -> list[_Found]:
+    """All circuits, or those through the reference configuration, each motion once."""
+    reference = None
+    if scene.from_reference and problem.reference is not None:
+        reference = np.array([float(x) for x in problem.reference])
+    candidates = []
+    for number, real in enumerate(curves):
+        curve = Curve(real, problem.system, scene)
+        for walk in walks_of(real):
+            begun = None if reference is None else _begin_at(curve, walk, reference)
+            candidates.append((number, curve, begun or walk, begun is not None))
+    if which == "reference":
+        candidates = [c for c in candidates if c[3]]
+    found: list[_Found] = []
+    for number, curve, walk, on in candidates:
+        made = _sample(len(found) + 1, number, curve, walk, on, samples)
+        if not any(_is_same_motion(scene, made, other) for other in found):
+            found.append(made)
+    return found
+
+
+def _begin_at(curve: Curve, walk: Walk, reference: np.ndarray) -> Walk | None:
+    """A walk with a point of the curve on it, begun there if it is closed; None if it is not."""
+    real = curve.real
+    at, turns = reference.copy(), [t.variable for t in real.turns]
+    for turn in real.turns:
+        at[turn.variable] = turn.angles(reference[turn.variable])
+    shifts = np.zeros_like(walk.chart)
+    shifts[:, turns] = np.round((walk.chart[:, turns] - at[turns]) / np.pi) * np.pi
+    gaps = walk.chart - at - shifts
+    nearest = int(np.linalg.norm(gaps, axis=1).argmin())
+    if np.linalg.norm(gaps[nearest]) < SAME:
+        return walk.begin_at(nearest)
+    steps = np.diff(walk.chart, axis=0)
+    squares = np.maximum((steps**2).sum(axis=1), np.finfo(float).tiny)
+    shares = np.clip(-(gaps[:-1] * steps).sum(axis=1) / squares, 0.0, 1.0)
+    distances = np.linalg.norm(gaps[:-1] + shares[:, None] * steps, axis=1)
+    segment = int(distances.argmin())
+    target = at + shifts[segment]
+    point = walk.chart[segment] + shares[segment] * steps[segment]
+    ahead = steps[segment] / np.sqrt(squares[segment])
+    for _ in range(APPROACHES):
+        # Along the chord as far as the reference is, and back to the curve.
+        point = curve.sharpen((point + ahead * (ahead @ (target - point)))[None])[0]
+        if np.linalg.norm(point - target) < SAME:
+            return walk.insert(segment, target).begin_at(segment + 1)
+    return None
+
+
+def _sample(
+    number: int, component: int, curve: Curve, walk: Walk, on_reference: bool, samples: int
+) -> _Found:
+    path = sample_path(curve, walk, 2 * samples + 1)
+    values = values_along(path)
+    # Euler parameters may run twice through all configurations, with other signs.
+    half = path.poses.at(slice(0, samples + 1)), path.poses.at(slice(samples, None))
+    centres, size = curve.scene.centres, curve.scene.size
+    spacing = path.length / (2 * samples)
+    twice = walk.closed and bool((pose_distances(*half, centres, size) < BESIDE * spacing).all())
+    step = slice(0, samples + 1) if twice else slice(0, None, 2)
+    poses = path.poses.at(step)
+    if twice:
+        poses = _return_to_start(poses)
+    return _Found(
+        Circuit(
+            number,
+            component,
+            walk.closed,
+            on_reference and walk.closed,
+            on_reference,
+            path.arc[step],
+            points_of(curve.real, path.chart[step]),
+            poses,
+            _part(values, step, path.length / 2 if twice else np.inf),
+            (),
+        ),
+        path,
+        path.length / 2 if twice else np.inf,
+    )
+
+
+def _return_to_start(poses: Poses) -> Poses:
+    """Poses that end where they began, as they do to the error of their distances."""
+    turns, places = np.array(poses.turns), np.array(poses.places)
+    signs = np.sign((turns[:, 0] * turns[:, -1]).sum(axis=-1, keepdims=True))
+    turns[:, -1], places[:, -1] = signs * turns[:, 0], places[:, 0]
+    return Poses(turns, places)
+
+
+def _part(values: Values, step: slice, end: float) -> Values:
+    """The values at some of the samples, up to a distance from the first."""
+    own = np.array(values.values[step])
+    angles = np.array([c.kind == "angle" for c in values.coordinates], dtype=bool)
+    turns = values.turns
+    turning = []
+    for point in values.turning:
+        if point.arc < end:
+            sample = point.sample // (step.step or 1)
+            turning.append(
+                TurningPoint(point.coordinate, sample, point.arc, point.value, point.kind)
+            )
+    ranges = values.ranges
+    if np.isfinite(end):
+        turns = np.where(angles, np.round((own[-1] - own[0]) / (2 * np.pi)), 0).astype(int)
+        own[-1] = own[0] + 2 * np.pi * turns
+        ranges = np.stack([own.min(axis=0), own.max(axis=0)], axis=-1)
+        for i, each in enumerate(values.coordinates):
+            extreme = [p.value for p in turning if p.coordinate == each.name]
+            ranges[i] = min([ranges[i, 0], *extreme]), max([ranges[i, 1], *extreme])
+    return Values(values.coordinates, own, tuple(turning), ranges, turns, values.still)
+
+
+def _is_same_motion(scene: Scene, one: _Found, other: _Found) -> bool:
+    """Whether two circuits run through the same configurations."""
+    a, b = one.path, other.path
+    spacing = b.length / (len(b.poses) - 1)
+    if one.circuit.closed != other.circuit.closed:
+        return False
+    if abs(one.circuit.length - other.circuit.length) > BESIDE * other.circuit.length:
+        return False
+    some = np.linspace(0, len(a.poses) - 1, 7).astype(int)[1:-1]
+    for i in some:
+        at = Poses(
+            np.repeat(a.poses.turns[:, i : i + 1], len(b.poses), axis=1),
+            np.repeat(a.poses.places[:, i : i + 1], len(b.poses), axis=1),
+        )
+        distances = pose_distances(at, b.poses, scene.centres, scene.size)
+        if distances.min() > (0.5 + BESIDE) * spacing:
+            return False
+    return True
+
+
+def _with_crossings(
+    found: Sequence[_Found],
+    curves: Sequence[RealCurve],
+    components: Sequence[WitnessSet],
+    everything: Decomposition,
+    run: Run,
+) -> list[Circuit]:
+    """The circuits with the singular configurations on their way."""
+    passages = [
+        (made, vertex, arc, _pose_near(made, arc))
+        for made in found
+        for vertex, arc in made.path.vertices
+        if arc < made.end
+    ]
+    memberships: dict[tuple[int, int], tuple[int, ...] | None] = {}
+    circuits = []
+    for made in found:
+        own, crossings = made.circuit, []
+        scene = made.path.curve.scene
+        for other, vertex, arc, pose in passages:
+            if other is not made:
+                continue
+            numbers = []
+            for one, at_vertex, _, at in passages:
+                here = (one.circuit.component, at_vertex) == (own.component, vertex)
+                near = pose_distances(pose, at, scene.centres, scene.size)[0] < SAME
+                if (here or near) and at is not pose:
+                    numbers.append(one.circuit.number)
+            key = (own.component, vertex)
+            if key not in memberships:
+                memberships[key] = _others_through(
+                    curves[own.component].vertices[vertex].point,
+                    components[own.component],
+                    everything,
+                    run,
+                )
+            step = float(own.arc[1] - own.arc[0])
+            crossings.append(
+                Crossing(
+                    round(arc / step), arc, vertex, tuple(sorted(set(numbers))), memberships[key]
+                )
+            )
+        circuits.append(replace(own, crossings=tuple(crossings)))
+    return circuits
+
+
+def _pose_near(made: _Found, arc: float) -> Poses:
+    """Where the bodies are at the vertex at some distance along a path."""
+    index = next(i for i, (_, at) in enumerate(made.path.vertices) if at == arc)
+    place = made.path.walk.vertices[index][1]
+    return made.path.curve.poses(made.path.walk.chart[place : place + 1])
+
+
+def _others_through(
+    point: np.ndarray, own: WitnessSet, everything: Decomposition, run: Run
+) -> tuple[int, ...] | None:
+    """Indices of other components through a vertex; None where that is not decided."""
+    if len(everything.components) == 1:
+        return ()
+    if not (np.abs(point) < FAR).all():
+        return None
+    from nag.witness.membership import components_through
+
+    try:
+        through = components_through(everything, point, accuracy=SAME, run=run)
+    except ValueError:
+        return None
+    return tuple(i for i in through if everything.components[i] is not own)
+
+
+def _idle(problem: Problem, run: Run) -> str:
+    """Which parts of a mechanism turn idly near its reference configuration, in words."""
+    if not isinstance(problem.model, Model) or problem.reference is None:
+        return ""
+    from nag.mechanism.moving_parts import NotClear, find_moving_parts
+
+    try:
+        found = find_moving_parts(problem.model.mechanism, 1 + problem.free, run.random(46))
+    except NotClear:
+        return ""
+    return found.idle_text

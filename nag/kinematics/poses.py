@@ -1,0 +1,111 @@
+"""Places and turns of bodies at many points at once.
+
+Quaternions are arrays of shape ``(..., 4)``, real part first, of norm one; a vector has shape
+``(..., 3)``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.mechanism.quaternion import conjugate, multiply, rotate
+
+
+def turn_product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Products of quaternions, one turn after another."""
+    return np.stack(np.broadcast_arrays(*multiply(_parts(a), _parts(b))), axis=-1)
+
+
+def turn_back(a: np.ndarray) -> np.ndarray:
+    """Conjugates of quaternions."""
+    return np.stack(conjugate(_parts(a)), axis=-1)
+
+
+def turn_vectors(a: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Vectors, turned by quaternions of norm one."""
+    return np.stack(np.broadcast_arrays(*rotate(_parts(a), _parts(v))), axis=-1)
+
+
+def _parts(a: np.ndarray) -> tuple[np.ndarray, ...]:
+    return tuple(np.moveaxis(np.asarray(a, dtype=float), -1, 0))
+
+
+@dataclass(frozen=True, eq=False)
+class Poses:
+    """Where bodies are, at ``k`` configurations.
+
+    Attributes:
+        turns: unit quaternions of each body's frame, shape ``(bodies, k, 4)``.
+        places: of its origin, shape ``(bodies, k, 3)``.
+    """
+
+    turns: np.ndarray
+    places: np.ndarray
+
+    def __post_init__(self) -> None:
+        for array in (self.turns, self.places):
+            array.setflags(write=False)
+
+    def __len__(self) -> int:
+        return self.turns.shape[1]
+
+    @classmethod
+    def of(cls, turns: Sequence[np.ndarray], places: Sequence[np.ndarray], count: int) -> Poses:
+        """Bodies one by one; what does not change may be given once."""
+        return cls(
+            np.stack([np.broadcast_to(q, (count, 4)) for q in turns]),
+            np.stack([np.broadcast_to(r, (count, 3)) for r in places]),
+        )
+
+    def move(self, body: int, point: np.ndarray) -> np.ndarray:
+        """Where a point of a body is, given in its frame, shape ``(k, 3)``."""
+        return self.places[body] + turn_vectors(self.turns[body], point)
+
+    def turn(self, body: int, vector: np.ndarray) -> np.ndarray:
+        """A direction of a body, given in its frame, shape ``(k, 3)``."""
+        return turn_vectors(self.turns[body], vector)
+
+    def at(self, indices: np.ndarray | slice) -> Poses:
+        """Some of the configurations."""
+        return Poses(self.turns[:, indices].copy(), self.places[:, indices].copy())
+
+    def with_continuous_signs(self) -> Poses:
+        """The same with signs of quaternions that do not jump; the first ones stay."""
+        products = (self.turns[:, 1:] * self.turns[:, :-1]).sum(axis=-1)
+        signs = np.cumprod(np.where(products < 0, -1.0, 1.0), axis=1)
+        signs = np.concatenate([np.ones((len(signs), 1)), signs], axis=1)
+        return Poses(self.turns * signs[:, :, None], self.places)
+
+
+def pose_steps(poses: Poses, centres: np.ndarray, size: float) -> np.ndarray:
+    """How far configurations are from the ones before them, shape ``(k - 1,)``.
+
+    The root of the sum over bodies of the squared angle turned by, and of the squared way of a
+    point of each over ``size``: the same in whatever coordinates the points were found.
+
+    Args:
+        centres: that point in each body's frame, shape ``(bodies, 3)``.
+    """
+    return pose_distances(poses.at(slice(1, None)), poses.at(slice(None, -1)), centres, size)
+
+
+def pose_distances(one: Poses, other: Poses, centres: np.ndarray, size: float) -> np.ndarray:
+    """The same between configurations of two lists, those with the same number."""
+    products = np.abs((one.turns * other.turns).sum(axis=-1))
+    # Chords of unit quaternions: arc cosines lose half of the digits where turns are alike.
+    chords = np.sqrt(np.maximum(_least_square(one.turns, other.turns), 0.0))
+    angles = np.where(products > 0, 4 * np.arcsin(np.minimum(chords / 2, 1.0)), 0.0)
+    ways = one.places - other.places
+    for body, centre in enumerate(centres):
+        ways[body] += turn_vectors(one.turns[body], centre)
+        ways[body] -= turn_vectors(other.turns[body], centre)
+    squares = (angles**2).sum(axis=0) + (ways**2).sum(axis=(0, 2)) / size**2
+    return np.sqrt(squares)
+
+
+def _least_square(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Squared distances of quaternions up to sign."""
+    return np.minimum(((a - b) ** 2).sum(axis=-1), ((a + b) ** 2).sum(axis=-1))

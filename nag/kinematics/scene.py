@@ -1,0 +1,368 @@
+"""Bodies, joints, and where they are at the points of a problem's equations.
+
+A mechanism at a reference configuration has bodies and joints of its own. Of a planar linkage the
+links are bodies, of a framework the bars; where more than two of them share a pin, each is joined
+to the first. Of a table by Denavit and Hartenberg each body carries the frame of the joint before
+it, after that joint's turn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from nag.errors import NagError
+from nag.kinematics.poses import Poses, turn_back, turn_product, turn_vectors
+from nag.mechanism.configuration import Configuration, as_entries
+from nag.mechanism.dh import DHEulerModel, DHModel
+from nag.mechanism.framework_model import FrameworkModel
+from nag.mechanism.linkage import LinkageModel
+from nag.mechanism.model import Model
+from nag.mechanism.problem import Problem
+from nag.mechanism.quaternion import translation
+
+IDENTITY = (1, 0, 0, 0)
+UP = (0, 0, 1)
+# Dimensions of a framework's space that planar models leave out.
+PLANE = 2
+
+
+@dataclass(frozen=True, eq=False)
+class SceneJoint:
+    """A joint, as each of its two bodies carries it.
+
+    Attributes:
+        name: of the joint; of a pin of several bodies with the second one's behind it.
+        type: a key of `nag.mechanism.joint_types.JOINT_TYPES`.
+        bodies: indices of the two.
+        points: of its axis or centre, in the bodies' frames, shape ``(2, 3)``.
+        frames: quaternions that take vectors of the joint to the bodies' frames, shape ``(2, 4)``;
+            where the joint has not moved both give the same vector.
+        axis, second_axis: unit vectors of the joint as it was not moved, or None.
+    """
+
+    name: str
+    type: str
+    bodies: tuple[int, int]
+    points: np.ndarray
+    frames: np.ndarray
+    axis: np.ndarray | None
+    second_axis: np.ndarray | None = None
+
+    def axis_in(self, end: int, second: bool = False) -> np.ndarray:
+        """A direction of the joint in the frame of its first or second body."""
+        vector = self.second_axis if second else self.axis
+        assert vector is not None
+        return turn_vectors(self.frames[end], vector)
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Bodies and joints, and the way to their poses.
+
+    Attributes:
+        bodies: names.
+        ground: index of the one that is fixed.
+        joints: all of them.
+        planar: the unit normal of the plane of motion, or None.
+        from_reference: whether angles and slides count from a configuration that is known.
+        points: named points, each as a body's index and a place in its frame; of frameworks.
+        variables: those of the equations.
+        lift: poses at points, shape ``(k, n)``.
+    """
+
+    bodies: tuple[str, ...]
+    ground: int
+    joints: tuple[SceneJoint, ...]
+    planar: np.ndarray | None
+    from_reference: bool
+    points: dict[str, tuple[int, np.ndarray]]
+    variables: tuple[str, ...]
+    lift: Callable[[np.ndarray], Poses]
+
+    @property
+    def centres(self) -> np.ndarray:
+        """The middle of each body's joints and named points, in its frame: ``(bodies, 3)``."""
+        places: list[list[np.ndarray]] = [[] for _ in self.bodies]
+        for joint in self.joints:
+            for body, point in zip(joint.bodies, joint.points, strict=True):
+                places[body].append(point)
+        for body, point in self.points.values():
+            places[body].append(point)
+        return np.array([np.mean(own, axis=0) if own else np.zeros(3) for own in places])
+
+    @property
+    def size(self) -> float:
+        """The largest distance of two joints of one body; 1 where all are in one place."""
+        largest = 0.0
+        for body in range(len(self.bodies)):
+            own = [j.points[j.bodies.index(body)] for j in self.joints if body in j.bodies]
+            own += [point for b, point in self.points.values() if b == body]
+            for i, p in enumerate(own):
+                largest = max([largest, *(float(np.linalg.norm(p - q)) for q in own[:i])])
+        return largest or 1.0
+
+
+def scene_of(problem: Problem) -> Scene:
+    """The bodies and joints of a problem.
+
+    Raises:
+        NagError: if it is one of equations by themselves, or in coordinates that are not real
+            where a configuration is.
+    """
+    made = problem.model
+    if isinstance(made, Model):
+        return _of_mechanism(made)
+    if isinstance(made, LinkageModel):
+        return _of_linkage(made)
+    if isinstance(made, FrameworkModel):
+        return _of_framework(made)
+    if isinstance(made, DHModel | DHEulerModel):
+        return _of_table(made)
+    raise NagError("motion: equations by themselves have no bodies; give a mechanism")
+
+
+def _vector(values: Sequence[Any]) -> np.ndarray:
+    return np.array([float(x) for x in values])
+
+
+def _unit(values: Sequence[Any]) -> np.ndarray:
+    vector = _vector(values)
+    return vector / np.linalg.norm(vector)
+
+
+def _columns(points: np.ndarray) -> list[np.ndarray]:
+    return [points[:, i] for i in range(points.shape[1])]
+
+
+def _stack(entries: Sequence[Any], count: int) -> np.ndarray:
+    return np.stack([np.broadcast_to(np.asarray(x, dtype=float), count) for x in entries], axis=-1)
+
+
+def _of_mechanism(made: Model) -> Scene:
+    mechanism = made.mechanism
+    names = mechanism.body_names
+    back = np.array([turn_back(_vector(mechanism.orientation(b))) for b in names])
+    joints = []
+    for joint in mechanism.joints:
+        bodies = tuple(names.index(b) for b in joint.bodies)
+        frames = back[list(bodies)]
+        joints.append(
+            SceneJoint(
+                joint.name,
+                joint.type,
+                bodies,
+                turn_vectors(frames, _vector(joint.point)),
+                frames,
+                None if joint.axis is None else _unit(joint.axis),
+                None if joint.second_axis is None else _unit(joint.second_axis),
+            )
+        )
+
+    def lift(points: np.ndarray) -> Poses:
+        placed: Configuration = made.form.lift(_columns(points))
+        count = len(points)
+        return Poses.of(
+            [_stack(placed.euler[b], count) for b in names],
+            [_stack(placed.position[b], count) for b in names],
+            count,
+        )
+
+    normal = None
+    if made.space == "planar":
+        from nag.mechanism.axes import planar_normal
+
+        normal = _unit(planar_normal(mechanism.joints))
+    return Scene(
+        names,
+        names.index(mechanism.ground),
+        tuple(joints),
+        normal,
+        True,
+        {},
+        made.system.variables,
+        lift,
+    )
+
+
+def _pin_joints(
+    bodies: Sequence[str], pins: Sequence[Sequence[str]], shapes: Sequence[np.ndarray]
+) -> tuple[SceneJoint, ...]:
+    """Revolute joints of plates that share pins; the first plate of a pin carries it."""
+    found = []
+    for pin in dict.fromkeys(p for own in pins for p in own):
+        at = [(b, own.index(pin)) for b, own in enumerate(pins) if pin in own]
+        (first, place), *others = at
+        for body, other in others:
+            name = pin if len(others) == 1 else f"{pin}:{bodies[body]}"
+            points = np.array([shapes[first][place], shapes[body][other]])
+            frames = np.array([IDENTITY, IDENTITY])
+            joint = SceneJoint(name, "revolute", (first, body), points, frames, np.array(UP))
+            found.append(joint)
+    return tuple(found)
+
+
+def _planar_turns(c: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """Quaternions of turns about the normal of the plane."""
+    half = np.arctan2(s, c) / 2
+    zero = np.zeros_like(half)
+    return np.stack([np.cos(half), zero, zero, np.sin(half)], axis=-1)
+
+
+def _in_plane(places: Sequence[Sequence[Any]]) -> np.ndarray:
+    """Places of the plane as points of space."""
+    return np.array([[float(x), float(y), 0.0] for x, y in places])
+
+
+def _of_linkage(made: LinkageModel) -> Scene:
+    links = made.linkage.links
+    names = tuple(link.name for link in links)
+    shapes = [_in_plane(link.shape) for link in links]
+    held, *moving = made.in_loops
+    index = {name: i for i, name in enumerate(names)}
+
+    def lift(points: np.ndarray) -> Poses:
+        count = len(points)
+        turns = {held.name: np.broadcast_to(IDENTITY, (count, 4))}
+        for i, link in enumerate(moving):
+            turns[link.name] = _planar_turns(points[:, 2 * i], points[:, 2 * i + 1])
+        places = {held.name: np.zeros((count, 3))}
+        pins: dict[str, np.ndarray] = {}
+        left = [link for link in links if link.name != held.name]
+        placed = held
+        while True:
+            own = index[placed.name]
+            for pin, local in zip(placed.pins, shapes[own], strict=True):
+                at = places[placed.name] + turn_vectors(turns[placed.name], local)
+                pins.setdefault(pin, at)
+            following = next((link for link in left if pins.keys() & set(link.pins)), None)
+            if following is None:
+                break
+            placed = following
+            left.remove(placed)
+            # Links that close nothing turn freely; they are shown unturned.
+            turns.setdefault(placed.name, np.broadcast_to(IDENTITY, (count, 4)))
+            pin = next(p for p in placed.pins if p in pins)
+            local = shapes[index[placed.name]][placed.pins.index(pin)]
+            places[placed.name] = pins[pin] - turn_vectors(turns[placed.name], local)
+        return Poses.of([turns[n] for n in names], [places[n] for n in names], count)
+
+    return Scene(
+        names,
+        index[made.linkage.ground],
+        _pin_joints(names, [link.pins for link in links], shapes),
+        np.array(UP),
+        False,
+        {},
+        made.system.variables,
+        lift,
+    )
+
+
+def _of_framework(made: FrameworkModel) -> Scene:
+    if made.coordinates.startswith("z"):
+        raise NagError(
+            "motion: a framework in isotropic coordinates is real where no coordinate is; take "
+            "nag.mechanism.problem.in_real_coordinates"
+        )
+    framework = made.framework
+    bodies = tuple(f"{a}-{b}" for a, b in framework.bars)
+    lengths = [np.sqrt(float(x)) for x in framework.squared_lengths]
+    shapes = [np.array([[0.0, 0.0, 0.0], [length, 0.0, 0.0]]) for length in lengths]
+    joints = _pin_joints(bodies, framework.bars, shapes)
+    planar = framework.dimension == PLANE
+    if not planar:
+        joints = tuple(
+            SceneJoint(j.name, "spherical", j.bodies, j.points, j.frames, None) for j in joints
+        )
+    ends = {
+        p: (bodies.index(f"{a}-{b}"), k) for a, b in framework.bars for k, p in enumerate((a, b))
+    }
+
+    def lift(points: np.ndarray) -> Poses:
+        at = made.places_at(_columns(points))
+        places = {name: _stack((*own, 0.0)[:3], len(points)) for name, own in at.items()}
+        turns, origins = [], []
+        for a, b in framework.bars:
+            along = places[b] - places[a]
+            origins.append(places[a])
+            turn = _planar_turns(along[:, 0], along[:, 1]) if planar else _turns_to(along)
+            turns.append(turn)
+        return Poses.of(turns, origins, len(points))
+
+    held = set(made.pinned[:2])
+    return Scene(
+        bodies,
+        next(i for i, bar in enumerate(framework.bars) if set(bar) == held),
+        joints,
+        np.array(UP) if planar else None,
+        False,
+        {p: (bar, shapes[bar][k]) for p, (bar, k) in ends.items()},
+        made.system.variables,
+        lift,
+    )
+
+
+def _turns_to(vectors: np.ndarray) -> np.ndarray:
+    """Quaternions that turn the first axis to vectors, the shortest way; half a turn about the
+    third one where that is opposite."""
+    unit = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    x, y, z = unit.T
+    zero = np.zeros_like(x)
+    half = np.stack([1 + x, zero, -z, y], axis=-1)
+    half = np.where((x > -1)[:, None], half, np.array([0.0, 0.0, 0.0, 1.0]))
+    return half / np.linalg.norm(half, axis=1, keepdims=True)
+
+
+def _of_table(made: DHModel | DHEulerModel) -> Scene:
+    rows = [made.loop.rows[i] for i in made.loop.open]
+    count = len(rows)
+    rotations, places = [], []
+    for link in made.loop.links:
+        moved, size = translation(link)
+        rotations.append(_unit(link[0]))
+        places.append(_vector([x / size for x in moved]))
+    joints = []
+    for i, row in enumerate(rows):
+        before = (i - 1) % count
+        points = np.array([places[before], np.zeros(3)])
+        frames = np.array([rotations[before], IDENTITY])
+        joints.append(SceneJoint(row.name, "revolute", (before, i), points, frames, np.array(UP)))
+
+    def lift(points: np.ndarray) -> Poses:
+        k = len(points)
+        if isinstance(made, DHModel):
+            angles = made.turns(as_entries(_columns(points)), float)
+            halves = [angles[row.name] for row in rows]
+        else:
+            values = made.elimination.images
+            entries = as_entries(_columns(points))
+            flat = [image(entries, float) for image in values]
+            bodies = [_stack(flat[4 * i : 4 * i + 4], k) for i in range(count - 1)]
+            bodies.append(np.broadcast_to(IDENTITY, (k, 4)))
+            relative = [
+                turn_product(turn_back(turn_product(bodies[i - 1], rotations[i - 1])), bodies[i])
+                for i in range(count)
+            ]
+            halves = [(r[:, 0], r[:, 3]) for r in relative]
+        turns, origins = [], []
+        # The base is the last body, its frame the global one.
+        turn, origin = np.broadcast_to(IDENTITY, (k, 4)), np.zeros((k, 3))
+        for i, (c, s) in enumerate(halves):
+            origin = origin + turn_vectors(turn, places[i - 1])
+            turn = turn_product(turn_product(turn, rotations[i - 1]), _about_third(c, s, k))
+            turns.append(turn)
+            origins.append(origin)
+        return Poses.of([*turns[:-1], np.array(IDENTITY)], [*origins[:-1], np.zeros(3)], k)
+
+    names = tuple(f"link{i + 1}" for i in made.loop.open)
+    return Scene(names, count - 1, tuple(joints), None, False, {}, made.system.variables, lift)
+
+
+def _about_third(c: Any, s: Any, count: int) -> np.ndarray:
+    """Quaternions of turns about the third axis, from cosine and sine of half of them."""
+    turn = _stack((c, 0.0, 0.0, s), count)
+    return turn / np.linalg.norm(turn, axis=1, keepdims=True)

@@ -1,0 +1,124 @@
+"""What is said of motions at the prompt and in tables."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nag.kinematics.joint_values import Coordinate
+from nag.kinematics.motion import Circuit, Crossing, Motion
+from nag.kinematics.turning_points import STILL, TurningPoint, Values
+from nag.text.table import align, count_text, join_words, lines_of
+
+# Coordinates whose dead points are written out; more are counted.
+MOST_POINTS = 6
+
+
+def value_text(coordinate: Coordinate, value: float) -> str:
+    """An angle in degrees, or a slide."""
+    if coordinate.kind == "angle":
+        return f"{_no_zero(np.degrees(value)):.2f}\u00b0"
+    return f"{_no_zero(value):.5g}"
+
+
+def _no_zero(value: float) -> float:
+    """The number, without the sign and digits of one that is zero to rounding."""
+    return 0.0 if abs(value) < STILL else float(value)
+
+
+def range_text(values: Values, index: int) -> str:
+    """How far a joint moves in a circuit."""
+    each = values.coordinates[index]
+    if values.still[index]:
+        return "does not move"
+    low, high = (value_text(each, x) for x in values.ranges[index])
+    if not values.turns_fully(index):
+        return f"{low} to {high}"
+    whole = abs(int(values.turns[index]))
+    if whole:
+        return "turns fully" + (f", {whole} times" if whole > 1 else "")
+    return f"turns fully, {low} to {high}, and back"
+
+
+def turning_text(circuit: Circuit, point: TurningPoint) -> str:
+    """One dead point."""
+    each = next(c for c in circuit.values.coordinates if c.name == point.coordinate)
+    share = 100 * point.arc / circuit.length
+    return f"{each.name} {point.kind}, {value_text(each, point.value)}, at {share:.1f} %"
+
+
+def crossing_text(motion: Motion, circuit: Circuit, crossing: Crossing) -> str:
+    """One singular configuration on the way."""
+    share = 100 * crossing.arc / circuit.length
+    others = [str(n) for n in crossing.circuits if n != circuit.number]
+    texts = []
+    if others:
+        noun = "circuit" if len(others) == 1 else "circuits"
+        texts.append(f"{noun} {join_words(others)}")
+    if circuit.number in crossing.circuits:
+        texts.append("itself")
+    if crossing.components:
+        texts.append(count_text(len(crossing.components), "other component"))
+    where = f"crosses {join_words(texts)}" if texts else "singular"
+    return f"{where} at {share:.1f} %"
+
+
+def circuit_rows(motion: Motion, circuit: Circuit) -> list[str]:
+    """The table of a circuit: a line for each joint."""
+    values = circuit.values
+    rows = [["joint", "moves", "stands still at"]]
+    for i, each in enumerate(values.coordinates):
+        own = [p for p in values.turning if p.coordinate == each.name]
+        texts = [value_text(each, p.value) for p in own[:MOST_POINTS]]
+        if len(own) > MOST_POINTS:
+            texts.append(f"and {len(own) - MOST_POINTS} more")
+        rows.append([each.name, range_text(values, i), ", ".join(texts)])
+    return align(rows, left=(0, 1, 2))
+
+
+def circuit_text(motion: Motion, circuit: Circuit) -> str:
+    """One circuit in one line."""
+    text = "closed" if circuit.closed else "open"
+    if circuit.through_reference:
+        begins = "begins at" if circuit.from_reference else "runs through"
+        text += f", {begins} the reference configuration"
+    if len(motion.components) > 1:
+        text += f", on component {circuit.component + 1}"
+    return f"{text}; length {circuit.length:.4g}"
+
+
+def motion_rows(motion: Motion) -> list[tuple[str, str]]:
+    """Labelled lines of the whole."""
+    rows = [("mobility", motion.sentence)]
+    for i, component in enumerate(motion.components):
+        text = f"dimension {component.dimension}, degree {component.degree}"
+        own = [c for c in motion.circuits if c.component == i]
+        text += f"; {count_text(len(own), 'circuit')}" if own else "; no real motion of its own"
+        rows.append(("component" if len(motion.components) == 1 else f"component {i + 1}", text))
+    if motion.idle:
+        rows.append(("idle", motion.idle))
+    still = _never_moving(motion)
+    if still:
+        rows.append(
+            ("still", f"{join_words(still)} never {'moves' if len(still) == 1 else 'move'}")
+        )
+    return rows
+
+
+def _never_moving(motion: Motion) -> list[str]:
+    """Joints that stand still in all circuits."""
+    if not motion.circuits:
+        return []
+    still = np.all([c.values.still for c in motion.circuits], axis=0)
+    names = [c.joint for c in motion.circuits[0].values.coordinates]
+    return [
+        name
+        for name in dict.fromkeys(names)
+        if all(s for s, other in zip(still, names, strict=True) if other == name)
+    ]
+
+
+def motion_text(motion: Motion) -> str:
+    """What is seen at the prompt."""
+    rows = motion_rows(motion)
+    rows += [(f"circuit {c.number}", circuit_text(motion, c)) for c in motion.circuits]
+    return lines_of(f"Motion of {count_text(len(motion.circuits), 'circuit')}", rows)

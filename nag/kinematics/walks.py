@@ -1,0 +1,168 @@
+"""How the arcs of a real curve follow each other in a motion.
+
+A motion runs along a loop, or along arcs from vertex to vertex. Through a vertex it goes straight
+on: of the ends of arcs that meet there, two belong together whose tangents are opposite. What a
+cusp, where they are not, leaves over is paired as it lies nearest to that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.real.curve import RealCurve, VertexKind
+
+# An end of an edge: its index, and whether it is the last point.
+End = tuple[int, bool]
+
+
+@dataclass(frozen=True, eq=False)
+class Walk:
+    """One motion along a real curve.
+
+    Attributes:
+        piece: index of the connected piece that it runs on.
+        closed: whether it returns to where it began.
+        chart: coordinates along it, shape ``(k, n)``, as those of `nag.real.curve.RealEdge.chart`,
+            continuous all along it. Of a closed walk the last point is the first.
+        vertices: the vertices on its way, each with the index of the point there; of a closed walk
+            none at the last point.
+    """
+
+    piece: int
+    closed: bool
+    chart: np.ndarray
+    vertices: tuple[tuple[int, int], ...]
+
+    def begin_at(self, index: int) -> Walk:
+        """A closed walk, begun at another point."""
+        if index == 0 or not self.closed:
+            return self
+        last = len(self.chart) - 1
+        shift = self.chart[-1] - self.chart[0]
+        chart = np.concatenate([self.chart[index:], self.chart[1 : index + 1] + shift])
+        turned = {(v, (i - index) % last) for v, i in self.vertices}
+        return Walk(self.piece, True, chart, tuple(sorted(turned, key=lambda p: p[1])))
+
+    def insert(self, segment: int, point: np.ndarray) -> Walk:
+        """The same with one point more, after that of index ``segment``."""
+        chart = np.insert(self.chart, segment + 1, point, axis=0)
+        vertices = tuple((v, i + (i > segment)) for v, i in self.vertices)
+        return Walk(self.piece, self.closed, chart, vertices)
+
+
+def points_of(curve: RealCurve, chart: np.ndarray) -> np.ndarray:
+    """Points in the curve's variables from those of a chart."""
+    points = np.array(chart)
+    for turn in curve.turns:
+        points[:, turn.variable] = turn.centre + turn.radius * np.tan(chart[:, turn.variable])
+    return points
+
+
+def walks_of(curve: RealCurve) -> tuple[Walk, ...]:
+    """All motions along a real curve, each edge in one of them; isolated points are none."""
+    partner = _pair_ends(curve)
+    walks = []
+    for number, piece in enumerate(curve.pieces):
+        left = set(piece.edges)
+        while left:
+            start = min(left)
+            way = _follow(curve, partner, start)
+            left -= {edge for edge, _ in way}
+            walks.append(_join(curve, number, way, partner))
+    return tuple(walks)
+
+
+def _pair_ends(curve: RealCurve) -> dict[End, End]:
+    """For each end of an edge at a finite vertex the one in which a motion goes on."""
+    ends: dict[int, list[End]] = {}
+    for k, edge in enumerate(curve.edges):
+        for vertex, last in ((edge.start, False), (edge.end, True)):
+            if vertex is not None and curve.vertices[vertex].kind is not VertexKind.INFINITE:
+                ends.setdefault(vertex, []).append((k, last))
+    partner: dict[End, End] = {}
+    for own in ends.values():
+        directions = [_direction(curve, end) for end in own]
+        pairs = sorted(
+            (float(directions[i] @ directions[j]), i, j)
+            for i in range(len(own))
+            for j in range(i + 1, len(own))
+        )
+        for _, i, j in pairs:
+            if own[i] not in partner and own[j] not in partner:
+                partner[own[i]], partner[own[j]] = own[j], own[i]
+    return partner
+
+
+def _direction(curve: RealCurve, end: End) -> np.ndarray:
+    """The unit vector into an edge from one of its ends, by a circle through three points."""
+    edge, last = end
+    chart = curve.edges[edge].chart
+    chart = chart[::-1] if last else chart
+    if len(chart) < 3:
+        vector = chart[-1] - chart[0]
+    else:
+        first, second = chart[1] - chart[0], chart[2] - chart[0]
+        s, t = np.linalg.norm(first), np.linalg.norm(second)
+        # The slope at the start of the parabola through three points.
+        vector = first * (t / (s * (t - s))) - second * (s / (t * (t - s))) if t > s else first
+    return vector / np.linalg.norm(vector)
+
+
+def _follow(curve: RealCurve, partner: dict[End, End], start: int) -> list[tuple[int, bool]]:
+    """Edges one after the other, each with whether it is run forwards."""
+    way = [(start, True)]
+    if curve.edges[start].closed:
+        return way
+    for forwards in (True, False):
+        while True:
+            edge, ahead = way[-1] if forwards else way[0]
+            # The end at which the way so far stops.
+            following = partner.get((edge, ahead if forwards else not ahead))
+            if following is None:
+                break
+            edge, last = following
+            if any(edge == other for other, _ in way):
+                return way
+            if forwards:
+                way.append((edge, not last))
+            else:
+                way.insert(0, (edge, last))
+    return way
+
+
+def _join(
+    curve: RealCurve, piece: int, way: list[tuple[int, bool]], partner: dict[End, End]
+) -> Walk:
+    """The chart along edges, made continuous from one to the next."""
+    parts: list[np.ndarray] = []
+    vertices: list[tuple[int, int]] = []
+    turns = [turn.variable for turn in curve.turns]
+    length = 0
+    for edge_number, forwards in way:
+        edge = curve.edges[edge_number]
+        chart = np.array(edge.chart if forwards else edge.chart[::-1])
+        ends = (edge.start, edge.end) if forwards else (edge.end, edge.start)
+        if parts:
+            gap = parts[-1][-1, turns] - chart[0, turns]
+            chart[:, turns] += np.round(gap / np.pi) * np.pi
+            chart = chart[1:]
+        elif _is_finite(curve, ends[0]):
+            vertices.append((ends[0], 0))
+        parts.append(chart)
+        length += len(chart)
+        if _is_finite(curve, ends[1]):
+            vertices.append((ends[1], length - 1))
+    first, last = way[0], way[-1]
+    closed = curve.edges[first[0]].closed or (
+        partner.get((last[0], last[1])) == (first[0], not first[1])
+    )
+    if closed and vertices:
+        # What ends where it began is there once.
+        vertices = [(v, i) for v, i in vertices if i < length - 1]
+    return Walk(piece, closed, np.concatenate(parts), tuple(vertices))
+
+
+def _is_finite(curve: RealCurve, vertex: int | None) -> bool:
+    return vertex is not None and curve.vertices[vertex].kind is not VertexKind.INFINITE

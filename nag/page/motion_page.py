@@ -1,0 +1,321 @@
+"""One self-contained HTML file of a motion."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+from collections.abc import Sequence
+from html import escape
+from importlib import resources
+from typing import Any
+
+import numpy as np
+
+from nag.errors import NagError
+from nag.kinematics.motion import Circuit, Crossing, Motion
+from nag.kinematics.poses import turn_back, turn_vectors
+from nag.kinematics.shown import crossing_text, range_text, turning_text
+from nag.page.link_shapes import Shape, Shapes, link_shapes
+from nag.text.table import count_text
+
+# Bytes that the numbers of all circuits may take, in base64: with the bundle a page stays under a
+# million. Circuits have fewer frames where there are many, but so many at least.
+BYTES, LEAST_FRAMES = 300_000, 48
+# Decimals of places in shapes, over the typical link's length.
+DECIMALS = 6
+# How much of the light of a colour each body has is not decided here: see viewer.js.
+NO_COLOUR = -1
+# Normals of a plane that look towards the viewer as they are.
+UPRIGHT = 0.5
+
+
+def motion_page(motion: Motion, title: str, file: str) -> str:
+    """The page of a motion.
+
+    Args:
+        title: what is moving.
+        file: name of the case's file without its folder, after which tables to save are named.
+
+    Raises:
+        NagError: if there is no circuit, or too many bodies and circuits for one page.
+    """
+    if not motion.circuits:
+        raise NagError("html: there is no real motion to show")
+    text = json.dumps(_page_data(motion, title, file), separators=(",", ":"), allow_nan=False)
+    # Nothing in a script's text may end it.
+    data = text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+    parts = {
+        "title": escape(title),
+        "subtitle": escape(subtitle(motion)),
+        "style": _part("viewer.css"),
+        "test": _part("self_test.js"),
+        "licence": _part("three.LICENSE").strip(),
+        "three": _part("three.bundle.js"),
+        "data": data,
+        "viewer": _part("viewer.js"),
+    }
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _read("page.html"))
+
+
+def subtitle(motion: Motion) -> str:
+    """What moves, in one line."""
+    joints = [j for j in motion.scene.joints if j.type != "rigid"]
+    kinds = list(dict.fromkeys(j.type for j in joints))
+    counts = [count_text(sum(j.type == kind for j in joints), f"{kind} joint") for kind in kinds]
+    degrees = sorted({c.degree for c in motion.components})
+    curve = f"curve of degree {degrees[0]}" if len(degrees) == 1 else "curves"
+    return f"{', '.join(counts)}; {count_text(len(motion.circuits), 'circuit')}; {curve}"
+
+
+def _read(name: str) -> str:
+    return resources.files("nag.page").joinpath(name).read_text("utf-8")
+
+
+def _part(name: str) -> str:
+    # In a page a script ends at its closing tag wherever that stands.
+    return re.sub(r"</(script|style)", r"<\\/\1", _read(name), flags=re.IGNORECASE)
+
+
+def _page_data(motion: Motion, title: str, file: str) -> dict[str, Any]:
+    scene = motion.scene
+    shapes = link_shapes(scene, _slide_ranges(motion))
+    root = _root_turn(motion)
+    colours = _colours(motion)
+    frames = _frame_count(motion)
+    ground = motion.circuits[0].poses.turns[scene.ground, 0]
+    return {
+        "title": title,
+        "file": re.sub(r"\.toml$", "", file),
+        "planar": scene.planar is not None,
+        "link": shapes.link,
+        "root": root.tolist(),
+        "up": turn_vectors(
+            turn_back(ground), turn_vectors(turn_back(root), np.array([0.0, 1.0, 0.0]))
+        ).tolist(),
+        "ground": scene.ground,
+        "feet": _feet(motion, shapes),
+        "axis": f"{_what(motion)} along the motion (length {{length}})",
+        "bodies": [
+            {
+                "name": name,
+                "colour": colours[i],
+                "middle": _rounded(scene.centres[i], shapes.link),
+                "shapes": [_shape_data(s, shapes.link) for s in shapes.bodies[i]],
+            }
+            for i, name in enumerate(scene.bodies)
+        ],
+        "hubs": _hub_data(motion, shapes, colours),
+        "coordinates": [
+            {"name": each.name, "kind": each.kind} for each in motion.circuits[0].values.coordinates
+        ],
+        "facts": facts(motion),
+        "circuits": [_circuit_data(motion, c, frames) for c in motion.circuits],
+    }
+
+
+def _what(motion: Motion) -> str:
+    kinds = {each.kind for each in motion.circuits[0].values.coordinates}
+    names = " and ".join(
+        n for n, k in (("joint angles", "angle"), ("slides", "slide")) if k in kinds
+    )
+    if not names:
+        return "no joint has an angle or a slide of its own;"
+    return f"{names} from the reference configuration," if motion.scene.from_reference else names
+
+
+def facts(motion: Motion) -> list[list[str]]:
+    """What is said of the whole motion beside the picture."""
+    rows = [["mobility", motion.sentence]]
+    for i, component in enumerate(motion.components):
+        name = "component" if len(motion.components) == 1 else f"component {i + 1}"
+        on = sum(c.component == i for c in motion.circuits)
+        text = f"dimension {component.dimension}, degree {component.degree}"
+        if component.multiplicity > 1:
+            text += f", multiplicity {component.multiplicity}"
+        rows.append([name, f"{text}; {count_text(on, 'circuit')}"])
+    if motion.idle:
+        rows.append(["idle", motion.idle])
+    rows += [["open", note] for note in motion.notes]
+    return rows
+
+
+def _slide_ranges(motion: Motion) -> dict[str, tuple[float, float]]:
+    """By joint, from where to where it slides in any circuit; along its axis where it has one."""
+    ranges: dict[str, tuple[float, float]] = {}
+    for circuit in motion.circuits:
+        for each, (low, high) in zip(
+            circuit.values.coordinates, circuit.values.ranges, strict=True
+        ):
+            if each.kind == "slide":
+                before = ranges.get(each.joint, (0.0, 0.0))
+                ranges[each.joint] = (min(before[0], float(low)), max(before[1], float(high)))
+    return ranges
+
+
+def _root_turn(motion: Motion) -> np.ndarray:
+    """The quaternion that turns the plane of motion towards the viewer; none in space."""
+    normal = motion.scene.planar
+    if normal is None or normal[2] > UPRIGHT + UPRIGHT * (1 - DECIMALS**-DECIMALS):
+        return np.array([1.0, 0.0, 0.0, 0.0])
+    half = np.array([1 + normal[2], normal[1], -normal[0], 0.0])
+    if np.linalg.norm(half) < 10.0**-DECIMALS:
+        # The plane from behind: half a turn about the upward direction.
+        return np.array([0.0, 0.0, 1.0, 0.0])
+    return half / np.linalg.norm(half)
+
+
+def _colours(motion: Motion) -> list[int]:
+    """A number for each body's colour; the ground has none."""
+    found, count = [], 0
+    for i in range(len(motion.scene.bodies)):
+        if i == motion.scene.ground:
+            found.append(NO_COLOUR)
+        else:
+            found.append(count)
+            count += 1
+    return found
+
+
+def _frame_count(motion: Motion) -> int:
+    """How many frames each circuit has, so that all of them fit in one page."""
+    first = motion.circuits[0]
+    numbers = 7 * len(motion.scene.bodies) + len(first.values.coordinates)
+    # Four bytes each, in base64 a third more.
+    frames = int(BYTES * 3 / 16 / numbers / len(motion.circuits))
+    if frames < LEAST_FRAMES:
+        raise NagError(
+            f"html: {len(motion.circuits)} circuits of {len(motion.scene.bodies)} bodies do not "
+            "fit in one page; show one of them (--circuit NUMBER)"
+        )
+    return min(frames, max(len(c) for c in motion.circuits))
+
+
+def _rounded(point: Sequence[float] | np.ndarray, link: float) -> list[float]:
+    scale = 10.0 ** np.floor(np.log10(link))
+    return [round(float(x) / scale, DECIMALS) * scale for x in point]
+
+
+def _shape_data(shape: Shape, link: float) -> dict[str, Any]:
+    return {
+        "kind": shape.kind,
+        "at": [_rounded(p, link) for p in shape.at],
+        "sizes": _rounded(shape.sizes, link),
+    }
+
+
+def _hub_data(motion: Motion, shapes: Shapes, colours: Sequence[int]) -> list[dict[str, Any]]:
+    """Points whose paths are shown, and which the view has to hold."""
+    scene = motion.scene
+    found = []
+    for joint, at in zip(scene.joints, shapes.hubs, strict=True):
+        body = joint.bodies[0]
+        colour = max(colours[b] for b in joint.bodies)
+        if scene.planar is not None:
+            at = tuple(np.add(at, shapes.front * _normal(motion, body)))
+        found.append(
+            {"body": body, "at": list(at), "path": joint.type != "rigid", "colour": colour}
+        )
+    named = [] if scene.joints and scene.planar is not None else list(scene.points.values())
+    for body, point in named:
+        found.append(
+            {"body": body, "at": point.tolist(), "path": True, "colour": max(colours[body], 0)}
+        )
+    return found
+
+
+def _normal(motion: Motion, body: int) -> np.ndarray:
+    """The normal of the plane of motion in a body's frame."""
+    circuit = motion.circuits[0]
+    assert motion.scene.planar is not None
+    return turn_vectors(turn_back(circuit.poses.turns[body, 0]), motion.scene.planar)
+
+
+def _feet(motion: Motion, shapes: Shapes) -> list[list[float]]:
+    """Where posts hold the ground's link, in its frame: a third from either end of each piece."""
+    feet: list[list[float]] = []
+    for shape in shapes.bodies[motion.scene.ground]:
+        if shape.kind in ("rod", "tube"):
+            points = np.array(shape.at)
+            steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+            way = np.concatenate([[0.0], np.cumsum(steps)])
+            for share in (1 / 3, 2 / 3):
+                feet.append([float(np.interp(share * way[-1], way, x)) for x in points.T])
+    if not feet:
+        own = [
+            at
+            for joint, at in zip(motion.scene.joints, shapes.hubs, strict=True)
+            if joint.bodies[0] == motion.scene.ground
+        ]
+        feet = [list(at) for at in own]
+    return feet
+
+
+def _circuit_data(motion: Motion, circuit: Circuit, frames: int) -> dict[str, Any]:
+    frames = min(frames, len(circuit))
+    at = np.linspace(0, len(circuit) - 1, frames)
+    values = _between(circuit.values.values.T, at)
+    for i, each in enumerate(circuit.values.coordinates):
+        if each.kind == "angle":
+            values[i] = np.degrees(values[i])
+    turns = np.stack([_between(q.T, at).T for q in circuit.poses.turns])
+    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
+    places = np.stack([_between(r.T, at).T for r in circuit.poses.places])
+    return {
+        "number": circuit.number,
+        "label": circuit_label(motion, circuit),
+        "closed": circuit.closed,
+        "length": f"{circuit.length:.2f}",
+        "arc": circuit.length,
+        "frames": frames,
+        "turns": _encode(turns),
+        "places": _encode(places),
+        "values": _encode(values),
+        "dead": [_dead_data(circuit, p, frames) for p in circuit.values.turning],
+        "crossings": [_crossing_data(motion, circuit, c, frames) for c in circuit.crossings],
+        "facts": [
+            [each.name, range_text(circuit.values, i)]
+            for i, each in enumerate(circuit.values.coordinates)
+        ],
+    }
+
+
+def circuit_label(motion: Motion, circuit: Circuit) -> str:
+    """What a circuit is called in the menu."""
+    text = f"circuit {circuit.number} of {len(motion.circuits)}, "
+    text += "closed" if circuit.closed else "open"
+    if circuit.through_reference and len(motion.circuits) > 1:
+        text += ", through the reference"
+    return text
+
+
+def _between(rows: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Rows of samples at places between these."""
+    index = np.arange(rows.shape[1])
+    return np.stack([np.interp(at, index, row) for row in rows]) if len(rows) else rows[:, :0]
+
+
+def _encode(numbers: np.ndarray) -> str:
+    """Numbers as little-endian floats of four bytes, in base64."""
+    return base64.b64encode(np.ascontiguousarray(numbers, dtype="<f4").tobytes()).decode("ascii")
+
+
+def _dead_data(circuit: Circuit, point: Any, frames: int) -> dict[str, Any]:
+    names = [each.name for each in circuit.values.coordinates]
+    column = names.index(point.coordinate)
+    angle = circuit.values.coordinates[column].kind == "angle"
+    return {
+        "at": point.arc / circuit.length * (frames - 1),
+        "column": column,
+        "value": float(np.degrees(point.value) if angle else point.value),
+        "text": turning_text(circuit, point),
+    }
+
+
+def _crossing_data(
+    motion: Motion, circuit: Circuit, crossing: Crossing, frames: int
+) -> dict[str, Any]:
+    return {
+        "at": crossing.arc / circuit.length * (frames - 1),
+        "text": crossing_text(motion, circuit, crossing),
+    }

@@ -1,0 +1,313 @@
+"""Motions: all bodies along real curves, joints that fit, angles that are known exactly."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from traced_curves import trace_loop
+
+import nag
+from nag.errors import NagError
+from nag.kinematics.joint_values import joint_errors, joint_values
+from nag.kinematics.motion import Motion, MotionError, motion_of
+from nag.kinematics.poses import Poses, turn_product
+from nag.kinematics.scene import Scene, SceneJoint, scene_of
+from nag.kinematics.walks import walks_of
+from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
+from nag.mechanism.real_assemblies import real_assemblies
+from nag.real.curve import (
+    PieceKind,
+    RealCurve,
+    RealEdge,
+    RealPiece,
+    RealVertex,
+    Verdict,
+    VertexKind,
+)
+
+ROOT = Path(__file__).parent.parent
+# Joints as seen from both bodies, and loops that return, in sizes and radians.
+FIT = 1e-12
+LOOPS = [
+    ("bennett", "H"),
+    ("bennett", "E"),
+    ("bricard-cube", "H"),
+    ("planar/four-bar", "auto"),
+    ("planar/slider-crank", "E"),
+    ("planar/slider-crank", "H"),
+    ("planar/elliptic-trammel", "auto"),
+    ("planar/watt-six-bar", "auto"),
+    ("planar/four-bar-kite", "auto"),
+    ("spatial/rssr", "S"),
+    ("spatial/universal-shaft", "H"),
+    ("spatial/goldberg-5r", "H"),
+    ("spherical/four-bar", "auto"),
+]
+
+
+def read_problem(name: str, formulation: str = "auto") -> Problem:
+    case = nag.read_case(ROOT / "cases" / f"{name}.toml")
+    return in_real_coordinates(problem_of(case, formulation=formulation))
+
+
+def start_of(problem: Problem) -> np.ndarray:
+    """A smooth real point."""
+    if problem.reference is not None:
+        return np.array([float(x) for x in problem.reference])
+    return next(real_assemblies(problem.parts)).x
+
+
+@pytest.fixture(scope="module")
+def moved():
+    """Motions along the loop through a known point, each worked out once."""
+    known: dict[tuple[str, str, int], Motion] = {}
+
+    def move(name: str, formulation: str = "auto", samples: int = 120) -> Motion:
+        key = (name, formulation, samples)
+        if key not in known:
+            problem = read_problem(name, formulation)
+            curve = trace_loop(problem, start_of(problem))
+            known[key] = motion_of(problem, samples=samples, curve_of=lambda _: curve)
+        return known[key]
+
+    return move
+
+
+@pytest.mark.parametrize(("name", "formulation"), LOOPS)
+def test_joints_fit_as_both_bodies_see_them_and_loops_return(moved, name, formulation) -> None:
+    motion = moved(name, formulation)
+    (circuit,) = motion.circuits
+    assert circuit.closed and len(circuit) == 121
+    poses = circuit.poses
+    assert joint_errors(motion.scene, poses).max() < FIT
+    assert np.abs(np.linalg.norm(poses.turns, axis=-1) - 1).max() < FIT
+    gap = np.abs(poses.places[:, 0] - poses.places[:, -1]).max() / motion.scene.size
+    assert gap < FIT
+    back = np.abs((poses.turns[:, 0] * poses.turns[:, -1]).sum(axis=-1))
+    assert np.abs(back - 1).max() < FIT
+    # Neighbouring samples are near each other, quaternions included.
+    assert (poses.turns[:, 1:] * poses.turns[:, :-1]).sum(axis=-1).min() > 0.5
+
+
+@pytest.mark.parametrize(("name", "formulation"), LOOPS)
+def test_samples_are_equally_far_from_each_other(moved, name, formulation) -> None:
+    from nag.kinematics.poses import pose_steps
+
+    motion = moved(name, formulation, samples=720)
+    (circuit,) = motion.circuits
+    steps = pose_steps(circuit.poses, motion.scene.centres, motion.scene.size)
+    assert steps.max() - steps.min() < 0.01 * steps.mean()
+    assert np.diff(circuit.arc) == pytest.approx(np.full(720, circuit.length / 720))
+
+
+@pytest.mark.parametrize("name", ["bennett", "planar/slider-crank"])
+def test_two_formulations_give_the_same_motion_point_for_point(moved, name) -> None:
+    one, other = (moved(name, f).circuits[0] for f in ("E", "H"))
+    assert one.length == pytest.approx(other.length, rel=1e-4)
+    assert one.from_reference and other.from_reference
+    forwards = other.values.values
+    backwards = forwards[::-1] - forwards[-1] + forwards[0]
+    own = one.values.values
+    # Where they begin they are the same; which way they run is not said.
+    best = min(np.abs(own - x).max() for x in (forwards, backwards))
+    assert best < 1e-3
+
+
+def test_angles_of_bennetts_linkage_have_the_law_that_they_have(moved) -> None:
+    # Half-angles of neighbours are in one bilinear relation, so that cotangents of them, counted
+    # from a common position, are linear in each other; opposite angles are equal up to sign
+    # (Bennett 1914).
+    values = moved("bennett", "H").circuits[0].values.values[1:-1]
+    x, y = (1 / np.tan(values[:, i] / 2) for i in (0, 1))
+    slope = (y[70] - y[10]) / (x[70] - x[10])
+    assert np.abs(y - y[10] - slope * (x - x[10])).max() < 1e-9 * np.abs(y).max()
+    assert np.abs(values[:, 0] + values[:, 2]).max() < FIT * 100
+    assert np.abs(values[:, 1] + values[:, 3]).max() < FIT * 100
+
+
+def test_joints_of_bennetts_linkage_turn_fully_once(moved) -> None:
+    for formulation in "HE":
+        circuit = moved("bennett", formulation).circuits[0]
+        assert circuit.from_reference
+        assert np.abs(circuit.values.values[0]).max() < FIT
+        assert [abs(x) for x in circuit.values.turns] == [1, 1, 1, 1]
+        assert all(circuit.values.turns_fully(i) for i in range(4))
+        assert circuit.values.turning == ()
+
+
+def test_joints_of_bricards_cube_turn_from_minus_210_to_30_degrees(moved) -> None:
+    circuit = moved("bricard-cube", "H").circuits[0]
+    ranges = np.degrees(circuit.values.ranges)
+    flat = np.abs(ranges - np.array([-210.0, 30.0])).max(axis=1)
+    turned = np.abs(ranges - np.array([-30.0, 210.0])).max(axis=1)
+    assert np.minimum(flat, turned).max() < 1e-8
+    assert len(circuit.values.turning) == 12
+    assert not circuit.values.turns.any()
+
+
+def test_dead_points_of_a_crank_rocker_are_where_crank_and_coupler_are_in_line(moved) -> None:
+    # Links 4, 1, 3, 7/2: the rocker turns back where the other end of it is 3 + 1 or 3 - 1 from
+    # the crank's pivot.
+    circuit = moved("planar/four-bar").circuits[0]
+    names = [c.name for c in circuit.values.coordinates]
+    angles = [math.acos((16 + 3.5**2 - reach**2) / (2 * 4 * 3.5)) for reach in (3 - 1, 3 + 1)]
+    d = names.index("D")
+    own = circuit.values.ranges[d]
+    assert sorted(np.abs(own)) == pytest.approx(sorted(angles), abs=1e-9)
+    assert abs(circuit.values.turns[names.index("A")]) == 1
+    assert circuit.values.turns_fully(names.index("A"))
+    assert not circuit.values.turns_fully(d)
+    # And the coupler's end where the crank is in line with the ground: 4 - 1, 4 + 1.
+    c = names.index("C")
+    angles = [
+        math.pi - math.acos((9 + 3.5**2 - reach**2) / (2 * 3 * 3.5)) for reach in (4 - 1, 4 + 1)
+    ]
+    away = np.abs(circuit.values.ranges[c])
+    assert sorted(away) == pytest.approx(sorted(angles), abs=1e-9)
+
+
+def test_a_rod_that_turns_about_itself_is_named(moved) -> None:
+    motion = moved("spatial/rssr", "S")
+    assert motion.freedoms == 2
+    assert motion.idle == "rod turns about itself"
+
+
+@given(st.floats(-3, 3), st.floats(-3, 3), st.integers(0, 2**32 - 1))
+def test_angles_of_a_universal_joint_are_those_that_it_was_turned_by(first, second, seed) -> None:
+    rng = np.random.default_rng(seed)
+    frame = np.linalg.qr(rng.standard_normal((3, 3)))[0]
+    u, v = frame[0], frame[1]
+    one = np.array([1.0, 0, 0, 0])
+    joint = SceneJoint("U", "universal", (0, 1), np.zeros((2, 3)), np.array([one, one]), u, v)
+    scene = Scene(("a", "b"), 0, (joint,), None, True, {}, (), lambda p: None)
+    start = rng.standard_normal(4)
+    start /= np.linalg.norm(start)
+    turned = turn_product(
+        turn_product(start, np.array([math.cos(first / 2), *(math.sin(first / 2) * u)])),
+        np.array([math.cos(second / 2), *(math.sin(second / 2) * v)]),
+    )
+    poses = Poses(np.array([[start], [turned]]), np.zeros((2, 1, 3)))
+    assert joint_values(scene, poses)[0] == pytest.approx([first, second], abs=1e-12)
+    assert joint_errors(scene, poses)[0, 0] < FIT
+
+
+def arc(start: int | None, end: int | None, points: list[tuple[float, float]]) -> RealEdge:
+    return RealEdge(start, end, np.array(points), np.array(points))
+
+
+def curve_of(vertices: list[tuple[float, float]], edges: list[RealEdge], *pieces) -> RealCurve:
+    made = tuple(RealVertex(VertexKind.SINGULAR, np.array(v)) for v in vertices)
+    return RealCurve(("x", "y"), (), made, tuple(edges), tuple(pieces), Verdict.COMPLETE)
+
+
+def lemniscate_lobe(sign: float) -> list[tuple[float, float]]:
+    """One lobe of (x^2 + y^2)^2 = x^2 - y^2, from the node to the node."""
+    angles = np.linspace(-np.pi / 2, np.pi / 2, 81)
+    size = np.cos(angles) / (1 + np.sin(angles) ** 2)
+    return [(sign * r, r * math.sin(t)) for r, t in zip(size, angles, strict=True)]
+
+
+def test_a_motion_goes_straight_on_through_a_node() -> None:
+    lobes = [arc(0, 0, lemniscate_lobe(s)) for s in (1.0, -1.0)]
+    piece = RealPiece(PieceKind.ARC_NETWORK, (0, 1), (0,))
+    (walk,) = walks_of(curve_of([(0.0, 0.0)], lobes, piece))
+    assert walk.closed and len(walk.chart) == 161
+    steps = np.diff(np.concatenate([walk.chart, walk.chart[1:2]]), axis=0)
+    steps = steps / np.linalg.norm(steps, axis=1, keepdims=True)
+    assert (steps[1:] * steps[:-1]).sum(axis=1).min() > 0.98
+    assert [v for v, _ in walk.vertices] == [0, 0]
+
+
+def test_two_circles_that_cross_are_two_motions() -> None:
+    angles = np.linspace(0, 2 * np.pi / 3, 30), np.linspace(2 * np.pi / 3, 2 * np.pi, 60)
+    high = math.sqrt(3) / 2
+    edges = []
+    for middle, turn in ((-0.5, -np.pi / 3), (0.5, 2 * np.pi / 3)):
+        ends = (1, 0) if middle < 0 else (0, 1)
+        for k, own in enumerate(angles):
+            points = [(middle + math.cos(a + turn), math.sin(a + turn)) for a in own]
+            edges.append(arc(ends[k], ends[1 - k], points))
+    piece = RealPiece(PieceKind.ARC_NETWORK, (0, 1, 2, 3), (0, 1))
+    walks = walks_of(curve_of([(0.0, high), (0.0, -high)], edges, piece))
+    assert [w.closed for w in walks] == [True, True]
+    for walk, middle in zip(walks, (-0.5, 0.5), strict=True):
+        radii = np.linalg.norm(walk.chart - np.array([middle, 0.0]), axis=1)
+        assert np.abs(radii - 1).max() < 1e-12
+
+
+def test_a_motion_turns_back_at_a_cusp_and_ends_where_an_arc_is_open() -> None:
+    t = np.linspace(0, 1, 20)
+    branches = [arc(0, 1, [(x**2, s * x**3) for x in t]) for s in (1.0, -1.0)]
+    vertices = (
+        RealVertex(VertexKind.SINGULAR, np.zeros(2)),
+        RealVertex(VertexKind.INFINITE, np.array([1.0, 0.0])),
+    )
+    piece = RealPiece(PieceKind.ARC_NETWORK, (0, 1), (0, 1))
+    curve = RealCurve(("x", "y"), (), vertices, tuple(branches), (piece,), Verdict.COMPLETE)
+    (walk,) = walks_of(curve)
+    assert not walk.closed and len(walk.chart) == 39
+    assert walk.vertices == ((0, 19),)
+    assert np.sign(walk.chart[0, 1]) == -np.sign(walk.chart[-1, 1])
+
+
+def test_a_closed_walk_may_begin_anywhere() -> None:
+    lobes = [arc(0, 0, lemniscate_lobe(s)) for s in (1.0, -1.0)]
+    piece = RealPiece(PieceKind.ARC_NETWORK, (0, 1), (0,))
+    (walk,) = walks_of(curve_of([(0.0, 0.0)], lobes, piece))
+    turned = walk.begin_at(7)
+    assert np.abs(turned.chart[[0, -1]] - walk.chart[7]).max() < 1e-12
+    assert len(turned.chart) == len(walk.chart)
+    for vertex, index in turned.vertices:
+        assert vertex == 0 and np.abs(turned.chart[index]).max() < 1e-12
+
+
+def test_the_table_has_a_column_for_each_number(moved) -> None:
+    motion = moved("planar/four-bar")
+    table = motion.table()
+    assert list(table)[:6] == ["circuit", "arc", "A", "D", "B", "C"]
+    assert {len(column) for column in table.values()} == {121}
+    assert len(table) == 2 + 4 + 7 * 4
+    assert np.degrees(motion.table(angles="radians")["A"]) == pytest.approx(table["A"])
+    pin = np.stack([table["coupler.x"], table["coupler.y"]], axis=-1)
+    # The coupler's frame begins at the crank's pin.
+    assert np.hypot(pin[:, 0], pin[:, 1]) == pytest.approx(np.ones(121))
+    with pytest.raises(NagError, match="circuit: 2 is none"):
+        motion.table(2)
+    with pytest.raises(NagError, match="angles"):
+        motion.table(angles="gon")
+
+
+def test_what_does_not_move_with_one_freedom_is_refused() -> None:
+    with pytest.raises(MotionError, match="2 freedoms"):
+        nag.motion(nag.read_case(ROOT / "cases" / "spherical" / "five-bar.toml"))
+    with pytest.raises(MotionError, match="does not move"):
+        nag.motion(nag.read_case(ROOT / "cases" / "spherical" / "triangle.toml"))
+    with pytest.raises(NagError, match="samples"):
+        nag.motion(nag.read_case(ROOT / "cases" / "bennett.toml"), samples=3)
+    with pytest.raises(NagError, match="circuit"):
+        nag.motion(nag.read_case(ROOT / "cases" / "bennett.toml"), circuit="some")
+    with pytest.raises(NagError, match="equations by themselves"):
+        nag.motion("x^2 + y^2 - 1")
+
+
+def test_a_motion_says_what_it_is_in_a_few_lines(moved) -> None:
+    text = str(moved("bennett", "H"))
+    assert "1 freedom, counting predicts -2" in text
+    assert "begins at the reference configuration" in text
+    document = moved("bennett", "H").document()
+    assert json.loads(json.dumps(document)) == document
+
+
+def test_scenes_have_their_joints_at_the_points_of_the_case() -> None:
+    problem = read_problem("planar/watt-six-bar")
+    scene = scene_of(problem)
+    assert scene.bodies[scene.ground] == "base"
+    assert [j.name for j in scene.joints] == ["A", "D", "G", "B", "C", "E", "F"]
+    framework = scene_of(read_problem("planar/four-bar-kite"))
+    assert framework.planar is not None

@@ -1,0 +1,87 @@
+"""``nag motion``: what it says, writes and refuses."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from nag.cli import main
+
+CASES = Path(__file__).parent.parent / "cases"
+
+
+def ask(*words: str) -> int:
+    return main(["motion", *words, "--quiet"])
+
+
+def test_circuits_ranges_and_dead_points_are_said(capsys) -> None:
+    assert ask(str(CASES / "planar" / "four-bar.toml")) == 0
+    printed = capsys.readouterr().out
+    assert "dimension 1, degree 6; 2 circuits" in printed
+    assert printed.count("turns fully") == 4
+    assert (
+        printed.count("29.99\u00b0 to 64.06\u00b0") + printed.count("-64.06\u00b0 to -29.99\u00b0")
+        == 2
+    )
+
+
+def test_a_motion_that_crosses_itself_says_where(capsys) -> None:
+    assert ask(str(CASES / "planar" / "four-bar-folding.toml")) == 0
+    printed = capsys.readouterr().out
+    assert "crosses itself at 0.0 %" in printed and "crosses itself at 50.0 %" in printed
+
+
+def test_the_table_and_the_document_hold_the_same_numbers(tmp_path, capsys) -> None:
+    table, document, page = (tmp_path / f"motion.{kind}" for kind in ("csv", "json", "html"))
+    case = str(CASES / "bennett.toml")
+    options = ["--samples", "24", "--angles", "radians"]
+    files = ["--csv", str(table), "--json", str(document), "--html", str(page)]
+    assert ask(case, *options, *files) == 0
+    with table.open(newline="") as file:
+        head, *rows = csv.reader(file)
+    (circuit,) = json.loads(document.read_text())["circuits"]
+    numbers = np.array(rows, dtype=float)
+    assert numbers.shape == (25, 2 + 4 + 7 * 4)
+    for joint in circuit["joints"]:
+        assert numbers[:, head.index(joint["name"])].tolist() == joint["values"]
+    for body in circuit["bodies"]:
+        start = head.index(f"{body['name']}.x")
+        assert numbers[:, start : start + 3].tolist() == body["positions"]
+        assert numbers[:, start + 3 : start + 7].tolist() == body["quaternions"]
+    before = page.read_bytes()
+    assert len(before) < 1_000_000
+    assert ask(case, *options, *files) == 0
+    assert page.read_bytes() == before
+
+
+def test_one_circuit_may_be_asked_for(tmp_path, capsys) -> None:
+    table = tmp_path / "motion.csv"
+    case = str(CASES / "planar" / "four-bar.toml")
+    assert ask(case, "--circuit", "2", "--csv", str(table), "--samples", "12") == 0
+    assert {line.split(",")[0] for line in table.read_text().splitlines()[1:]} == {"2"}
+    assert "circuit 1 " not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["bennett.toml", "--circuit", "7"], "circuit: 7 is none; they are 1"),
+        (["bennett.toml", "--circuit", "first"], "write reference, all, or a circuit's number"),
+        (["bennett.toml", "--samples", "3"], "3 is not between 12 and 100000"),
+        (["bennett.toml", "--csv", "/nowhere/x.csv"], "--csv: /nowhere/x.csv"),
+        (["bennett.toml", "--html", "/nowhere/x.html"], "--html: /nowhere/x.html"),
+        (["slider-crank.toml"], "is a polynomial system; only mechanisms have a motion"),
+        (["spherical/triangle.toml"], "it does not move"),
+        (["spherical/five-bar.toml"], "it moves with 2 freedoms"),
+        (["planar/four-bar.toml", "--formulation", "H"], "--formulation is for assembled"),
+    ],
+)
+def test_bad_input_is_one_line(words: list[str], said: str, capsys) -> None:
+    name, *rest = words
+    assert ask(str(CASES / name), *rest) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert said in line

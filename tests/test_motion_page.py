@@ -1,0 +1,174 @@
+"""The page of a motion: one file, no network, and it moves."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from traced_curves import trace_loop
+
+import nag
+from nag.kinematics.motion import Motion, motion_of
+from nag.kinematics.scene import Scene
+from nag.mechanism.problem import in_real_coordinates, problem_of
+from nag.mechanism.real_assemblies import real_assemblies
+from nag.page.link_shapes import link_shapes
+from nag.page.motion_page import motion_page
+
+ROOT = Path(__file__).parent.parent
+# One of each kind of joint, and of space.
+CASES = [
+    "bennett",
+    "planar/watt-six-bar",
+    "planar/elliptic-trammel",
+    "planar/slider-crank",
+    "planar/four-bar-kite",
+    "spherical/four-bar",
+    "spatial/rssr",
+    "spatial/universal-shaft",
+]
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+FLAGS = [
+    "--headless=new",
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--virtual-time-budget=3000",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--window-size=800,600",
+    "--dump-dom",
+]
+
+
+@pytest.fixture(scope="module")
+def moved():
+    """Motions along the loop through a known point, each worked out once."""
+    known: dict[str, Motion] = {}
+
+    def move(name: str) -> Motion:
+        if name not in known:
+            case = nag.read_case(ROOT / "cases" / f"{name}.toml")
+            problem = in_real_coordinates(problem_of(case))
+            start = problem.reference
+            if start is None:
+                start = next(real_assemblies(problem.parts)).x
+            curve = trace_loop(problem, np.array([float(x) for x in start]))
+            known[name] = motion_of(problem, samples=120, curve_of=lambda _: curve)
+        return known[name]
+
+    return move
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_page_is_one_file_below_a_megabyte_that_asks_for_nothing(moved, name) -> None:
+    page = motion_page(moved(name), "title", "case.toml")
+    assert len(page.encode()) < 1_000_000
+    # Scripts, styles and pictures are in it: nothing has an address, but for the icon that is none.
+    body = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
+    assert re.findall(r"(?:src|href)=\"(.*?)\"", body) == ["data:,"]
+    assert not re.findall(r"<script[^>]*src|@import|url\(", page)
+    assert len(re.findall(r"<script", page)) == len(re.findall(r"</script>", page))
+    assert "{{" not in body and "MIT License" in page
+
+
+def test_the_same_motion_gives_the_same_bytes(moved) -> None:
+    pages = [motion_page(moved("bennett"), "title", "case.toml") for _ in range(2)]
+    assert pages[0] == pages[1]
+
+
+def test_titles_and_names_cannot_break_out_of_the_page(moved) -> None:
+    title = "</script><script>alert(1)</script><!-- \u2028 & {{data}}"
+    page = motion_page(moved("bennett"), title, "</script>.toml")
+    assert f"<title>{html.escape(title)}</title>" in page
+    assert "alert(1)</script>" not in page
+    (data,) = re.findall(r'<script type="application/json" id="motion">(.*?)</script>', page)
+    assert json.loads(data)["title"] == title
+
+
+def test_frames_are_the_samples(moved) -> None:
+    import base64
+
+    motion = moved("bennett")
+    page = motion_page(motion, "title", "case.toml")
+    (text,) = re.findall(r'<script type="application/json" id="motion">(.*?)</script>', page)
+    data = json.loads(text)
+    (circuit,) = data["circuits"]
+    turns = np.frombuffer(base64.b64decode(circuit["turns"]), "<f4").reshape(4, -1, 4)
+    assert turns.shape[1] == circuit["frames"] == 121
+    assert np.abs(turns - motion.circuits[0].poses.turns).max() < 1e-6
+
+
+def _points(shape) -> list[np.ndarray]:
+    places = {"rod": 2, "bar": 2, "rail": 2, "tube": len(shape.at), "ring": 1, "pin": 1}
+    return [np.array(p) for p in shape.at[: places.get(shape.kind, 1)]]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_body_is_seen_and_reaches_its_joints(moved, name) -> None:
+    motion = moved(name)
+    scene: Scene = motion.scene
+    shapes = link_shapes(scene, {})
+    for i, own in enumerate(shapes.bodies):
+        assert own, scene.bodies[i]
+        numbers = np.array([x for s in own for p in s.at for x in p])
+        assert np.isfinite(numbers).all()
+    if scene.planar is None:
+        for joint, hub in zip(scene.joints, shapes.hubs, strict=True):
+            shown = [p for s in shapes.bodies[joint.bodies[0]] for p in _points(s)]
+            nearest = min(np.linalg.norm(np.array(hub) - p) for p in shown)
+            assert nearest < 0.2 * shapes.link, joint.name
+
+
+def test_a_spatial_link_lies_along_the_common_perpendicular_of_its_axes(moved) -> None:
+    motion = moved("bennett")
+    shapes = link_shapes(motion.scene, {})
+    for body, own in enumerate(shapes.bodies):
+        (tube,) = (s for s in own if s.kind == "tube")
+        ends = np.array([tube.at[0], tube.at[-1]])
+        along = ends[1] - ends[0]
+        for joint in motion.scene.joints:
+            if body in joint.bodies:
+                axis = joint.axis_in(joint.bodies.index(body))
+                assert abs(along @ axis) < 1e-9
+
+
+def see(page: str, folder: Path) -> dict:
+    """What the page's own test saw in a browser without a network."""
+    file = folder / "page.html"
+    file.write_text(page, encoding="utf-8")
+    command = [
+        CHROMIUM,
+        *FLAGS,
+        "--host-resolver-rules=MAP * ~NOTFOUND",
+        f"--user-data-dir={folder / 'profile'}",
+        f"file://{file}#test",
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=100, check=True)
+    (seen,) = re.findall(r'data-seen="(.*?)"', done.stdout)
+    return json.loads(html.unescape(seen))
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not here (apt-get install chromium)")
+@pytest.mark.parametrize("name", CASES)
+def test_a_page_plays_scrubs_and_drags_in_a_browser_without_a_network(
+    moved, name, tmp_path
+) -> None:
+    motion = moved(name)
+    seen = see(motion_page(motion, "title", "case.toml"), tmp_path)
+    assert seen.pop("messages") == []
+    assert seen.pop("colours") > 20
+    assert seen.pop("requests") == 0
+    assert seen.pop("circuits") == len(motion.circuits)
+    assert seen.pop("rows") == seen.pop("frames") == len(motion.circuits[-1])
+    told = ("played", "stopped", "scrubbed", "charted", "dragged", "keys", "chosen")
+    assert seen == dict.fromkeys(told, True)
