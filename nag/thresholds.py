@@ -422,9 +422,8 @@ mechanism.nearly_mobile.HINT                1e-6    Smallest singular value, bes
 mechanism.overconstrained.CLOSE             1e-9    Lengths and sines of angles that are the same,
                                                     of lines that were fitted in doubles.
 kinematics.path.KERNEL                      1e-8    Singular values of equations along a curve, over
-                                                    the largest, that are its direction, or of
-                                                    equations that say the same twice: Newton's
-                                                    steps that bring samples onto it leave them out.
+                                                    the largest, that are zero: Newton's steps that
+                                                    bring samples onto it leave them out.
 kinematics.motion.SAME                      1e-6    Distance in radians and sizes at which two
                                                     configurations are one: vertices are known to
                                                     half the digits, others that are special lay
@@ -434,6 +433,9 @@ kinematics.motion.BESIDE                    0.1     Steps of samples by which tw
                                                     and be one motion.
 kinematics.motion.FAR                       1e6     Coordinates of vertices near infinity: what else
                                                     passes through them is not said.
+kinematics.path.SINGULAR                    1e-5    Second least singular value of the equations,
+                                                    over its median along a circuit, at which other
+                                                    motions meet it: it is brought to 1e-8 there.
 kinematics.turning_points.STILL             1e-9    By how much a joint moves that never does: 1e-14
                                                     was seen; others moved by 1e-3 and more.
 check.four_way.RESIDUAL                     1e-8    Values at witness points of exact components.
@@ -491,8 +493,8 @@ mechanism.framework_decomposition: ROUNDED; mechanism.inverse_kinematics: TINY, 
 LEAST_SHARE; mechanism.mobility_at: LEAST_SECONDS;
 mechanism.moving_parts: LENGTH, ARRIVED; mechanism.nearly_mobile: STEP,
 SHORTEST_STEP, STRAIGHT, BEND, LONGEST_SLIDE, WEIGHTS, COMPLEX_STEP, NO_STEP, TINY, SMALL;
-mechanism.operation_modes: NEARER; kinematics.path: ARRIVED; kinematics.turning_points: NARROWER;
-files.export: ROUNDED; files.json_values: AGREES;
+mechanism.operation_modes: NEARER; kinematics.path: ARRIVED, PROMISING;
+kinematics.turning_points: NARROWER; files.export: ROUNDED; files.json_values: AGREES;
 check.four_way: ROUNDING; decomposition.shown: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:
 PATIENCE; cli.running: INTERVAL.
 """

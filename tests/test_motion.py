@@ -16,7 +16,8 @@ import nag
 from nag.errors import NagError
 from nag.kinematics.joint_values import joint_errors, joint_values
 from nag.kinematics.motion import Motion, MotionError, motion_of
-from nag.kinematics.poses import Poses, turn_product
+from nag.kinematics.path import Curve
+from nag.kinematics.poses import Poses, pose_steps, turn_product
 from nag.kinematics.scene import Scene, SceneJoint, scene_of
 from nag.kinematics.walks import walks_of
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
@@ -97,8 +98,6 @@ def test_joints_fit_as_both_bodies_see_them_and_loops_return(moved, name, formul
 
 @pytest.mark.parametrize(("name", "formulation"), LOOPS)
 def test_samples_are_equally_far_from_each_other(moved, name, formulation) -> None:
-    from nag.kinematics.poses import pose_steps
-
     motion = moved(name, formulation, samples=720)
     (circuit,) = motion.circuits
     steps = pose_steps(circuit.poses, motion.scene.centres, motion.scene.size)
@@ -281,6 +280,62 @@ def test_the_table_has_a_column_for_each_number(moved) -> None:
         motion.table(2)
     with pytest.raises(NagError, match="angles"):
         motion.table(angles="gon")
+
+
+def test_samples_near_an_infinite_half_angle_are_on_the_same_motion() -> None:
+    # The middle shafts of Hooke's joint swing between the angle of the shafts and its supplement.
+    motion = nag.motion(nag.read_case(ROOT / "cases" / "spherical" / "hooke-joint.toml"))
+    assert motion.complete and len(motion.circuits) == 2
+    for circuit in motion.circuits:
+        names = [c.name for c in circuit.values.coordinates]
+        for name in ("J2", "J3"):
+            own = np.abs(circuit.values.ranges[names.index(name)])
+            ends = [math.acos(3 / 5), math.pi - math.acos(3 / 5)]
+            assert sorted(own) == pytest.approx(ends, abs=1e-9)
+        assert [abs(circuit.values.turns[names.index(n)]) for n in ("J1", "J4")] == [1, 1]
+        assert len(circuit.values.turning) == 4
+
+
+def test_steps_onto_a_curve_of_more_equations_than_it_needs_do_not_run_along_it() -> None:
+    problem = read_problem("spatial/bricard-plane-symmetric")
+    curve = trace_loop(problem, start_of(problem), step=0.05)
+    path = Curve(curve, problem.system, scene_of(problem))
+    chart = curve.edges[0].chart
+    steps = np.diff(chart, axis=0)
+    middle = path.sharpen((chart[1:] + chart[:-1]) / 2)
+    along = ((middle - chart[:-1]) * steps).sum(axis=1) / (steps**2).sum(axis=1)
+    assert np.abs(along - 0.5).max() < 0.01
+    assert np.abs(path.equations_at(middle)[0]).max() < 1e-13
+
+
+def test_circuits_of_a_rhombus_cross_each_other_where_it_is_flat() -> None:
+    case = nag.read_case(ROOT / "cases" / "planar" / "four-bar-rhombus.toml")
+    motion = nag.motion(case, samples=90)
+    assert motion.complete and len(motion.circuits) == 3
+    met = {c.number: [set(x.circuits) for x in c.crossings] for c in motion.circuits}
+    assert sorted(map(sorted, met[1])) == [[2], [3]]
+    assert sorted(map(sorted, met[2])) == [[1], [3]]
+    assert sorted(map(sorted, met[3])) == [[1], [2]]
+    for circuit in motion.circuits:
+        for crossing in circuit.crossings:
+            assert len(crossing.components) == 1
+            # All four links lie in one line.
+            values = circuit.values.values[crossing.sample]
+            assert np.abs(np.sin(values)).max() < 0.1
+    still = [set(np.flatnonzero(c.values.still)) for c in motion.circuits]
+    assert sorted(map(sorted, still)) == [[], [0, 3], [1, 2]]
+
+
+def test_a_motion_to_infinity_is_followed_as_far_as_is_said() -> None:
+    motion = nag.motion(nag.read_case(ROOT / "cases" / "spatial" / "delassus-rprp.toml"))
+    (circuit,) = motion.circuits
+    assert circuit.unbounded and not circuit.closed and circuit.through_reference
+    assert motion.idle == ""
+    assert np.abs(circuit.poses.places).max() < 20 * motion.scene.size
+    names = [c.name for c in circuit.values.coordinates]
+    b, d = (circuit.values.values[:, names.index(n)] for n in "BD")
+    assert np.abs(b + d).max() < 1e-12
+    assert joint_errors(motion.scene, circuit.poses).max() < FIT
 
 
 def test_what_does_not_move_with_one_freedom_is_refused() -> None:

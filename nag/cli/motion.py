@@ -94,7 +94,10 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError(f"{options.case}: {error}") from None
     if options.csv is not None:
         write_document(_table_text(found, options.angles), options.csv, "csv")
-    if options.html is not None:
+    tail = [("open", note) for note in found.notes]
+    if options.html is not None and not found.circuits:
+        tail.append(("page", f"{options.html} is not written: there is no motion to show"))
+    elif options.html is not None:
         from nag.page.motion_page import motion_page
 
         try:
@@ -107,7 +110,6 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         head = [(f"circuit {each.number}", circuit_text(found, each))]
         head += [("crossing", crossing_text(found, each, c)) for c in each.crossings]
         blocks += [head, circuit_rows(found, each)]
-    tail = [("open", note) for note in found.notes]
     fields = {
         "format": FORMAT,
         "formulation": problem.formulation,

@@ -12,7 +12,7 @@ from nag.algebra.given import check_choice
 from nag.decomposition.through import through_points
 from nag.errors import NagError
 from nag.kinematics.joint_values import joint_coordinates
-from nag.kinematics.path import Curve, Path, sample_path
+from nag.kinematics.path import Curve, Path, sample_path, singular_places
 from nag.kinematics.poses import Poses, pose_distances
 from nag.kinematics.scene import Scene, scene_of
 from nag.kinematics.turning_points import TurningPoint, Values, values_along
@@ -38,6 +38,10 @@ BESIDE = 0.1
 FAR = 1e6
 # Steps along a curve to a point that may be on it.
 APPROACHES = 6
+# Singular configurations of which it is asked which components pass through them.
+MOST_PLACES = 8
+# In sizes: how far bodies are followed that go to infinity, beyond where they come nearest.
+REACH = 10
 
 Which = Literal["reference", "all"]
 
@@ -53,14 +57,12 @@ class Crossing:
     Attributes:
         sample: index of the sample next to it.
         arc: how far it is along the circuit.
-        vertex: index of the vertex of the real curve.
         circuits: numbers of the other circuits through it, and of this one if it returns there.
         components: indices of other components through it; None where that is not decided.
     """
 
     sample: int
     arc: float
-    vertex: int
     circuits: tuple[int, ...]
     components: tuple[int, ...] | None
 
@@ -73,6 +75,7 @@ class Circuit:
         number: from 1.
         component: index of the component that it runs on, in `Motion.components`.
         closed: whether it returns to where it began.
+        unbounded: whether it goes to infinity at its ends; it is followed for ten sizes.
         from_reference: whether it begins at the reference configuration.
         through_reference: whether that lies on it.
         arc: how far each sample is from the first, shape ``(k,)``: the root of the sum over bodies
@@ -87,6 +90,7 @@ class Circuit:
     number: int
     component: int
     closed: bool
+    unbounded: bool
     from_reference: bool
     through_reference: bool
     arc: np.ndarray
@@ -110,6 +114,7 @@ class Circuit:
             "number": self.number,
             "component": self.component,
             "closed": self.closed,
+            "unbounded": self.unbounded,
             "from_reference": self.from_reference,
             "through_reference": self.through_reference,
             "length": self.length,
@@ -164,7 +169,8 @@ class Motion:
         counted: what Gruebler and Kutzbach count.
         idle: which parts turn idly, in words; empty where none does or it is not known.
         which: whether only motions through the reference configuration were asked for.
-        notes: what is not known, or was left out.
+        left_out: which components were not looked at as they have more freedoms; empty if none.
+        notes: what is not known.
     """
 
     scene: Scene
@@ -175,6 +181,7 @@ class Motion:
     counted: int
     idle: str
     which: Which
+    left_out: str
     notes: tuple[str, ...]
 
     @property
@@ -236,6 +243,7 @@ class Motion:
         return {
             "mobility": {"freedoms": self.freedoms, "counted": self.counted},
             "idle": self.idle,
+            "left_out": self.left_out,
             "notes": list(self.notes),
             "bodies": list(scene.bodies),
             "ground": scene.bodies[scene.ground],
@@ -299,7 +307,7 @@ def motion_of(
     which: Which = circuit if scene.from_reference else "all"
     decomposition = problem.decompose(run=run)
     notes = [] if decomposition.complete else [f"components: {'; '.join(decomposition.notes)}"]
-    found, others = _choose_components(problem, decomposition, which, run, notes)
+    found, left_out, others = _choose_components(problem, decomposition, which, run, notes)
     curve_of = curve_of or (lambda component: _real_curve(component, run))
     curves = []
     for i, component in enumerate(found):
@@ -314,7 +322,7 @@ def motion_of(
     circuits = _circuits(problem, scene, curves, which, samples)
     if not circuits and not notes:
         raise MotionError(_no_motion(curves))
-    finished = _with_crossings(circuits, curves, found, others, run)
+    finished = _with_crossings(circuits, others, found, run)
     made = problem.model
     return Motion(
         scene,
@@ -325,6 +333,7 @@ def motion_of(
         made.gruebler_kutzbach,
         _idle(problem, run),
         which,
+        left_out,
         tuple(notes),
     )
 
@@ -341,8 +350,8 @@ def _choose_components(
     which: Which,
     run: Run,
     notes: list[str],
-) -> tuple[list[WitnessSet], Decomposition]:
-    """The components to look at, and all that there are."""
+) -> tuple[list[WitnessSet], str, Decomposition]:
+    """The components to look at, what is left out of them, and all that there are."""
     expanded = expand_orbits(decomposition)
     if which == "reference":
         name = ("the reference configuration", tuple(problem.reference or ()))
@@ -366,12 +375,8 @@ def _choose_components(
             )
         raise MotionError(f"it does not move {where}".rstrip() + "; see nag mobility")
     larger = sum(c.dimension > 1 for c in own)
-    if larger and curves:
-        notes.append(
-            f"{count_text(larger, 'component')} of dimension 2 or more "
-            f"{'is' if larger == 1 else 'are'} left out"
-        )
-    return curves, expanded
+    left_out = f"{count_text(larger, 'component')} of dimension 2 or more" if larger else ""
+    return curves, left_out, expanded
 
 
 def _no_motion(curves: Sequence[RealCurve]) -> str:
@@ -445,6 +450,7 @@ def _begin_at(curve: Curve, walk: Walk, reference: np.ndarray) -> Walk | None:
 def _sample(
     number: int, component: int, curve: Curve, walk: Walk, on_reference: bool, samples: int
 ) -> _Found:
+    walk, unbounded = _within_reach(curve, walk)
     path = sample_path(curve, walk, 2 * samples + 1)
     values = values_along(path)
     # Euler parameters may run twice through all configurations, with other signs.
@@ -461,6 +467,7 @@ def _sample(
             number,
             component,
             walk.closed,
+            unbounded,
             on_reference and walk.closed,
             on_reference,
             path.arc[step],
@@ -472,6 +479,22 @@ def _sample(
         path,
         path.length / 2 if twice else np.inf,
     )
+
+
+def _within_reach(curve: Curve, walk: Walk) -> tuple[Walk, bool]:
+    """An open walk as far as bodies stay near, and whether that is not all of it."""
+    if walk.closed:
+        return walk, False
+    poses, scene = curve.poses(walk.chart), curve.scene
+    middles = [poses.move(i, centre) for i, centre in enumerate(scene.centres)]
+    base = middles[scene.ground]
+    far = np.max([np.linalg.norm(m - base, axis=1) for m in middles], axis=0)
+    inside = np.flatnonzero(far <= np.nanmin(far) + REACH * scene.size)
+    first, last = int(inside[0]), int(inside[-1])
+    if (first == 0 and last == len(walk.chart) - 1) or last - first < 1:
+        return walk, False
+    vertices = tuple((v, i - first) for v, i in walk.vertices if first <= i <= last)
+    return Walk(walk.piece, False, walk.chart[first : last + 1], vertices), True
 
 
 def _return_to_start(poses: Poses) -> Poses:
@@ -525,74 +548,88 @@ def _is_same_motion(scene: Scene, one: _Found, other: _Found) -> bool:
     return True
 
 
-def _with_crossings(
-    found: Sequence[_Found],
-    curves: Sequence[RealCurve],
-    components: Sequence[WitnessSet],
-    everything: Decomposition,
-    run: Run,
-) -> list[Circuit]:
-    """The circuits with the singular configurations on their way."""
-    passages = [
-        (made, vertex, arc, _pose_near(made, arc))
-        for made in found
-        for vertex, arc in made.path.vertices
+@dataclass(frozen=True, eq=False)
+class _Passage:
+    """A circuit at a singular configuration: how far along, the point and the bodies there."""
+
+    made: _Found
+    arc: float
+    point: np.ndarray
+    pose: Poses
+
+
+def _passages(made: _Found) -> list[_Passage]:
+    """The vertices of the real curve on a path, and where else its equations lose rank."""
+    path = made.path
+    step = float(path.arc[1] - path.arc[0])
+    places = [
+        (arc, path.walk.chart[index])
+        for (_, arc), (_, index) in zip(path.vertices, path.walk.vertices, strict=True)
+    ]
+    for arc, chart in singular_places(path):
+        gaps = [abs(arc - known) for known, _ in places]
+        if path.walk.closed:
+            gaps = [min(gap, path.length - gap) for gap in gaps]
+        if all(gap > step for gap in gaps):
+            places.append((arc, chart))
+    return [
+        _Passage(
+            made, arc, points_of(path.curve.real, chart[None])[0], path.curve.poses(chart[None])
+        )
+        for arc, chart in sorted(places, key=lambda p: p[0])
         if arc < made.end
     ]
-    memberships: dict[tuple[int, int], tuple[int, ...] | None] = {}
-    circuits = []
-    for made in found:
-        own, crossings = made.circuit, []
-        scene = made.path.curve.scene
-        for other, vertex, arc, pose in passages:
-            if other is not made:
-                continue
-            numbers = []
-            for one, at_vertex, _, at in passages:
-                here = (one.circuit.component, at_vertex) == (own.component, vertex)
-                near = pose_distances(pose, at, scene.centres, scene.size)[0] < SAME
-                if (here or near) and at is not pose:
-                    numbers.append(one.circuit.number)
-            key = (own.component, vertex)
-            if key not in memberships:
-                memberships[key] = _others_through(
-                    curves[own.component].vertices[vertex].point,
-                    components[own.component],
-                    everything,
-                    run,
-                )
-            step = float(own.arc[1] - own.arc[0])
-            crossings.append(
-                Crossing(
-                    round(arc / step), arc, vertex, tuple(sorted(set(numbers))), memberships[key]
-                )
+
+
+def _with_crossings(
+    found: Sequence[_Found], everything: Decomposition, own: Sequence[WitnessSet], run: Run
+) -> list[Circuit]:
+    """The circuits with the singular configurations on their way."""
+    passages = [passage for made in found for passage in _passages(made)]
+    known: list[tuple[_Passage, tuple[int, ...] | None]] = []
+    crossings: dict[int, list[Crossing]] = {made.circuit.number: [] for made in found}
+    for here in passages:
+        scene, circuit = here.made.path.curve.scene, here.made.circuit
+
+        def is_here(other: _Passage, here: _Passage = here, scene: Scene = scene) -> bool:
+            return pose_distances(here.pose, other.pose, scene.centres, scene.size)[0] < SAME
+
+        numbers = {p.made.circuit.number for p in passages if p is not here and is_here(p)}
+        through = next((components for other, components in known if is_here(other)), ())
+        if not any(is_here(other) for other, _ in known):
+            if len(known) < MOST_PLACES:
+                through = _components_through(here.point, everything, run)
+            else:
+                through = None
+            known.append((here, through))
+        others = None
+        if through is not None:
+            others = tuple(
+                i for i in through if everything.components[i] is not own[circuit.component]
             )
-        circuits.append(replace(own, crossings=tuple(crossings)))
-    return circuits
+        step = float(circuit.arc[1] - circuit.arc[0])
+        crossings[circuit.number].append(
+            Crossing(round(here.arc / step), here.arc, tuple(sorted(numbers)), others)
+        )
+    return [
+        replace(made.circuit, crossings=tuple(crossings[made.circuit.number])) for made in found
+    ]
 
 
-def _pose_near(made: _Found, arc: float) -> Poses:
-    """Where the bodies are at the vertex at some distance along a path."""
-    index = next(i for i, (_, at) in enumerate(made.path.vertices) if at == arc)
-    place = made.path.walk.vertices[index][1]
-    return made.path.curve.poses(made.path.walk.chart[place : place + 1])
-
-
-def _others_through(
-    point: np.ndarray, own: WitnessSet, everything: Decomposition, run: Run
+def _components_through(
+    point: np.ndarray, everything: Decomposition, run: Run
 ) -> tuple[int, ...] | None:
-    """Indices of other components through a vertex; None where that is not decided."""
+    """Indices of the components through a singular point; None where that is not decided."""
     if len(everything.components) == 1:
-        return ()
+        return (0,)
     if not (np.abs(point) < FAR).all():
         return None
     from nag.witness.membership import components_through
 
     try:
-        through = components_through(everything, point, accuracy=SAME, run=run)
+        return tuple(components_through(everything, point, accuracy=SAME, run=run))
     except ValueError:
         return None
-    return tuple(i for i in through if everything.components[i] is not own)
 
 
 def _idle(problem: Problem, run: Run) -> str:
@@ -605,4 +642,5 @@ def _idle(problem: Problem, run: Run) -> str:
         found = find_moving_parts(problem.model.mechanism, 1 + problem.free, run.random(46))
     except NotClear:
         return ""
-    return found.idle_text
+    # What moves alone where nothing else does is the motion itself.
+    return found.idle_text if found.idle_count < 1 + problem.free else ""

@@ -7,24 +7,29 @@ the curve was found in, and are brought onto the curve by the equations themselv
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from nag.algebra.evaluation import Evaluator
+from nag.algebra.evaluation import Evaluator, PlacedDerivatives
 from nag.algebra.system import PolynomialSystem
 from nag.kinematics.poses import Poses, pose_steps
 from nag.kinematics.scene import Scene
 from nag.kinematics.walks import Walk, points_of
 from nag.real.curve import RealCurve
 
-# Singular values of a balanced Jacobian, beside the largest, that are the kernel's on a curve, or
-# belong to equations that say the same twice.
+# Singular values of the equations on a curve, beside the largest, that are zero.
 KERNEL = 1e-8
 # Newton's steps, and the last one's size from which on a point is on the curve.
 STEPS, ARRIVED = 12, 1e-14
 # Steps of samples are so many of the points that they are taken between; how often these are
 # halved for it at most.
 FINER, HALVINGS = 4, 12
+# Second least singular values of the equations, beside their median along a circuit, at which other
+# motions meet it; those that may become as small between samples; and how the way between samples
+# is searched for it: places at a time, and how often that is narrowed.
+SINGULAR, PROMISING = 1e-5, 0.3
+PLACES, NARROWINGS = 21, 9
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,40 +50,70 @@ class Curve:
         """Where the bodies are at points of a chart."""
         return self.scene.lift(points_of(self.real, chart))
 
+    @cached_property
+    def _equations(self) -> tuple[Evaluator, PlacedDerivatives]:
+        """The equations, homogeneous in each turn, with their derivatives.
+
+        The last variables, one for each turn, are those that make them homogeneous.
+        """
+        turns = [turn.variable for turn in self.real.turns]
+        n = self.system.n + len(turns)
+        given = Evaluator.of(self.system.polynomials, self.system.n)
+        rows = []
+        for coefficients in given.coefficients:
+            there = np.flatnonzero(coefficients)
+            exponents = given.exponents[there]
+            missing = exponents[:, turns].max(axis=0, initial=0) - exponents[:, turns]
+            whole = map(tuple, np.hstack([exponents, missing]).tolist())
+            rows.append(dict(zip(whole, coefficients[there].tolist(), strict=True)))
+        monomials = sorted({e for row in rows for e in row})
+        table = np.array([[row.get(e, 0.0) for e in monomials] for row in rows])
+        evaluator = Evaluator(n, np.array(monomials, dtype=np.int64).reshape(-1, n), table)
+        return evaluator, evaluator.placed_derivatives(n)
+
+    def equations_at(self, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Values and Jacobians by the chart's coordinates, rows of length one.
+
+        Shapes ``(k, rows)`` and ``(k, rows, n)``. A turn enters by cosine and sine of its
+        half-angle, so that nothing is special where its variable is infinite.
+        """
+        evaluator, derivatives = self._equations
+        n, turns = self.system.n, self.real.turns
+        points = np.hstack([chart, np.ones((len(chart), len(turns)))])
+        slopes = np.ones_like(points)
+        for k, turn in enumerate(turns):
+            c, s = np.cos(chart[:, turn.variable]), np.sin(chart[:, turn.variable])
+            points[:, turn.variable] = turn.centre * c + turn.radius * s
+            slopes[:, turn.variable] = turn.radius * c - turn.centre * s
+            points[:, n + k], slopes[:, n + k] = c, -s
+        values = evaluator.values(points).real
+        whole = derivatives(points).real * slopes[:, None, :]
+        rows = whole[:, :, :n]
+        for k, turn in enumerate(turns):
+            rows[:, :, turn.variable] += whole[:, :, n + k]
+        sizes = np.linalg.norm(rows, axis=2)
+        sizes = np.where(sizes > 0, sizes, 1.0)
+        return values / sizes, rows / sizes[:, :, None]
+
     def sharpen(self, chart: np.ndarray) -> np.ndarray:
         """Points of a chart, brought onto the curve by Newton's method on all equations.
 
-        Steps are the shortest ones, across the curve. Rows are scaled by the powers of cosines
-        that make values finite where a turn's variable is not.
+        Steps are the shortest ones, across the curve: where there are more equations than a curve
+        needs, they have full rank beside it, and the least singular value is left out.
         """
-        evaluator = Evaluator.of(self.system.polynomials, self.system.n)
-        derivatives = evaluator.placed_derivatives(self.system.n)
-        degrees = _degrees(evaluator)
         chart = np.array(chart)
         for _ in range(STEPS):
-            points = points_of(self.real, chart)
-            weights = np.ones((len(points), len(degrees)))
-            slopes = np.ones_like(points)
-            for turn in self.real.turns:
-                cosine = np.abs(np.cos(chart[:, turn.variable]))
-                weights *= cosine[:, None] ** degrees[:, turn.variable]
-                slopes[:, turn.variable] = turn.radius / cosine**2
-            values = evaluator.values(points).real * weights
-            rows = derivatives(points).real * weights[:, :, None] * slopes[:, None, :]
-            sizes = np.linalg.norm(rows, axis=2)
-            sizes = np.where(sizes > 0, sizes, 1.0)
-            inverse = np.linalg.pinv(rows / sizes[:, :, None], rcond=KERNEL)
-            step = (inverse @ (values / sizes)[:, :, None])[:, :, 0]
+            values, rows = self.equations_at(chart)
+            u, s, v = np.linalg.svd(rows, full_matrices=False)
+            kept = s > KERNEL * s[:, :1]
+            kept[:, chart.shape[1] - 1 :] = False
+            parts = (u.transpose(0, 2, 1) @ values[:, :, None])[:, :, 0]
+            parts = np.where(kept, parts / np.where(kept, s, 1.0), 0.0)
+            step = (v.transpose(0, 2, 1) @ parts[:, :, None])[:, :, 0]
             chart -= step
             if float(np.abs(step).max(initial=0.0)) < ARRIVED:
                 break
         return chart
-
-
-def _degrees(evaluator: Evaluator) -> np.ndarray:
-    """Degree of each equation in each variable, shape ``(rows, n)``."""
-    there = evaluator.coefficients != 0
-    return np.array([evaluator.exponents[own].max(axis=0, initial=0) for own in there])
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,12 +142,59 @@ class Path:
         return float(self.arc[-1])
 
 
+def singular_places(path: Path) -> list[tuple[float, np.ndarray]]:
+    """Where the rank of the equations drops on a path: how far along it is, and the chart there.
+
+    Other motions may go on from there. Vertices of the real curve are among them; where the rank is
+    low all along, nothing is said.
+    """
+    curve, chart = path.curve, path.chart
+    sizes = _second_least(curve, chart)
+    usual = float(np.median(sizes))
+    if usual < KERNEL:
+        return []
+    count = len(chart)
+    found = []
+    for i in range(0 if path.walk.closed else 1, count - 1):
+        before = chart[i - 1] if i else chart[-2] - chart[-1] + chart[0]
+        around = sizes[i - 1 if i else count - 2], sizes[i + 1]
+        if sizes[i] > min(around) or sizes[i] > PROMISING * usual:
+            continue
+        middle, width = 0.0, 1.0
+        for _ in range(NARROWINGS):
+            places = middle + np.linspace(-width, width, PLACES)
+            between = curve.sharpen(along_three(before, chart[i], chart[i + 1], places))
+            own = _second_least(curve, between)
+            least = int(own.argmin())
+            middle, width = float(places[least]), 2 * width / (PLACES - 1)
+        if own[least] < SINGULAR * usual:
+            arc = (path.arc[i] + middle * (path.arc[1] - path.arc[0])) % path.length
+            found.append((float(arc), between[least]))
+    return found
+
+
+def along_three(
+    before: np.ndarray, middle: np.ndarray, after: np.ndarray, places: np.ndarray
+) -> np.ndarray:
+    """Points of the parabola through three, at places from -1, the first, to 1, the last."""
+    t = places[:, None]
+    return middle + t * (after - before) / 2 + t**2 * (after - 2 * middle + before) / 2
+
+
+def _second_least(curve: Curve, chart: np.ndarray) -> np.ndarray:
+    """The least singular value of the equations but for the one that is zero along the curve."""
+    _, rows = curve.equations_at(chart)
+    n = rows.shape[2]
+    if n < 2 or rows.shape[1] < n - 1:
+        return np.zeros(len(chart))
+    return np.linalg.svd(rows, compute_uv=False)[:, n - 2]
+
+
 def sample_path(curve: Curve, walk: Walk, count: int) -> Path:
     """``count`` samples at even distances, the walk's first and last point among them."""
-    dense, arc, places = _measure(curve, walk.chart, count)
+    dense, arc, places = _measure(curve, walk, count)
     wanted = np.linspace(0.0, arc[-1], count)
-    columns = [np.interp(wanted, arc, column) for column in dense.T]
-    chart = curve.sharpen(np.stack(columns, axis=-1))
+    chart = curve.sharpen(_interpolate(arc, dense, wanted, places[[i for _, i in walk.vertices]]))
     # Ends are given; at vertices among them the equations are singular.
     chart[0], chart[-1] = walk.chart[0], walk.chart[-1]
     poses = curve.poses(chart).with_continuous_signs()
@@ -120,14 +202,12 @@ def sample_path(curve: Curve, walk: Walk, count: int) -> Path:
     return Path(curve, walk, wanted, chart, poses, vertices)
 
 
-def _measure(
-    curve: Curve, chart: np.ndarray, count: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _measure(curve: Curve, walk: Walk, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Points along a walk, more of them where bodies move fast, and how far each is.
 
     Also at which of them the given ones are.
     """
-    scene = curve.scene
+    scene, chart = curve.scene, walk.chart
     places = np.arange(len(chart))
     for halving in range(HALVINGS + 1):
         steps = pose_steps(curve.poses(chart), scene.centres, scene.size)
@@ -135,7 +215,40 @@ def _measure(
         long = np.flatnonzero(steps > arc[-1] / count / FINER)
         if not len(long) or halving == HALVINGS:
             break
-        between = curve.sharpen((chart[long] + chart[long + 1]) / 2)
+        breaks = places[[i for _, i in walk.vertices]]
+        halves = (arc[long] + arc[long + 1]) / 2
+        between = curve.sharpen(_interpolate(arc, chart, halves, breaks))
         chart = np.insert(chart, long + 1, between, axis=0)
         places = places + np.searchsorted(long, places)
     return chart, arc, places
+
+
+def _interpolate(
+    arc: np.ndarray, chart: np.ndarray, wanted: np.ndarray, breaks: np.ndarray
+) -> np.ndarray:
+    """Points of a chart between those given, by cubics that do not reach over breaks.
+
+    So near to a curve that Newton's method leads to it, and not to another one that crosses it.
+    """
+    last = len(arc) - 1
+    ends = np.unique(np.concatenate([[0, last], breaks]).astype(int))
+    segment = np.clip(np.searchsorted(arc, wanted, side="right") - 1, 0, last - 1)
+    piece = np.searchsorted(ends, segment, side="right") - 1
+    low, high = ends[piece], ends[piece + 1]
+    share = (wanted - arc[segment]) / np.where(
+        arc[segment + 1] > arc[segment], arc[segment + 1] - arc[segment], 1.0
+    )
+    linear = chart[segment] + share[:, None] * (chart[segment + 1] - chart[segment])
+    first = np.clip(segment - 1, low, np.maximum(low, high - 3))
+    four = np.minimum(first[:, None] + np.arange(4), last)
+    nodes = arc[four]
+    weights = np.ones(four.shape)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for i in range(4):
+            for j in range(4):
+                if i != j:
+                    weights[:, i] *= (wanted - nodes[:, j]) / (nodes[:, i] - nodes[:, j])
+    cubic = np.einsum("ki,kin->kn", weights, chart[four])
+    # Where points are too few, or coincide, a line has to do.
+    good = (high - low >= 3) & np.isfinite(weights).all(axis=1)
+    return np.where(good[:, None], cubic, linear)

@@ -78,6 +78,8 @@ def circuit_rows(motion: Motion, circuit: Circuit) -> list[str]:
 def circuit_text(motion: Motion, circuit: Circuit) -> str:
     """One circuit in one line."""
     text = "closed" if circuit.closed else "open"
+    if circuit.unbounded:
+        text += ", to infinity, followed for ten sizes"
     if circuit.through_reference:
         begins = "begins at" if circuit.from_reference else "runs through"
         text += f", {begins} the reference configuration"
@@ -94,6 +96,8 @@ def motion_rows(motion: Motion) -> list[tuple[str, str]]:
         own = [c for c in motion.circuits if c.component == i]
         text += f"; {count_text(len(own), 'circuit')}" if own else "; no real motion of its own"
         rows.append(("component" if len(motion.components) == 1 else f"component {i + 1}", text))
+    if motion.left_out:
+        rows.append(("left out", f"{motion.left_out}, whose motions have more freedoms"))
     if motion.idle:
         rows.append(("idle", motion.idle))
     still = _never_moving(motion)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values, unwrap_angles
-from nag.kinematics.path import Path
+from nag.kinematics.path import Path, along_three
 
 # Values that never move by more stand still all along; those that moved moved by 1e-3 and more.
 STILL = 1e-9
@@ -124,12 +124,7 @@ def _refine(
     kind = coordinates[column].kind
 
     def value_at(t: np.ndarray) -> np.ndarray:
-        before, middle, after = triple
-        chart = (
-            middle
-            + t[:, None] * (after - before) / 2
-            + t[:, None] ** 2 * (after - 2 * middle + before) / 2
-        )
+        chart = along_three(*triple, t)
         values = joint_values(scene, path.curve.poses(path.curve.sharpen(chart)))[:, column]
         if kind == "angle":
             values = near + (values - near + np.pi) % (2 * np.pi) - np.pi

@@ -137,7 +137,9 @@ def _spatial_shapes(scene: Scene, slides: dict[str, tuple[float, float]], link: 
     for body, shapes in enumerate(bodies):
         shapes += _link(scene, body, feet, hubs, link)
     for k, joint in enumerate(scene.joints):
-        _add_joint(bodies, joint, hubs[k], slides.get(joint.name, (0.0, 0.0)), link)
+        _add_joint(
+            bodies, joint, hubs[k], slides.get(joint.name, (0.0, 0.0)), link, bool(scene.points)
+        )
     places = tuple(
         tuple(map(float, _hub(scene, j, 0, hubs[k]))) for k, j in enumerate(scene.joints)
     )
@@ -262,8 +264,9 @@ def _add_joint(
     along: float,
     slide: tuple[float, float],
     link: float,
+    bars: bool,
 ) -> None:
-    """The two halves of a joint in space."""
+    """The two halves of a joint in space, or the point of a framework's bars."""
     factors = JOINT_TYPES[joint.type].factors
     first, second = (bodies[b] for b in joint.bodies)
     at = [
@@ -279,8 +282,12 @@ def _add_joint(
             first.append(_shape("ring", (centre, axes[0]), (ring, 0.95 * length)))
         first.append(_shape("pin", (at[0], axes[0]), (PIN * link, 3.5 * length)))
     elif factors == ("ball",):
-        first.append(_shape("ball", (at[0],), (BALL * link,)))
-        second.append(_shape("socket", (at[1],), (1.12 * BALL * link,)))
+        if bars:
+            # Of many bars at one point the ball is nobody's.
+            first.append(_shape("steelball", (at[0],), (1.5 * ROD * link,)))
+        else:
+            first.append(_shape("ball", (at[0],), (BALL * link,)))
+            second.append(_shape("socket", (at[1],), (1.12 * BALL * link,)))
     elif factors == ("turn", "turn"):
         assert joint.axis is not None and joint.second_axis is not None
         u, v = joint.axis_in(0), joint.axis_in(1, second=True)

@@ -136,6 +136,8 @@ def facts(motion: Motion) -> list[list[str]]:
         rows.append([name, f"{text}; {count_text(on, 'circuit')}"])
     if motion.idle:
         rows.append(["idle", motion.idle])
+    if motion.left_out:
+        rows.append(["left out", motion.left_out])
     rows += [["open", note] for note in motion.notes]
     return rows
 

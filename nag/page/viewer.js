@@ -95,11 +95,12 @@
   const material = (color, options) =>
     new THREE.MeshStandardMaterial({ color, roughness: 0.52, metalness: 0.04, ...options });
   const steel = material(STEEL, { roughness: 0.3, metalness: 0.35 });
+  const guide = material("#8b939c", { roughness: 0.4, metalness: 0.2 });
   const dark = material(GROUND, { roughness: 0.6 });
   const paints = data.bodies.map((b) => (b.colour < 0 ? dark : material(COLOURS[b.colour % COLOURS.length])));
 
-  scene.add(new THREE.HemisphereLight("#ffffff", "#d9d4cc", 1.9));
-  const sun = new THREE.DirectionalLight("#ffffff", 2.1);
+  scene.add(new THREE.HemisphereLight("#ffffff", "#d2ccc2", data.planar ? 1.35 : 1.7));
+  const sun = new THREE.DirectionalLight("#ffffff", data.planar ? 1.55 : 2.0);
   sun.castShadow = true;
   sun.shadow.mapSize.set(2048, 2048);
   sun.shadow.radius = 5;
@@ -266,7 +267,7 @@
     },
     rail(g, at, [r], paint) {
       const gap = at[1].clone().sub(at[0]), centre = at[0].clone().add(at[1]).multiplyScalar(0.5);
-      box(g, centre, gap, at[2], [gap.length(), 2 * r, 2 * r], steel);
+      box(g, centre, gap, at[2], [gap.length(), 2 * r, 2 * r], guide);
       for (const end of [at[0], at[1]]) box(g, end, gap, at[2], [1.2 * r, 3.2 * r, 3.2 * r], paint);
     },
     groundrail(g, at, [r]) {
@@ -621,6 +622,7 @@
     $("scrub").max = String(10 * last());
     backwards = false;
     findSeries();
+    $("lower").hidden = !columns;
     drawPaths();
     listDead();
     show(0);
