@@ -41,7 +41,7 @@ APPROACHES = 6
 # Singular configurations of which it is asked which components pass through them.
 MOST_PLACES = 8
 # In sizes: how far bodies are followed that go to infinity, beyond where they come nearest.
-REACH = 10
+REACH = 5
 
 Which = Literal["reference", "all"]
 
@@ -75,7 +75,7 @@ class Circuit:
         number: from 1.
         component: index of the component that it runs on, in `Motion.components`.
         closed: whether it returns to where it began.
-        unbounded: whether it goes to infinity at its ends; it is followed for ten sizes.
+        unbounded: whether it goes to infinity at its ends; it is followed for five sizes.
         from_reference: whether it begins at the reference configuration.
         through_reference: whether that lies on it.
         arc: how far each sample is from the first, shape ``(k,)``: the root of the sum over bodies

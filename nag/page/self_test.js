@@ -42,9 +42,9 @@
       const area = canvas.getBoundingClientRect();
       await wait(100);
       seen.dragged = false;
-      search: for (let i = 1; i < 30; i++) {
-        for (let j = 1; j < 20; j++) {
-          const x = area.left + (area.width * i) / 30, y = area.top + (area.height * j) / 20;
+      search: for (let i = 1; i < 80; i++) {
+        for (let j = 1; j < 60; j++) {
+          const x = area.left + (area.width * i) / 80, y = area.top + (area.height * j) / 60;
           if (document.elementFromPoint(x, y) !== canvas) continue;
           const hit = page.pick({ clientX: x, clientY: y });
           if (!hit) continue;

@@ -67,7 +67,8 @@
   controls.dampingFactor = 0.12;
 
   // What moves in any circuit: the middle and the radius of it all.
-  const bounds = { low: new Vector3(1e9, 1e9, 1e9), high: new Vector3(-1e9, -1e9, -1e9) };
+  const bounds = { low: new Vector3(1e9, 1e9, 1e9), high: new Vector3(-1e9, -1e9, -1e9), reach: 0 };
+  let middle = null;
   const spot = new Vector3();
   const hubs = data.hubs.map((h) => ({ ...h, at: new Vector3(...h.at) }));
   function includeAll() {
@@ -79,14 +80,16 @@
           place(hub.body, hub.at, Math.min(i, last() - 1e-6), spot);
           bounds.low.min(spot);
           bounds.high.max(spot);
+          if (middle) bounds.reach = Math.max(bounds.reach, spot.distanceTo(middle));
         }
       }
     }
     circuit = before;
   }
   includeAll();
-  const middle = bounds.low.clone().add(bounds.high).multiplyScalar(0.5);
-  const radius = Math.max(bounds.high.distanceTo(bounds.low) / 2, data.link * 0.8);
+  middle = bounds.low.clone().add(bounds.high).multiplyScalar(0.5);
+  includeAll();
+  const radius = Math.max(bounds.reach, data.link * 0.8);
   const L = data.link;
 
   const root = new THREE.Group();
@@ -418,7 +421,7 @@
       camera.position.set(middle.x + 0.05 * distance, middle.y - 0.02 * distance, middle.z + distance);
     } else {
       camera.up.set(0, 0, 1);
-      const distance = (1.1 * radius) / half;
+      const distance = (1.22 * radius) / half;
       camera.position.copy(middle).add(new Vector3(0.46, -0.8, 0.4).normalize().multiplyScalar(distance));
     }
     camera.near = 0.02 * radius;
