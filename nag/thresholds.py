@@ -8,8 +8,34 @@ caller may choose stands beside its argument, or in `nag.tracking.settings.Setti
 ==========================================  ======  ================================================
 name                                        value   what it decides, and why there
 ==========================================  ======  ================================================
+numerics.doubles.ROUNDED                    1e-15   Relative error of a point of doubles that a few
+                                                    operations led to.
+numerics.doubles.ARRIVED *                  1e-14   Newton's steps, values beside their terms and
+                                                    singular values beside the largest that are
+                                                    rounding where coefficients have at most six
+                                                    digits; with longer ones, zeros are computed to
+                                                    100 digits.
+numerics.doubles.SHARP *                    1e-10   Newton's last step at a zero: all below 7e-14.
+numerics.doubles.ROUGH                      1e-8    The same where the point is badly conditioned,
+                                                    and of zeros of generic systems, which are
+                                                    tracked in doubles alone. Ends of loops may have
+                                                    such errors, whatever the tracker thinks: a jump
+                                                    to a close point must not join components. Error
+                                                    of a point where none is told.
+numerics.doubles.MULTIPLE                   1e-7    Error of a singular end, about a root of
+                                                    rounding; estimates of it are themselves
+                                                    uncertain.
+numerics.doubles.SLACK *                    1e3     What the estimate of an error in doubles may be
+                                                    too small by: what lies further is something
+                                                    else, or gets more digits. Ends within it are
+                                                    one, and one of their paths jumped.
+numerics.doubles.RESOLVED *                 1e3     A coordinate, over its error, that is not zero.
+algebra.polynomial.ROUND_NUMBERS            6       Digits of coefficients that ask for no more
+                                                    evidence; each further asks for one more: what
+                                                    nearly is something else has long ones.
 numerics.double_ranks.INDEPENDENT           1e-6    Singular value of gradients of length one that
                                                     surely are independent; else no bound is given.
+                                                    Those of forms at a limit at infinity as well.
 numerics.double_ranks.DEPENDENT             1e-10   Least singular value, over the largest, or pivot
                                                     of rows that are not solved for: of a slice, of
                                                     linear equations, of rows that are to be made
@@ -21,17 +47,18 @@ numerics.zero_values.ON *                   1e-9    Values in doubles, beside th
                                                     measured. What depends on it is confirmed.
 numerics.zero_values.NONZERO                1e-6    The same at other points that are certainly not
                                                     zero; smaller ones are computed to 100 digits,
-                                                    or leave the answer to another way.
+                                                    or leave the answer to another way: so are those
+                                                    of polynomials that must not vanish.
 numerics.double_ranks.SINGULAR              1e-9    Singular values of a balanced Jacobian at a
                                                     point of a component below which the gap is
                                                     looked for where a rank is read
                                                     (numerics.double_ranks.GAP).
 numerics.zero_values.VANISHES *             1e-80   Values, beside their terms, that are zero at
                                                     zeros of 100 digits: all lay below 5e-87.
+numerics.zero_values.ZERO                   -80     Its decimal logarithm; the same of distances and
+                                                    pivots.
 numerics.precise_point.NEAR                 -9      Decimal logarithm of what Newton's method may
                                                     move a zero in doubles by, relative.
-numerics.zero_values.SLACK                  1e3     Errors of a point that its estimate may be too
-                                                    small by: a bound for exact tests, no decision.
 numerics.coincidence.SAFETY                 100     Estimated errors that two points may be apart
                                                     and be one: what the balls are wider by.
 numerics.coincidence.LEAST *                1e-11   Least relative error of a point in doubles. The
@@ -44,9 +71,10 @@ numerics.coincidence.HIT *                  1e-8    Ends of paths that may have 
 numerics.coincidence.MISS *                 1e-5    Such as had not: all lay beyond 7e-4. What falls
                                                     between is undecided.
 numerics.coincidence.BEYOND                 1e4     The same in errors of the end.
-numerics.certified_points.NEAR              1e-6    The same as a distance, if errors are unknown.
-numerics.certified_points.EVIDENCE          60      Digits to which equations vanish that a proof
-                                                    did not need: said to be evidence, not proof.
+numerics.coincidence.NEAR                   1e-6    Distance of zeros that a point may stand for
+                                                    whose error is not known, of ends of lost paths
+                                                    from what they may lead to, of solutions in two
+                                                    branches that are compared in more digits.
 numerics.point_claims.SAME                  1e-140  Distance in 150 digits from zeros of coordinates
                                                     that are said to be exact: evidence.
 numerics.series_zeros.ALIKE                 1e-5    Starts nearer to each other, beside the
@@ -60,13 +88,10 @@ numerics.far_along.FAR                      5       Scaled distance from a singu
                                                     it is seen whether equations vanish along a set:
                                                     no power of it is small.
 numerics.far_along.AT_MOST                  100     The same in variables that the set determines.
-numerics.local_dimension.ROUNDED            1e-8    Relative error of a point where none is told.
 numerics.local_structure.FURTHEST           -1.3    Decimal logarithm of the largest distance in
                                                     which a zero is looked for.
-numerics.local_structure.NOTHING *          -90     The same of entries of the dual space's matrices
-                                                    that are zero, of 150 digits: all below -149.
-numerics.local_structure.SOMETHING *        -45     The same of such as are not: above -1. What
-                                                    falls between is undecided.
+numerics.local_structure.SOMETHING *        -45     Decimal logarithm of such entries that are not
+                                                    zero: above -1. What falls between is undecided.
 numerics.ball_ranks.WELL                    1e-8    Pivots, over the largest, of a block that
                                                     doubles solve for; the rest is for all digits.
 numerics.ball_ranks.CLEAR                   0.5     Decimal logarithm of a pivot over its error that
@@ -79,8 +104,10 @@ numerics.series_zeros.SLOW                  1e-2    Newton's last step that has 
                                                     perhaps a multiple one, of truncated series;
                                                     what there is shows in all digits.
 numerics.series_zeros.VANISHING             1e-6    Values there, beside the point's square.
-numerics.sharpening.ZERO                    -100    Decimal logarithm of what vanishes at a singular
-                                                    point, of 150 digits.
+numerics.sharpening.ZERO *                  -100    Decimal logarithm of what vanishes at a singular
+                                                    point, of 150 digits, and of entries of the dual
+                                                    space's matrices there: all below -149; of a
+                                                    pivot of the Loewner matrix, of 200 digits.
 numerics.sharpening.ARRIVED                 -125    The same of Newton's last step.
 numerics.sharpening.LARGEST_INVERSE         70      The same of an inverse that says that a zero is
                                                     not regular after all.
@@ -90,10 +117,6 @@ numerics.zero_values.ALIKE                  1e-6    Relative difference of the c
 numerics.zero_values.NOTHING                1e-60   Coordinates beside the largest that are none.
 numerics.zero_values.WRITTEN                1e-90   Relative error of a zero that is known by its
                                                     written digits, of a hundred.
-tracking.projective.SAFETY *                1e3     Errors that two ends of paths may be apart, of
-                                                    all errors that Newton's method estimates with
-                                                    residuals in double-double, and be one: one of
-                                                    the paths jumped.
 tracking.straight_run.NOISY                 10      Rounding errors of a correction, as estimated,
                                                     that it may be and need not contract any more:
                                                     such lay below 3.3, others above 30 but for 1 in
@@ -116,13 +139,9 @@ tracking.track.RESIDUAL *                   1e-29   A homogenising coordinate of
                                                     this over the smallest singular value.
 tracking.track.SHARE                        1e-14   Part of it that this may be, as points are as
                                                     accurate after division. Others get 32 digits.
-tracking.track.STRAYED                      1e3     Errors by which Newton's method may move an end
-                                                    in doubles; what moves further gets 32 digits.
 tracking.track.SHARP *                      1e-12   Newton's last step at a regular end in doubles,
                                                     2800 of which lay below 1.1e-15; larger ones, as
                                                     one of 5e-11, get 32 digits.
-tracking.track.ROUGH                        1e-8    The same at zeros of generic systems, which are
-                                                    tracked in doubles alone.
 tracking.track.AT_INFINITY                  1e-10   Homogenising coordinates of finite zeros of such
                                                     systems.
 tracking.jumps.ALIKE                        1e-9    Leading coefficients of branches that are
@@ -130,16 +149,10 @@ tracking.jumps.ALIKE                        1e-9    Leading coefficients of bran
                                                     does not survive those, two branches do.
 tracking.jumps.BENT                         1e-4    The same of the coefficients that follow, over
                                                     their sizes together.
-tracking.track.NONZERO                      1e3     A coordinate over the error of a regular end
-                                                    that is not zero, where the mixed volume says
-                                                    that all zeros are found: others get 32 digits.
 tracking.certified_paths.SHORTEST           1e-9    Steps, relative to t, at which a path is left
                                                     without a proof.
 tracking.ends.at_infinity.ZERO              -150    Decimal logarithm of coordinates, beside the
                                                     largest, that are zero in 160 digits.
-tracking.ends.follow.KNOWN *                1e3     A coordinate, over its error, that is not zero.
-tracking.ends.linear_algebra.RESOLVED       1e3     The same in the kernels.
-tracking.ends.follow.SHARP                  1e-15   The same part in more digits.
 tracking.ends.initial_forms.ZERO            -100    Decimal logarithm of forms that are zero at a
                                                     limit at infinity, of 120 digits.
 tracking.ends.initial_forms.GROWN           2       Digits by which others must grow away from it,
@@ -147,15 +160,11 @@ tracking.ends.initial_forms.GROWN           2       Digits by which others must 
                                                     the forms have no zero.
 tracking.ends.initial_forms.AWAY            1e4     How far away that is, in errors of the limit.
 tracking.ends.initial_forms.CLOSE           1e-10   The least that this is.
-tracking.ends.initial_forms.RANK            1e-6    Singular values of their Jacobian that are none,
-                                                    beside the largest.
 tracking.ends.limits.LEAST_EVIDENCE *       14      Digits to which the exact equations' terms of
                                                     least order must cancel at a limit, so that
                                                     coefficients that doubles rounded would show. No
                                                     gap: a limit that does not pass is looked for
                                                     further in.
-tracking.ends.limits.ROUND_NUMBERS          6       Digits of coefficients that ask for no more;
-                                                    each further asks for one more.
 tracking.ends.follow.GAINED                 0.1     Residual of a limit over that of the last one,
                                                     further out: more is rounding, if it is below
                                                     NEARLY, and asks for more digits.
@@ -210,8 +219,6 @@ solving.missing_zeros.EXTREME               26      Binary logarithm of sizes fr
 solving.tropical_zeros.APART                1e-3    Relative distance, beyond those errors, of a
                                                     zero of extreme size from all that were found:
                                                     nearer ones are for paths to find.
-solving.branch_solutions.NEAR               1e-7    Relative distance of solutions, in two branches,
-                                                    that are compared in more digits.
 solving.kantorovich.NEARBY                  1.5     Second derivatives in a ball over those at its
                                                     centre: a bound that holds for radii below a
                                                     percent and degrees below 30.
@@ -226,7 +233,8 @@ solving.start.mixed_cells.SHARE             1e-8    Distance from 0 and 1 of fra
                                                     of cells below: less is rounding.
 solving.start.mixed_cells.ZERO              1e-9    The same of pivots, and of rates from 0.
 solving.start.monodromy.CLEAR               1e-6    Sum of second differences over the points'
-                                                    motion that is none of rounding.
+                                                    motion that is none of rounding: a point is
+                                                    missing, or a path of the trace was lost.
 solving.start.monodromy.FINE_ROUNDING       1e-50   What of it is rounding in 64 digits.
 solving.start.monodromy.ROUNDING            1e-12   Sum of second differences over the points'
                                                     motion that is rounding.
@@ -237,10 +245,6 @@ witness.close_to_sets.CLOSE                 1e-9    Ends of regular paths nearer
 witness.close_to_sets.REACH                 10      Errors of an end within which others are taken
                                                     to stand for the same zeros, which are looked at
                                                     once.
-witness.close_to_sets.SAME                  -80     Decimal logarithm of the distance of points that
-                                                    are one, of 100 digits.
-witness.cutting_in_digits.ZERO              -80     Decimal logarithm of a pivot that is none, at
-                                                    zeros of 100 digits.
 witness.cutting_in_digits.LONG              12      Digits of coefficients from which on multiple
                                                     zeros are told in digits from the first.
 witness.cutting_in_digits.PROBED            1e-6    Part of its size that a point is off where
@@ -255,44 +259,28 @@ witness.close_points.CLOSE_AFAR             1e-9    The same far from the origin
                                                     about that one so many digits are left.
 witness.close_points.BASIN                  0.1     Part of the distance to the next point that
                                                     Newton's method may move one by.
-witness.confirm.CERTAIN *                   1e-14   Values that are rounding where coefficients have
-                                                    at most six digits; with longer ones, zeros are
-                                                    computed to 100 digits.
-witness.confirm.REGULAR                     1e-5    Singular value above which a zero of as many
-                                                    equations as unknowns needs no confirmation.
 numerics.double_ranks.GAP *                 1e3     Quotient of neighbouring singular values at
                                                     which a rank is read: others lay below 130,
                                                     ranks above 1e13.
-numerics.double_ranks.NEARLY_SINGULAR        1e-5    Singular values at a point that is known to be
-                                                    singular, perhaps not well, below which the gap
-                                                    is looked for.
-witness.cutting.NEAR                        1e-7    Distance, relative to its size, of a zero from
-                                                    an end of a path that is this zero; estimates of
-                                                    the error of a singular end are themselves
-                                                    uncertain.
+numerics.double_ranks.NEARLY_SINGULAR       1e-5    The same at a point that is known roughly. Above
+                                                    it a zero of as many equations as unknowns needs
+                                                    no confirmation, a joint moves, and a projection
+                                                    keeps a direction; between the two, what a joint
+                                                    does is not said.
 witness.cutting.CHANGED                     0.1     Part of the smallest singular value by which it
                                                     may change as far from a zero as rounding errors
                                                     of the values say: more may be a double zero's,
                                                     which is looked for in more digits.
 witness.cutting.VANISHING *                 1e-11   Values at a point where Newton's method arrived:
                                                     all lay below 2e-16.
-witness.cutting.SHARP *                     1e-10   Newton's last step there: all below 7e-14.
-witness.cutting.ROUGH                       1e-8    The same where the point is badly conditioned.
 witness.exact_points.RESIDUAL               1e-31   Error of residuals in double-double: a bound.
 witness.exact_points.ARRIVED                1e-6    Newton's last step in doubles; after a larger
                                                     one points are found in balls.
 witness.gauss_newton.ZERO                   1e-13   Values at a zero found from a random point.
-witness.gauss_newton.SHARP                  1e-10   Its last step.
 witness.gauss_newton.SMALL                  1e-3    Singular values, over the largest, that may
                                                     belong to the kernel; the gap decides.
 witness.membership.SPREAD                   10      Distances, in what rounding may do to a point,
                                                     within which the next zero makes it undecided.
-witness.multiplicity.ACCURACY               1e-11   Error of points that a badly conditioned
-                                                    deflation sharpened in doubles.
-witness.multiplicity.MULTIPLE               1e-7    Relative error of singular ends, about a root of
-                                                    rounding.
-witness.projection.SHARP                    1e-8    Newton's last step at points that are counted.
-witness.sampling.SHARP                      1e-10   Newton's last step at a sample; others are none.
 witness.real_points.STATIONARY              1e-10   Part of the distance that can still be gained,
                                                     at a nearest point.
 witness.real_points.ALMOST                  1e-5    The same at a point that may be a nearest one,
@@ -301,11 +289,6 @@ witness.slices.UNEVEN                       1e-5    Terms of a slice at points, 
                                                     that these move to, below which the latter is
                                                     scaled: else paths begin nearer to 1 than their
                                                     parameter is told from it.
-witness.membership.ROUNDED                  1e-9    Values, beside their terms, at points that are
-                                                    rounded ones of the set.
-decomposition.monodromy.ROUGH               1e-8    Errors that ends of loops may have, whatever the
-                                                    tracker thinks: a jump to a close point must not
-                                                    join components.
 decomposition.monodromy.NEARER *            1e-3    Distance of an end from its point over that from
                                                     the next: below 1e-14, or above 0.01. What is
                                                     not nearer says nothing.
@@ -314,13 +297,6 @@ decomposition.monodromy.LEAST_SIZE          1e-8    Coordinates of a point, over
 decomposition.trace.EVIDENCE *              18      Digits to which a trace must be linear beside
                                                     the points' motion: such as were had 9 more,
                                                     others 15 less.
-decomposition.trace.ROUND_NUMBERS           6       Digits of coefficients that ask for no more;
-                                                    each further asks for one more: what is nearly
-                                                    reducible has long ones. Points get 28 to 240
-                                                    digits for it.
-decomposition.trace.BENT                    1e-6    Second differences, beside the motion, of points
-                                                    that power sums take for a component, by which
-                                                    a path of the trace was lost.
 decomposition.power_sums.CERTAIN            100     Singular values of equations that are no errors,
                                                     in units of these: 1e6 to 1e13 in systems
                                                     measured, 800 far from the origin; errors
@@ -328,20 +304,12 @@ decomposition.power_sums.CERTAIN            100     Singular values of equations
 decomposition.power_sums.UNCLEAR            0.1     How far from 0 and 1 indicators may be.
 decomposition.splitting.MOST_LOOPS *        100     Loops before points are left undecided; 23 were
                                                     the most needed.
-decomposition.ends.ASTRAY                   1e-6    Where a failed path seems to lead, relative to
-                                                    the point: zeros are looked for there in digits.
 decomposition.superset.IN_PASSING           0.02    Part of the usual work after which a multiple
                                                     zero that lies on a larger set as far as doubles
                                                     can tell passes for a point of it; simple ones
                                                     are told in any case.
 decomposition.singular_points.SURELY        10      Errors of a point that it may be off a linear
                                                     equation, and be a point of the component.
-decomposition.ends.FORBIDDEN                1e-8    Values, beside their terms, of polynomials that
-                                                    must not vanish and may: looked at more closely.
-decomposition.branch_points.NOTHING         -90     Decimal logarithm of a pivot of the Loewner
-                                                    matrix that is zero, of 200 digits.
-interpolation.point_cloud.SMALL             1e-5    Singular values of tangents, over the largest,
-                                                    of directions that the projection loses.
 real.fibre_table.VANISHING                  0.6     Share of the digits to which coefficients beyond
                                                     the degree vanish; else the fibres are not those
                                                     of a curve.
@@ -395,22 +363,15 @@ real.arc_tracing.SHRINK                     0.05    Newton's second correction b
                                                     the point is off.
 real.find_curve.SAME                        1e-12   Difference of critical values of two methods.
 mechanism.assembly.REAL                     1e-8    Imaginary parts of real assemblies, relative.
-mechanism.real_assemblies.NONZERO           1e-8    Values at an assembly that must not vanish.
 mechanism.inverse_kinematics.REACHED        1e-10   Relative residual of a pose that a leg reaches;
                                                     what it does not reach is said, not dismissed.
 mechanism.inverse_kinematics.DISPLACEMENT   1e-6    Norm of a factor, beside the squares that it is
                                                     the sum of, from which it is a displacement.
 mechanism.pose_model.REAL                   1e-12   Imaginary parts of Study coordinates of a pose,
                                                     relative, that is lifted to real joints.
-mechanism.operation_modes.NOT_ZERO          1e-6    Value of a form, beside its largest term, at a
-                                                    pose that is certainly not on its zeros.
 mechanism.motions.NO_PITCH                  1e-7    Pitches, moments and entries of unit axes that
                                                     are zero in what is said of a motion in words.
 mechanism.bonds.UNCLEAR                     0.03    How far orders of bonds may be from fractions.
-mechanism.moving_parts.ZERO                 1e-9    Rates and singular values of joints' motions
-                                                    that are zero, where lengths are of size one.
-mechanism.moving_parts.NOT_ZERO             1e-5    Those that are not; between the two nothing is
-                                                    said.
 mechanism.nearly_mobile.ROUNDING            1e-11   Gaps of a loop, over its size, that rounding
                                                     leaves.
 mechanism.nearly_mobile.WIDEST_GAP          0.03    Gaps beyond which a motion is not followed, and
@@ -438,63 +399,48 @@ kinematics.path.SINGULAR                    1e-5    Second least singular value 
                                                     motions meet it: it is brought to 1e-8 there.
 kinematics.turning_points.STILL             1e-9    By how much a joint moves that never does: 1e-14
                                                     was seen; others moved by 1e-3 and more.
-check.four_way.RESIDUAL                     1e-8    Values at witness points of exact components.
 ==========================================  ======  ================================================
 
 Other values of these give the same answers, sooner or later: sizes of steps and work, bounds of
 rounding, digits that are taken, where random numbers come from.
 
-algebra.evaluation: HUGE; algebra.number: LARGEST_ANGLE; numerics.certified_points: EPS, FLAT,
-LEAST; numerics.ball_boxes: EXPANDING; numerics.curves: CLOSER, PATIENCE;
-numerics.deflated_system: MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK;
-numerics.digits: LOG10_2, SMALLEST, LARGEST, ROUNDING; numerics.double_ranks: NOTHING;
-numerics.far_along: APART, SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST, LEAST, GOOD;
-numerics.discs: UNIT, PRODUCT, UP, LEAST;
-numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR,
-REACHES, ROUNDED;
-numerics.natural_coordinates: FAR, SEVERAL_SIZES;
-numerics.newton: GAIN, FAST, LEFT, RESTS; numerics.precise_point: LEAST_ERROR, LARGEST_ERROR;
-numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
-numerics.sharpening: ROUNDING, NEARLY, GAIN, FURTHEST_STEP;
-numerics.zero_values: LEAST; numerics.series_zeros: RANK, ASTRAY, ARRIVED; tracking.certified_paths:
-ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME, FLATTEST;
-tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE; tracking.ends.branch:
-LONGEST, TINY; tracking.ends.corrector: DOUBLES, NOISY; tracking.ends.inclusion: TINY;
-tracking.ends.initial_forms: GAIN; tracking.ends.kept_points: RESIDUAL, SECOND;
-tracking.ends.records: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
-tracking.ends.linear_algebra: LEAST, LARGEST; tracking.ends.runs: ACCURACY, CONTRACTION;
-tracking.linear_algebra: PHASE; tracking.taylor: EPSILON; tracking.numbers.complex_numbers:
-HALVED, SMALL_SQUARE, LARGER;
-tracking.predictor: PREDICT, CORRECT, TINY, FAR; tracking.projective: ROUNDING; tracking.track:
-LEAST, BASIN, FINEST; tracking.ends.end_run: TRIAL, SMALLER, SHORTEST, LAST_T;
-tracking.ends.follow: FURTHER, FURTHEST; tracking.jumps: NEIGHBOURS; tracking.settings: TIGHTER,
-SHARPER; tracking.straight_run: LEAST, SHORTEST, OVERFLOW, ROUNDING, FARTHEST;
-solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING, WIDEST, TINY;
-solving.isolated_zero: ROUNDING; solving.branch_solutions: ROUGH; solving.missing_zeros: NEAR;
-solving.solution_classes: STEP; solving.start.choice: WORK; solving.start.family_monodromy: SHARP,
-ARRIVED; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
-solving.start.target: HALF_UNIT; solving.tropical_zeros: ARRIVED, NEAR; witness.membership: EXACT,
-INEXACT; witness.close_points: STEEPEST; witness.close_to_sets: ROUNDED; witness.cutting: FLAT,
-ROUNDED, ROUNDING, LOSS; witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP,
-BITS_PER_DIGIT, SPLITTER; witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE,
-FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, ARRIVED, NEARLY; witness.real_points: SPREAD,
-SHORTEST, STILL; decomposition.curve_genus: NEAR, OUTSIDE,
-SHRINK, LEAST_RADIUS; decomposition.discovery: ROUNDED, DEEP, MULTIPLE; decomposition.given_points:
-ROUGH; decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROUNDED;
-decomposition.ends: ROUNDED; decomposition.growth: PATH, FACTOR, ENTRY, STEP;
-decomposition.superset: REGULAR; decomposition.power_sums:
-EQUATIONS, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
-interpolation.precise_samples: ROUNDED; real.arc_tracing: ARRIVED, CHORD, CORRECTION, EASY, FIRST,
-LARGEST, LEAST, MOVED, REACHED, ROUNDED, TURN; real.arcs: NEAR_END; real.critical_values: ASIDE,
-PARTED; real.even_points: CHORD, HALF_ANGLE, KEPT, TURN; real.fibre_table: SAME; real.find_curve:
+algebra.evaluation: HUGE; algebra.number: LARGEST_ANGLE; numerics.certified_points: FLAT;
+numerics.ball_boxes: EXPANDING; numerics.curves: CLOSER, PATIENCE; numerics.deflated_system:
+MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK; numerics.digits: LOG10_2,
+ROUNDING; numerics.double_ranks: NOTHING; numerics.far_along: APART, SMALL, SMALL_ROUGHLY,
+CONTRACTION, ROUNDING, FIRST, LEAST, GOOD; numerics.discs: PRODUCT, UP, LEAST; numerics.krawczyk:
+WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR, REACHES, ROUNDED;
+numerics.natural_coordinates: FAR, SEVERAL_SIZES; numerics.newton: GAIN, FAST, LEFT, RESTS;
+numerics.precise_point: LEAST_ERROR, LARGEST_ERROR; numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
+numerics.sharpening: ROUNDING, NEARLY, GAIN, FURTHEST_STEP; numerics.zero_values: LEAST;
+numerics.series_zeros: RANK, ASTRAY; tracking.certified_paths: ERROR, ALONG, ACROSS, LEAST_FACTOR,
+MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME, FLATTEST; tracking.close_paths: STEEP;
+tracking.ends.at_infinity: DOUBLE_DOUBLE; tracking.ends.branch: LONGEST; tracking.ends.corrector:
+DOUBLES; tracking.ends.inclusion: TINY; tracking.ends.initial_forms: GAIN;
+tracking.ends.kept_points: RESIDUAL, SECOND; tracking.ends.records: IDLE, STEP, FINISH;
+tracking.ends.limits: LOG_2; tracking.ends.runs: ACCURACY, CONTRACTION; tracking.linear_algebra:
+PHASE; tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER; tracking.predictor: PREDICT,
+CORRECT, TINY, FAR; tracking.projective: ROUNDING; tracking.track: BASIN; tracking.ends.end_run:
+TRIAL, SMALLER, SHORTEST, LAST_T; tracking.ends.follow: FURTHER, FURTHEST; tracking.jumps:
+NEIGHBOURS; tracking.settings: TIGHTER, SHARPER; tracking.straight_run: SHORTEST, OVERFLOW,
+ROUNDING, FARTHEST; solving.certified_paths: FURTHER; solving.kantorovich: SMALL, PROMISING, WIDEST,
+TINY; solving.isolated_zero: ROUNDING; solving.branch_solutions: ROUGH; solving.solution_classes:
+STEP; solving.start.choice: WORK; solving.start.family_monodromy: SHARP;
+solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
+solving.tropical_zeros: ARRIVED, NEAR; witness.close_points: STEEPEST; witness.cutting: FLAT, LOSS;
+witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP, BITS_PER_DIGIT, SPLITTER; witness.fibres:
+STEEPER; witness.gauss_newton: CLOSE, FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, NEARLY;
+witness.real_points: SPREAD, SHORTEST, STILL; decomposition.curve_genus: NEAR, OUTSIDE, SHRINK,
+LEAST_RADIUS; decomposition.hypersurface: NEARER; decomposition.growth: PATH, FACTOR, ENTRY, STEP;
+decomposition.superset: REGULAR; decomposition.power_sums: EQUATIONS, ROUNDING, EVEN;
+decomposition.zero_sums: SPARE; real.arc_tracing: ARRIVED, CHORD, CORRECTION, EASY, FIRST, LARGEST,
+LEAST, MOVED, REACHED, ROUNDED, TURN; real.arcs: NEAR_END; real.critical_values: ASIDE, PARTED;
+real.even_points: CHORD, HALF_ANGLE, KEPT, TURN; real.fibre_table: SAME; real.find_curve:
 LEAST_RADIUS; real.real_pieces: SIZES; real.real_samples: SPREAD; mechanism.bonds: NEAR, NEARER,
-LEAST_SIZE;
-mechanism.framework_decomposition: ROUNDED; mechanism.inverse_kinematics: TINY, LEAST_DAMPING,
-LEAST_SHARE; mechanism.mobility_at: LEAST_SECONDS;
-mechanism.moving_parts: LENGTH, ARRIVED; mechanism.nearly_mobile: STEP,
-SHORTEST_STEP, STRAIGHT, BEND, LONGEST_SLIDE, WEIGHTS, COMPLEX_STEP, NO_STEP, TINY, SMALL;
-mechanism.operation_modes: NEARER; kinematics.path: ARRIVED, PROMISING;
-kinematics.turning_points: NARROWER; files.export: ROUNDED; files.json_values: AGREES;
+LEAST_SIZE; mechanism.inverse_kinematics: TINY, LEAST_DAMPING, LEAST_SHARE; mechanism.mobility_at:
+LEAST_SECONDS; mechanism.moving_parts: LENGTH; mechanism.nearly_mobile: STEP, SHORTEST_STEP,
+STRAIGHT, BEND, LONGEST_SLIDE, WEIGHTS, COMPLEX_STEP, SMALL; mechanism.operation_modes: NEARER;
+kinematics.path: ARRIVED, PROMISING; kinematics.turning_points: NARROWER; files.json_values: AGREES;
 check.four_way: ROUNDING; decomposition.shown: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:
-PATIENCE; cli.running: INTERVAL.
+PATIENCE; cli.running: INTERVAL; numerics.doubles: LARGEST, SMALLEST, EPS, UNIT.
 """

@@ -32,7 +32,14 @@ from nag.decomposition import (  # noqa: F401
 from nag.decomposition.decompose import decompose
 from nag.files.cases import read_case
 from nag.mechanism.problem import problem_of
-from nag.numerics import coincidence, double_ranks, local_structure, zero_values
+from nag.numerics import (
+    coincidence,
+    double_ranks,
+    doubles,
+    local_structure,
+    sharpening,
+    zero_values,
+)
 from nag.numerics.ball_ranks import Digits
 from nag.solving import isolated_zero, path_ends
 from nag.solving import solve as solving
@@ -133,7 +140,7 @@ def watched(measured: Measured) -> ExitStack:
     def known(_: Any, states: Any, path: int) -> None:
         errors = states.errors[path]
         sizes = np.abs(states.point(path))[errors > 0] / errors[errors > 0]
-        measured.add("KNOWN", follow.KNOWN, sizes)
+        measured.add("RESOLVED", doubles.RESOLVED, sizes)
 
     def initial_forms(limit: Any, *_: Any) -> None:
         if limit is not None:
@@ -150,10 +157,10 @@ def watched(measured: Measured) -> ExitStack:
 
     def met(_: Any, groups: Any, points: np.ndarray, errors: np.ndarray) -> None:
         if len(points) < MOST_PAIRED:
-            radii = projective.SAFETY * np.maximum(projective.ROUNDING, errors)
+            radii = doubles.SLACK * np.maximum(projective.ROUNDING, errors)
             first, second = np.triu_indices(len(points), 1)
             apart = norms(projective.aligned_difference(groups, points[first], points[second]))
-            measured.add("SAFETY (of ends)", 1.0, apart / np.maximum(radii[first], radii[second]))
+            measured.add("SLACK (of ends)", 1.0, apart / np.maximum(radii[first], radii[second]))
 
     def real(found: tuple[Any, ...], *_: Any) -> None:
         for one in found[0]:
@@ -189,9 +196,9 @@ def watch_digits(measured: Measured, stack: ExitStack) -> None:
 
     def negligible(numbers: Digits, size: float) -> bool:
         # Also of what is not decided, and raises an error.
-        if numbers.zero == local_structure.NOTHING:
+        if numbers.zero == sharpening.ZERO:
             value = 10.0 ** min(size, 300.0)
-            measured.add("NOTHING", 10.0**local_structure.NOTHING, value)
+            measured.add("ZERO", 10.0**sharpening.ZERO, value)
             measured.add("SOMETHING", 10.0**local_structure.SOMETHING, value)
         return judge(numbers, size)
 
@@ -235,7 +242,7 @@ def watched_decomposition(measured: Measured) -> ExitStack:
         evaluator, x = Evaluator.of([f], fibre.cut.n), fibre.x
         measured.add("ON", zero_values.ON, evaluator.residuals(x))
         terms = np.maximum(evaluator.absolute(x), NONE)
-        measured.add("CERTAIN", confirm.CERTAIN, np.abs(evaluator.values(x)) / terms)
+        measured.add("ARRIVED", doubles.ARRIVED, np.abs(evaluator.values(x)) / terms)
 
     def corank(_: Any, singular: np.ndarray, columns: int, small: float) -> None:
         values = np.zeros(columns)
@@ -246,7 +253,7 @@ def watched_decomposition(measured: Measured) -> ExitStack:
 
     def sharpened(found: Any, evaluator: Any, *_: Any) -> None:
         if np.isfinite(found.step):
-            measured.add("SHARP (of cutting)", cutting.SHARP, found.step)
+            measured.add("SHARP (of cutting)", doubles.SHARP, found.step)
             residuals = evaluator.residuals(found.z[None]).max(initial=0.0)
             measured.add("VANISHING", cutting.VANISHING, residuals)
 

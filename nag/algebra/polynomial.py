@@ -85,6 +85,11 @@ def add_terms(sums: dict[Exponents, int], terms: Mapping[Exponents, int], factor
         sums[e] = sums[e] + factor * c if e in sums else factor * c
 
 
+# Digits of coefficients that nothing follows from; of longer ones, equations may nearly be what
+# they are not, and each digit more is one more to which what they decide must hold.
+ROUND_NUMBERS = 6
+
+
 @dataclass(frozen=True, eq=False)
 class Polynomial:
     """A polynomial in ``n`` variables, as a read-only map from exponents to non-zero coefficients.

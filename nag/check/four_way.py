@@ -22,11 +22,9 @@ from nag.algebra.rational_function import FunctionField
 from nag.check.identities import labelled, surviving
 from nag.check.known import KnownDecomposition, PaperComponent
 from nag.check.statement import Statement, Verdict, VerdictKind, decided, holds
+from nag.numerics.zero_values import ON
 from nag.witness.witness import Decomposition, Status, WitnessSet
 
-# A witness point satisfies generators if it does so to this relative residual; they are told
-# apart from the other components' by orders of magnitude.
-RESIDUAL = 1e-8
 # Values in doubles vanish to sixteen digits at most.
 ROUNDING = 1e-16
 
@@ -80,7 +78,7 @@ class Compared:
         for component in self.decomposition.components:
             points = self.coordinates(component.points)
             residuals = [residual(part, points) for part in self.ideals]
-            hits = [i for i, r in enumerate(residuals) if r < RESIDUAL]
+            hits = [i for i, r in enumerate(residuals) if r < ON]
             found.append((component, hits, min(residuals, default=1.0)))
         return found
 

@@ -17,7 +17,7 @@ from nag.algebra.number import square_root
 from nag.algebra.rational_function import FunctionField
 from nag.algebra.system import PolynomialSystem
 from nag.check.bennett_special import ROOTS as SPECIAL_ROOTS
-from nag.check.four_way import RESIDUAL, WAYS, Decompose, digits, evaluator
+from nag.check.four_way import WAYS, Decompose, digits, evaluator
 from nag.check.identities import labelled, surviving
 from nag.check.known import Parametrisation, parameter_text
 from nag.check.known_space import BRICARD_ROOTS, bennett_roots
@@ -32,6 +32,7 @@ from nag.check.statement import Statement, Verdict, VerdictKind, decided
 from nag.mechanism.axes import difference, dot
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import Model, model
+from nag.numerics.zero_values import ON
 from nag.symbolic import bennett, bennett_geometry, bricard
 from nag.witness.witness import Decomposition, Status
 
@@ -173,7 +174,7 @@ def numerical(compared: ComparedMechanism) -> Verdict:
         return Verdict(VerdictKind.OPEN, "the decomposition is incomplete")
     points = [p for c in answer.components for p in c.points]
     worst = max((compared.residual(p) for p in points), default=1.0)
-    if worst > RESIDUAL:
+    if worst > ON:
         return decided(False, "", f"a witness point leaves a residual of {worst:.1e}")
     how = f"{len(points)} witness points in half-angles, lifted, up to the signs of bodies"
     return Verdict(VerdictKind.NUMERICAL, how, digits=digits(worst))

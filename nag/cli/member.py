@@ -60,12 +60,12 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
 
 def _equations_text(located: PointMembership) -> str:
+    from nag.numerics.zero_values import ON
     from nag.text.table import magnitude
-    from nag.witness.membership import ROUNDED
 
     if located.exact:
         return "hold exactly"
-    hold = "hold to rounding" if located.residual < ROUNDED else "do not hold"
+    hold = "hold to rounding" if located.residual < ON else "do not hold"
     return f"{hold}, relative residual {magnitude(located.residual)}"
 
 

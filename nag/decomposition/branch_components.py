@@ -29,6 +29,7 @@ from nag.numerics.branch_union import (
     find_repeats,
     multiplicities_in_scheme,
 )
+from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import matrix_corank
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.numerics.singular_point import Place, SingularEnd, analyse
@@ -43,7 +44,6 @@ from nag.witness.fibres import Fibre, whole_space
 from nag.witness.frame import Frame
 from nag.witness.membership import Membership, is_on_one_of
 from nag.witness.moving import witness_at
-from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import pad_rows, random_rows, to_slice
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
@@ -106,7 +106,7 @@ class BranchComponent(GenericPoint):
         # Zeros of other branches may be close to it.
         if len(self.zeros) == 1:
             return self.zeros[0].precise.centre, WRITTEN
-        return self.point, ACCURACY
+        return self.point, LEAST
 
     @property
     def _isolated(self) -> bool:

@@ -22,14 +22,13 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import regular_block
 from nag.numerics.digits import bits_of, doubles, in_bits, middle, to_ball
 from nag.numerics.newton import find_zero, inverse_of
+from nag.numerics.sharpening import ZERO
 from nag.tracking.run import Run
 from nag.witness.fibres import Fibre, move
 from nag.witness.slices import pad_rows, unit_complex
 
 # Bits of values, 200 digits, and the digits that points are worked out to.
 BITS, ARRIVED = bits_of(200), 180
-# Decimal logarithm of a pivot of the Loewner matrix that is zero.
-NOTHING = -90.0
 # Values that are added at a time.
 BATCH = 12
 
@@ -66,7 +65,7 @@ def branch_points(sheets: Sequence[Fibre], rng: np.random.Generator, run: Run) -
             values.append(_sum_of_squares(sheets, t, weights, rng, run))
             at.append(t)
         with in_bits(BITS):
-            rank = regular_block(_loewner(at, values), len(at) // 2, NOTHING).rank
+            rank = regular_block(_loewner(at, values), len(at) // 2, ZERO).rank
             if rank < len(at) // 2 - 1:
                 return _poles(at[: 2 * rank + 1], values[: 2 * rank + 1])
         if len(at) > 2 * most + 2 * BATCH:

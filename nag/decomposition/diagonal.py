@@ -17,7 +17,7 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.ends import ROUNDED, seem_excluded
+from nag.decomposition.ends import seem_excluded
 from nag.decomposition.factor import NOT_MOVED, Operand, move_to_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
@@ -25,6 +25,7 @@ from nag.decomposition.superset import Superset, are_new_alone
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import classify_arrivals, clusters, coincident
 from nag.numerics.digits import bits_of
+from nag.numerics.doubles import ROUNDED
 from nag.numerics.zero_values import possible_zeros, vanishes_at, vanishes_at_all
 from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, PointInWords, fine_of_balls

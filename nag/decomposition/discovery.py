@@ -24,6 +24,7 @@ from nag.decomposition.given_points import CommonSlices, GivenPoint
 from nag.decomposition.orbits import group_into_orbits
 from nag.decomposition.reduction import Reduction
 from nag.numerics.double_ranks import NEARLY_SINGULAR, largest_corank
+from nag.numerics.doubles import ARRIVED, MULTIPLE, ROUNDED
 from nag.numerics.zero_values import LEAST
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.fibres import whole_space
@@ -33,12 +34,6 @@ from nag.witness.slices import complex_normal
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 STARTS = 100
-# Relative error of a solution of linear equations.
-ROUNDED = 1e-15
-# Residuals to which points of non-reduced components are brought before they are deflated.
-DEEP = 1e-14
-# Relative error of those points then: about a root of rounding.
-MULTIPLE = 1e-7
 # Points that no deflation made regular, after which no more are tried: each costs seconds.
 MOST_REFUSALS = 3
 
@@ -147,7 +142,7 @@ class _Discovery:
     def _multiple(self, x: np.ndarray) -> tuple[int, int] | None:
         """The same from a point near a component that is not reduced."""
         evaluator = self.slices.equations.evaluator
-        near = descend(evaluator, x, close=DEEP)
+        near = descend(evaluator, x, close=ARRIVED)
         if near is None:
             return None
         most = largest_corank(evaluator.balanced_jacobian(near), NEARLY_SINGULAR)

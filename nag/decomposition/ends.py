@@ -12,20 +12,14 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.coincidence import SAFETY, clusters, coincident
-from nag.numerics.zero_values import ON, possible_zeros, vanishes_at
+from nag.numerics.coincidence import NEAR, SAFETY, clusters, coincident
+from nag.numerics.doubles import ROUNDED
+from nag.numerics.zero_values import NONZERO, ON, possible_zeros, vanishes_at
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, SliceEnds
 from nag.witness.slices import pad_rows
 
-# Failed paths that are known to lead next to a point are known to so much of it, no better: what
-# they were seen to go to is the limit of several branches that are one to the digits they had.
-ASTRAY = 1e-6
-# Values of polynomials that must not vanish, at points where they seem to.
-FORBIDDEN = 1e-8
-# Doubles are no more accurate than this, relative to the point.
-ROUNDED = 1e-15
 Cluster = list[tuple[np.ndarray, float]]
 
 
@@ -72,7 +66,7 @@ def collect(pieces: Sequence[SliceEnds], nonzero: Sequence[Polynomial]) -> Candi
         rest = allowed & ~ends.regular
         singular.append(x[rest])
         errors.append(ends.accuracy[rest])
-        lost = ends.failed & (ends.accuracy < ASTRAY)
+        lost = ends.failed & (ends.accuracy < NEAR)
         failed.append(x[lost])
         every.append(x[ends.finite | lost])
     points, accuracy = np.vstack(singular), np.concatenate(errors)
@@ -86,16 +80,16 @@ def _crowds(lost: np.ndarray, every: Sequence[np.ndarray]) -> list[tuple[Cluster
     if not len(lost):
         return []
     found, ends = [], np.vstack(every)
-    for own in clusters(lost, np.full(len(lost), ASTRAY)):
-        near = np.any([coincident(ends, lost[i], ASTRAY) for i in own], axis=0)
-        found.append(([(lost[i], ASTRAY) for i in own], int(near.sum())))
+    for own in clusters(lost, np.full(len(lost), NEAR)):
+        near = np.any([coincident(ends, lost[i], NEAR) for i in own], axis=0)
+        found.append(([(lost[i], NEAR) for i in own], int(near.sum())))
     return found
 
 
 def seem_excluded(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
     """Which points seem to lie where a polynomial that must not vanish does."""
     residuals = nonzero.residuals(x)
-    limit = np.maximum(FORBIDDEN, SAFETY * accuracy)
+    limit = np.maximum(NONZERO, SAFETY * accuracy)
     return (residuals < limit[:, None]).any(axis=1)
 
 

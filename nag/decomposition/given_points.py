@@ -19,6 +19,7 @@ from nag.decomposition.final_checks import judge_components
 from nag.decomposition.orbits import group_into_orbits
 from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import coincident
+from nag.numerics.doubles import MULTIPLE
 from nag.numerics.zero_values import LEAST, ON
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.cutting import Cut, Equations
@@ -115,10 +116,6 @@ class CommonSlices:
         return None
 
 
-# Relative error of a point that Newton's method could not sharpen.
-ROUGH = 1e-7
-
-
 def best_lifted(
     component: WitnessSet, lift: Callable[[np.ndarray], Sequence[complex] | np.ndarray]
 ) -> np.ndarray:
@@ -188,7 +185,7 @@ def _on_common_slices(
     for d, start in starts:
         x = reduction.frame.coordinates(np.asarray(start, dtype=complex))
         zero = polish(reduction.equations.evaluator, x)
-        near, accuracy = (zero.x, LEAST) if zero.converged else (x, ROUGH)
+        near, accuracy = (zero.x, LEAST) if zero.converged else (x, MULTIPLE)
         simple = zero.converged and zero.corank == d
         slices, place, spent = slices.with_start(
             GivenPoint(near, accuracy, [d], not simple), rng, run

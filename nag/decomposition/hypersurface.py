@@ -14,6 +14,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.roots import line, points_in_balls, zeros_on
+from nag.numerics.doubles import ROUNDED
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.run import Run
@@ -36,8 +37,6 @@ from nag.witness.witness import PathCounts
 # Slices to which points may have to be moved to get to another flag.
 # Offsets of the flags tried later, as part of those of the first: slices nearer to the origin.
 NEARER = 0.3
-# Error of points that are known to many digits.
-ROUNDED = 1e-15
 # Roots of a polynomial of higher degree are not found soon.
 MOST_ROOTS = 64
 

@@ -9,14 +9,13 @@ from types import MappingProxyType
 import numpy as np
 
 from nag.numerics.coincidence import BEYOND, MISS, classify_arrivals
+from nag.numerics.doubles import ROUGH
 from nag.tracking.run import Run
 from nag.witness.close_points import PointInWords, distance
 from nag.witness.points import Points, move_points
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
-# Relative errors that ends of loops may have, whatever the run thinks of them.
-ROUGH = 1e-8
 # Distance of an end from its point beside that from the next one.
 NEARER = 1e-3
 # Of more distances than FEW only those are computed that a projection does not show to be long, at

@@ -22,6 +22,7 @@ import numpy as np
 
 from nag.algebra.exact_ranks import null_space
 from nag.algebra.factoring import factor_into_irreducibles, most_absolute_factors
+from nag.algebra.number import EQUALITY_DIGITS
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.final_checks import (
     Examined,
@@ -44,8 +45,6 @@ from nag.witness.moving import SliceError
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
-# Digits to which sums of second derivatives must vanish.
-EVIDENCE = 60
 # Sets of points that are looked at for those whose sum is linear.
 MOST_CHOICES = 20_000
 
@@ -201,7 +200,7 @@ def _vanishes(bends: Sequence[tuple[Any, float]]) -> bool:
     with in_bits(BITS):
         total = sum((bend for bend, _ in bends[1:]), bends[0][0])
     size = max(size for _, size in bends)
-    return bool(total.contains(0)) and float(abs(total).upper()) <= 10.0**-EVIDENCE * size
+    return bool(total.contains(0)) and float(abs(total).upper()) <= 10.0**-EQUALITY_DIGITS * size
 
 
 def _multidegree(reduction: Reduction, rng: np.random.Generator) -> np.ndarray | None:

@@ -31,6 +31,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.intersection import intersect_equations
 from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import clusters
+from nag.numerics.doubles import ROUNDED
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.precise_point import PrecisePoint
 from nag.solving.solutions import SolveResult
@@ -45,8 +46,6 @@ from nag.witness.witness import Decomposition, PathCounts, Slice, WitnessSet
 
 # Bits of random numbers: a chart must leave out no vector that turns up, be it as simple as it may.
 BITS = 24
-# Relative error of points that are known to the last digit of doubles.
-ROUNDED = 1e-15
 
 
 @dataclass(frozen=True, eq=False)

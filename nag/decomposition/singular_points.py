@@ -22,8 +22,9 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import IntersectionError, Operand
 from nag.decomposition.intersection import intersect_factors
 from nag.decomposition.linear_hull import add_hull_equations, mark_simple
-from nag.decomposition.rank_drop import ROUNDED, SetOfPoints, rank_drop
+from nag.decomposition.rank_drop import SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
+from nag.numerics.doubles import ROUNDED
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import fixed_array, fixed_mapping

@@ -13,9 +13,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.polynomial import ROUND_NUMBERS, Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.zero_sums import smallest_zero_sums
+from nag.solving.start.monodromy import CLEAR
 from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
@@ -26,14 +27,12 @@ from nag.witness.slices import pad_rows, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # Digits to which a trace must be linear, beside the points' motion: so many, and one more for each
-# digit of the system's coefficients beyond those of round numbers.
-EVIDENCE, ROUND_NUMBERS = 18, 6
+# digit of the system's coefficients beyond `ROUND_NUMBERS`.
+EVIDENCE = 18
 # Digits more than those in which points are seen to bend, to see whether others do.
 BEYOND = 4
 # Points get twice the digits so often, from those of double-double on.
 DIGITS = (FEWEST, 60, 120, 240)
-# Second differences, beside the points' motion, that are no errors of doubles.
-BENT = 1e-6
 # Estimated errors of sums may be too small by this factor.
 ERRORS = 4
 # Size of the random integers that coordinates are combined with.
@@ -192,7 +191,7 @@ class Trace:
 
     def is_surely_bent(self, indices: Sequence[int]) -> bool:
         """Whether doubles show that the trace of points is not linear."""
-        return self._bend(indices) > BENT * max(self.known[i].motion for i in indices)
+        return self._bend(indices) > CLEAR * max(self.known[i].motion for i in indices)
 
     def _bend(self, indices: Sequence[int]) -> float:
         """The largest second difference of the sum of points."""

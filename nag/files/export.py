@@ -32,8 +32,10 @@ from nag.files.json_values import (
     wrong,
 )
 from nag.files.written_file import write_target
+from nag.numerics.zero_values import LEAST
 from nag.text.json_text import lay_out
-from nag.witness.close_points import WORDS, PointInWords
+from nag.tracking.close_paths import WORDS
+from nag.witness.close_points import PointInWords
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
 from nag.witness.witness import (
@@ -303,10 +305,6 @@ def read_decomposition(path: str | os.PathLike[str]) -> Decomposition:
     return read_export(path).decomposition
 
 
-# Relative difference of a point's coordinates from the same in more digits.
-ROUNDED = 1e-12
-
-
 def close_points(
     value: Sequence[dict[str, Any]], points: np.ndarray, place: str
 ) -> dict[int, PointInWords]:
@@ -328,6 +326,6 @@ def close_points(
             raise wrong(f"{here}.coordinates", each)
         curvature = real_number(table["curvature"])
         found[i] = PointInWords(words, curvature if np.isfinite(curvature) else np.inf)
-        if not np.allclose(found[i].rounded, points[i], rtol=ROUNDED, atol=1e-300):
+        if not np.allclose(found[i].rounded, points[i], rtol=LEAST, atol=1e-300):
             raise wrong(f"{here}.coordinates", "those of the point in more digits")
     return found

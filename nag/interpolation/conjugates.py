@@ -19,10 +19,10 @@ from nag.algebra.flint_numbers import to_rational
 from nag.interpolation.precise_samples import Sample, Source, SourceError
 from nag.interpolation.vanishing import DIGITS, InterpolationError
 from nag.numerics.digits import SPARE, bits_of, in_bits
+from nag.numerics.doubles import ROUGH
 from nag.numerics.rational_relations import TooFewDigitsError, recognise_rational
 from nag.tracking.run import Run
 from nag.witness.moving import move_and_sharpen
-from nag.witness.projection import SHARP
 from nag.witness.slices import random_rows
 
 # Random coefficients are whole numbers up to this, over the coordinates' sizes.
@@ -86,7 +86,7 @@ class RationalSlice:
         sizes = source.fibres[0].sizes
         target[r:] = random_rows(rng, source.dimension - r, n) / sizes
         there, paths = move_and_sharpen(source.fibres, target, rng, run)
-        if paths.failed or not there.accuracy < SHARP:
+        if paths.failed or not there.accuracy < ROUGH:
             raise SourceError("a path to a rational slice failed")
         found = []
         for fibre in there.fibres:

@@ -11,7 +11,7 @@ import numpy as np
 from nag.algebra.groebner import dimension_and_degree
 from nag.algebra.polynomial import Exponents, Polynomial, divides
 from nag.interpolation.essential import VariableMap, essential_variables, maps
-from nag.interpolation.point_cloud import MORE_POINTS, SMALL, Cloud, monomial_values
+from nag.interpolation.point_cloud import MORE_POINTS, Cloud, monomial_values
 from nag.interpolation.proof import (
     FRESH_POINTS,
     Substitution,
@@ -33,7 +33,7 @@ from nag.interpolation.vanishing import (
     primitive,
     start,
 )
-from nag.numerics.double_ranks import matrix_corank
+from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.rational_relations import rank_of_columns
 
 # Where no degree is asked for, no higher one is looked at.
@@ -41,8 +41,6 @@ MOST_DEGREE = 12
 # Degrees beyond the one that makes a curve a component of the zeros, while there are not more
 # independent functions than this, to learn whether it is the only one.
 MORE_DEGREES, ENOUGH_MONOMIALS = 2, 120
-# Digits beyond those of points in which their monomials are computed.
-SPARE = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -250,7 +248,7 @@ def _cuts(cloud: Cloud, known: Interpolated, dimension: int) -> bool:
     base = [cloud.ambient.images[i](list(point), complex) for i in known.coordinates]
     rows = [[f.derivative(i)(base, complex) for i in range(k)] for f in known.generators]
     gradients = np.array([np.array(row) / max(1e-300, np.linalg.norm(row)) for row in rows])
-    return matrix_corank(gradients.reshape(len(rows), k), SMALL) == dimension
+    return matrix_corank(gradients.reshape(len(rows), k), NEARLY_SINGULAR) == dimension
 
 
 def common_zeros(known: Interpolated) -> tuple[int, int]:

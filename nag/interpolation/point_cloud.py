@@ -11,17 +11,15 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.interpolation.precise_samples import SPARE, Sample, Source, samples
+from nag.interpolation.precise_samples import Sample, Source, samples
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import bits_of, in_bits
-from nag.numerics.double_ranks import matrix_corank
+from nag.numerics.digits import SPARE, bits_of, in_bits
+from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.tracking.run import Run
 from nag.witness.slices import pad_rows
 
 # Points beyond those that make the columns as long as they are many.
 MORE_POINTS = 6
-# A singular value beside the largest, from which a tangent direction is lost in the projection.
-SMALL = 1e-5
 
 Exponents = tuple[int, ...]
 
@@ -167,7 +165,7 @@ class Cloud:
                 derivatives[row, j] = image.derivative(j)(list(sample.x), complex)
         derivatives *= _sizes(sample)[: len(sample.x)]
         return tangent.shape[1] - matrix_corank(
-            _with_rows_of_norm_one(derivatives) @ tangent, SMALL
+            _with_rows_of_norm_one(derivatives) @ tangent, NEARLY_SINGULAR
         )
 
 

@@ -20,7 +20,8 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import bits_of, in_bits, to_ball
+from nag.numerics.digits import SPARE, bits_of, in_bits, to_ball
+from nag.numerics.doubles import ROUNDED
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.numerics.newton import find_zero
 from nag.numerics.zero_values import ON
@@ -33,11 +34,6 @@ from nag.witness.given_component import round_point
 from nag.witness.sampling import move_to_random_slice
 from nag.witness.slices import pad_rows, rows_through
 from nag.witness.witness import WitnessSet
-
-# Digits beyond those asked for in which Newton's method computes.
-SPARE = 25
-# Relative error of an exact point that is rounded to doubles.
-ROUNDED = 1e-15
 
 
 class SourceError(ComponentError):

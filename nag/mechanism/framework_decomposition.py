@@ -18,13 +18,11 @@ from nag.decomposition.decompose import decompose
 from nag.decomposition.given_points import best_lifted, components_through_points
 from nag.mechanism.framework_model import FrameworkModel
 from nag.mechanism.isotropic import conjugates
+from nag.numerics.zero_values import LEAST
 from nag.tracking.run import Run
 from nag.witness.component_equations import component_fibres
 from nag.witness.membership import Membership, is_member
 from nag.witness.witness import Decomposition, Status, WitnessSet
-
-# Relative error of a witness point's reflection.
-ROUNDED = 1e-12
 
 
 def decompose_framework(
@@ -109,5 +107,5 @@ def _lies_on(
         others = [c for c in found.components if c.dimension == 0]
         return min(others, key=lambda c: np.linalg.norm(c.points[0] - point)) is component
     fibres = component_fibres(found.system, component)
-    answer, _ = is_member(point, ROUNDED, fibres, rng, run)
+    answer, _ = is_member(point, LEAST, fibres, rng, run)
     return answer is Membership.MEMBER

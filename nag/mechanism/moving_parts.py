@@ -19,14 +19,13 @@ import numpy as np
 from nag.errors import NagError
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.motions import ScrewSystem, screw_system
+from nag.numerics.double_ranks import NEARLY_SINGULAR, SINGULAR
+from nag.numerics.doubles import ARRIVED
 from nag.text.table import count_text, join_words
 
-# Values that are zero, and that are not, where lengths are of size one; what lies between is not
-# decided. Newton's method leaves 1e-15.
-ZERO, NOT_ZERO = 1e-9, 1e-5
 # Steps that lead to a generic configuration, and their length; how often one is shortened; and
-# Newton's steps, until they are this small.
-STEPS, LENGTH, SHORTER, NEWTON, ARRIVED = 3, 0.15, 4, 25, 1e-13
+# Newton's steps.
+STEPS, LENGTH, SHORTER, NEWTON = 3, 0.15, 4, 25
 # Screws of a turn or slide, as 3 + 3 coordinates: turning, and velocity at the origin.
 TURNING, SLIDING = slice(0, 3), slice(3, 6)
 
@@ -186,9 +185,9 @@ def _moves(values: np.ndarray) -> bool:
         NotClear: if that is not clear.
     """
     size = float(np.abs(values).max(initial=0.0))
-    if ZERO < size < NOT_ZERO:
+    if SINGULAR < size < NEARLY_SINGULAR:
         raise NotClear("whether a part moves is not clear")
-    return size >= NOT_ZERO
+    return size >= NEARLY_SINGULAR
 
 
 def _corank(matrix: np.ndarray) -> int:
@@ -198,9 +197,9 @@ def _corank(matrix: np.ndarray) -> int:
         NotClear: if the rank is not clear.
     """
     s = np.linalg.svd(matrix, compute_uv=False) if matrix.size else np.zeros(0)
-    if ((s > ZERO) & (s < NOT_ZERO)).any():
+    if ((s > SINGULAR) & (s < NEARLY_SINGULAR)).any():
         raise NotClear("the rank of the parts' motions is not clear")
-    return matrix.shape[1] - int((s >= NOT_ZERO).sum())
+    return matrix.shape[1] - int((s >= NEARLY_SINGULAR).sum())
 
 
 def _group(names: Sequence[str], twists: np.ndarray) -> list[tuple[str, ...]]:
@@ -452,14 +451,14 @@ class _Chain:
         for _ in range(NEWTON):
             gaps, rows, _ = self.equations(q)
             u, s, v = np.linalg.svd(rows, full_matrices=False)
-            if rank > len(s) or (rank and s[rank - 1] < NOT_ZERO):
+            if rank > len(s) or (rank and s[rank - 1] < NEARLY_SINGULAR):
                 return None
             delta = v[:rank].T @ ((u[:, :rank].T @ gaps) / s[:rank])
             q = q - delta
             last, step = step, float(np.abs(delta).max(initial=0.0))
             if step > 1:
                 return None
-            if step < ARRIVED or (step < ZERO and step >= last):
+            if step < ARRIVED or (step < SINGULAR and step >= last):
                 return q
         return None
 

@@ -30,6 +30,7 @@ from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.loops import Loop, loop_structure
 from nag.mechanism.overconstrained import CLOSE, known_linkage
 from nag.mechanism.quaternion import multiply
+from nag.numerics.doubles import ROUNDED
 
 # Arc of joint coordinates from one position to the next, radians or sizes of the mechanism; where
 # the motion bends, steps are halved down to the shortest.
@@ -61,9 +62,7 @@ ROUNDING = 1e-11
 COMPLEX_STEP = 1e-40
 # Steps to a position, which end with one that is too short to matter.
 MOST_STEPS = 8
-NO_STEP = 1e-11
 # The fit goes on until nothing changes, within so many evaluations.
-TINY = 1e-15
 MOST_EVALUATIONS = 200
 # Steps that close what is left; directions that change a gap by less than a small part are none.
 SHORTEST_STEPS = 3
@@ -669,7 +668,7 @@ def close_across(chains: Chains, q: Array, tangent: Array) -> Array:
         opening, rows = chains.linearised(q)
         step = across @ np.linalg.lstsq(rows @ across, -opening, rcond=None)[0]
         q = q + step
-        if np.linalg.norm(step) < NO_STEP:
+        if np.linalg.norm(step) < ROUNDING:
             break
     return q
 
@@ -781,9 +780,9 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
             lambda x, w=weight: np.concatenate([w * opening(x), x[:m]]),
             x,
             lambda x, w=weight: np.vstack([w * derivative(x), unchanged]),
-            ftol=TINY,
-            xtol=TINY,
-            gtol=TINY,
+            ftol=ROUNDED,
+            xtol=ROUNDED,
+            gtol=ROUNDED,
             max_nfev=MOST_EVALUATIONS,
         ).x
     for _ in range(SHORTEST_STEPS):

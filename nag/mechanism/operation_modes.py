@@ -50,6 +50,7 @@ from nag.mechanism.motions import motion_of, screw_system, twists_at
 from nag.mechanism.platform import PlatformModel, platform_model
 from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
+from nag.numerics.zero_values import NONZERO
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.membership import UndecidedError, components_through
 from nag.witness.projection import ProjectionError, project
@@ -61,8 +62,6 @@ POSES = 3
 # Real poses that are looked at, starting points for each where a mode is not linear, and how much
 # nearer to the reference each is than the one before.
 REAL_POSES, REAL_STARTS, NEARER = 4, 6, 0.3
-# A form's value at a pose that is certainly not on its zeros, beside its largest term.
-NOT_ZERO = 1e-6
 UNITS = tuple(tuple(int(i == j) for j in range(8)) for i in range(8))
 
 
@@ -206,7 +205,7 @@ def _misses(
     for f in add_degree(image, rng).forms[len(image.forms) :]:
         powers = point[None] ** np.array(list(f.terms))
         terms = np.array([float(c) for c in f.terms.values()]) * powers.prod(axis=1)
-        if abs(terms.sum()) > NOT_ZERO * np.abs(terms).max():
+        if abs(terms.sum()) > NONZERO * np.abs(terms).max():
             return True
     return False
 

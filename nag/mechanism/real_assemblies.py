@@ -17,12 +17,10 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number, square_root
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel, cartesian_model
+from nag.numerics.zero_values import ON
 from nag.text.table import join_words
 from nag.witness.gauss_newton import IterationEnd, descend, polish
-
-STARTS = 24
-# Values, beside their terms, of what must not vanish at an assembly, at a zero known to rounding.
-NONZERO = 1e-8
+from nag.witness.real_points import STARTS
 
 
 def obstacle(parts: AssemblyModel) -> str:
@@ -73,11 +71,7 @@ def real_assemblies(parts: AssemblyModel, seed: int = 0) -> Iterator[IterationEn
         if near is None:
             continue
         zero = polish(evaluator, near)
-        if (
-            zero.converged
-            and zero.corank
-            and (nonzero.residuals(zero.x[None] + 0j) > NONZERO).all()
-        ):
+        if zero.converged and zero.corank and (nonzero.residuals(zero.x[None] + 0j) > ON).all():
             yield zero
 
 

@@ -27,24 +27,24 @@ from scipy.optimize import linear_sum_assignment
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import jacobian_rank
+from nag.algebra.number import EQUALITY_DIGITS
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_boxes import BITS, FineBox, ball_box, box_about, holds_conjugate, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.coincidence import clusters
+from nag.numerics.coincidence import NEAR, clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
 from nag.numerics.digits import DIGITS, in_bits, middle, rational_point, to_ball
 from nag.numerics.discs import UP
 from nag.numerics.double_ranks import pivot_rows
+from nag.numerics.doubles import EPS, ROUNDED, SLACK
 from nag.numerics.krawczyk import Boxes, enter_box, find_overlaps, prove_boxes
 from nag.numerics.newton import newton_to_rest
 from nag.numerics.singular_point import Place, analyse
-from nag.numerics.zero_values import SLACK
 from nag.text.json_text import pairs, real_or_null
 from nag.text.table import magnitude, printable
 
 # Places to begin at, for each zero, and steps from there: each may lead part of the way only.
 PLACES, STEPS = 10, 200
-EPS = float(np.finfo(float).eps)
 
 
 def prove_close_zeros(
@@ -104,16 +104,10 @@ def match_boxes(
     return [boxes[k] for k in chosen.tolist()]
 
 
-# Zeros further from a point than `SLACK` times its accuracy, or this much, are not meant by it.
-NEAR = 1e-6
-# Least relative error of a point in doubles.
-LEAST = 1e-15
 # Gradients below this, relative to their terms, count as what they are.
 FLAT = 1e-8
 # Most decimal digits of a zero, in a document, for which doubles do not suffice.
 MOST_DECIMALS = 60
-# Digits to which the equations that were not needed for a proof must vanish.
-EVIDENCE = 60.0
 
 
 class Proof(StrEnum):
@@ -380,7 +374,7 @@ def _overdetermined(
             if not vanishing:
                 refuted.add(i)
             proofs[i] = Proof.SIMPLE if exact else Proof.PART
-            boxes.proved[i] = exact or vanishing >= EVIDENCE
+            boxes.proved[i] = exact or vanishing >= EQUALITY_DIGITS
             if not boxes.proved[i]:
                 proofs[i] = Proof.NONE
         left = np.array([i for i in left[1:] if not boxes.proved[i] and i not in refuted], int)
@@ -448,7 +442,7 @@ def _others(
     start = [flint.acb(complex(z)) for z in point]
     box = box_about(BallPolynomials.of(square, slices), start, (BITS[-1],))
     if box is None:
-        return EVIDENCE / 2, False
+        return EQUALITY_DIGITS / 2, False
     rest = BallPolynomials.of(others, slices[:0])
     digits = vanishing_digits(rest, box)
     if len(slices) or not digits:
@@ -477,7 +471,7 @@ def _singular(
     rng = np.random.default_rng(0)
     boxes = result.boxes
     point = boxes.centres[i]
-    error = max(accuracy, LEAST) if np.isfinite(accuracy) else NEAR
+    error = max(accuracy, ROUNDED) if np.isfinite(accuracy) else NEAR
     end = analyse(equations, point, error, rng, slices if len(slices) else None)
     if end.place is not Place.ISOLATED or end.precise is None:
         return False
@@ -492,7 +486,7 @@ def _singular(
         result.multiplicities[i] = end.multiplicity
         return False
     found = deflated_zero(equations, slices, end.precise, rng)
-    if found is None or found.vanishing < EVIDENCE:
+    if found is None or found.vanishing < EQUALITY_DIGITS:
         return False
     if not found.rounds:
         return True

@@ -18,6 +18,10 @@ SAFETY, LEAST = 1e2, 1e-11
 # explain; beyond MISS, and beyond so many times the errors, they have not.
 HIT, MISS, BEYOND = 1e-8, 1e-5, 1e4
 
+# Zeros as near as this to a point, beside its size, may be those that it stands for, where doubles
+# do not say how well it is known: they are compared with it in more digits.
+NEAR = 1e-6
+
 
 def radii_of_balls(points: np.ndarray, errors: np.ndarray | float) -> np.ndarray:
     """Radii of the balls that points lie in, from their relative errors, shape ``(P,)``."""

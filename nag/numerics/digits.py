@@ -12,10 +12,9 @@ import numpy as np
 
 from nag.algebra.flint_numbers import to_rational
 from nag.algebra.number import Number, Surd, binary
+from nag.numerics.doubles import LARGEST, SMALLEST
 
 LOG10_2 = 0.30102999566398120
-# Absolute values between these are doubles to full precision.
-SMALLEST, LARGEST = 1e-290, 1e290
 
 
 # Bits in which products with powers of two are exact.

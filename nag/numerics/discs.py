@@ -23,8 +23,8 @@ from scipy.sparse import csr_array, vstack
 
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.doubles import UNIT
 
-UNIT = 2.0**-53
 # Rounding of a complex product is below sqrt(5) units, of a few operations on radii below 2^-48.
 PRODUCT = 8 * UNIT
 UP = 1 + 2.0**-46

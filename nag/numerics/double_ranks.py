@@ -17,8 +17,9 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 
-# A rank is read where neighbouring singular values differ by this factor, below one of the next: at
-# a point of a component, and at one that is known to be singular, though perhaps not well.
+# A rank is read where neighbouring singular values differ by this factor, below one of the next.
+# The first are those of singular matrices at points that are known to rounding, the second at those
+# that are known roughly; what is larger is not singular.
 GAP, SINGULAR, NEARLY_SINGULAR = 1e3, 1e-9, 1e-5
 # A singular value, beside the largest, of zero.
 NOTHING = 1e-17

@@ -26,14 +26,8 @@ from nag.numerics.ball_boxes import FineBox, box_about, holds_conjugate, one_zer
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import neighbours
 from nag.numerics.digits import round_up
-from nag.numerics.discs import (
-    UNIT,
-    UP,
-    DiscPolynomials,
-    Discs,
-    magnitude,
-    matrix_product,
-)
+from nag.numerics.discs import UP, DiscPolynomials, Discs, magnitude, matrix_product
+from nag.numerics.doubles import UNIT
 
 # A box that is not mapped into itself is enlarged so many times; how much each side exceeds that
 # of the image, and the side of a coordinate that is zero, relative to the largest.

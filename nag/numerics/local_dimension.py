@@ -28,12 +28,10 @@ from nag.algebra.given import check_error, check_type, check_whole
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
+from nag.numerics.doubles import ROUGH
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.text.table import lines_of, one_line, point_text
 
-# Relative error that a point of doubles is taken to have; values of the equations, beside their
-# terms, at an exact point that is taken for a rounded one.
-ROUNDED = 1e-8
 # More coranks of a sequence are left to the export.
 MOST_CORANKS = 12
 
@@ -204,7 +202,7 @@ def local_dimension(
             raise NoSolution(f"equation {wrong[0] + 1} does not vanish at the point")
         point = exact
     else:
-        error = log10(max(ROUNDED if accuracy is None else accuracy, 1e-300))
+        error = log10(max(ROUGH if accuracy is None else accuracy, 1e-300))
     rng = np.random.default_rng(seed)
     elimination = eliminate_linear(system, graphs=False)
     if 0 < elimination.system.n < system.n:
@@ -228,11 +226,11 @@ def local_dimension_near(
     except NoSolution as reason:
         at = np.array([complex(float(x)) for x in point])
         residual = float(Evaluator.of(system.polynomials, system.n).residuals(at[None]).max())
-        if not residual < ROUNDED:
+        if not residual < ROUGH:
             text = f"{reason}; its relative residual is {residual:.1e}"
             raise NoSolution(text) from None
         # The error of a double zero is the square root of what is left of the equations.
-        return local_dimension(system, at, accuracy=max(ROUNDED, residual**0.5), seed=seed)
+        return local_dimension(system, at, accuracy=max(ROUGH, residual**0.5), seed=seed)
 
 
 def exact_numbers(point: Sequence[Any] | np.ndarray) -> tuple[Number, ...] | None:

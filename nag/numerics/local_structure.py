@@ -40,10 +40,10 @@ from nag.numerics.singular_point import Place, SingularEnd
 REACHES = (1.0, 0.0, 2.0, 3.5)
 # Nothing is looked for further away than this.
 FURTHEST = -1.3
-# Decimal logarithms of what is zero, and of what is not, in 150 digits, where errors have grown
-# through some eliminations.
-NOTHING, SOMETHING = -90.0, -45.0
-NUMBERS = Digits(DIGITS, NOTHING, SOMETHING)
+# Decimal logarithm of what is not zero, in 150 digits, where errors have grown through some
+# eliminations.
+SOMETHING = -45.0
+NUMBERS = Digits(DIGITS, ZERO, SOMETHING)
 # Degrees of the dual space from which on curves through the point are looked for, if it has not
 # become smaller for two degrees, and the highest degree.
 SEARCHES = (6, 14, 30)

@@ -14,11 +14,12 @@ from functools import cached_property
 import numpy as np
 
 from nag.algebra.factoring import factor_into_irreducibles
+from nag.algebra.number import EQUALITY_DIGITS
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_boxes import BITS, FineBox, box_about, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import regular_block
-from nag.numerics.certified_points import EVIDENCE, CertifiedPoints, Proof, independent_equations
+from nag.numerics.certified_points import CertifiedPoints, Proof, independent_equations
 from nag.numerics.claims import Standing
 from nag.numerics.deflated_system import vanishing_digits
 from nag.numerics.digits import in_bits
@@ -237,7 +238,7 @@ def nonzero_standings(
         elif _has_the_only_factor(polynomials, equations, points, i):
             found.append(Standing.REFUTED)
         else:
-            found.append(Standing.DOUBTED if digits[i] >= EVIDENCE else Standing.OPEN)
+            found.append(Standing.DOUBTED if digits[i] >= EQUALITY_DIGITS else Standing.OPEN)
     return found
 
 

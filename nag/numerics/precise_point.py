@@ -14,6 +14,8 @@ from nag.numerics.newton import Functions, find_zero
 
 # Decimal digits that zeros are worked out to where nothing else is said.
 POINT_DIGITS = 100
+# Those that are taken to compute with such zeros.
+WORKING_DIGITS = 120
 # Exponents beyond which an error is none, or is unknown.
 LEAST_ERROR, LARGEST_ERROR = -300.0, 300.0
 # What Newton's method may move a zero in doubles by, relative: decimal logarithm.

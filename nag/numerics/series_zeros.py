@@ -13,6 +13,7 @@ from nag.numerics.deflation import DeflatedPoint
 from nag.numerics.descent import Point, Round, descend
 from nag.numerics.digits import BITS, DIGITS, log_norm, log_size
 from nag.numerics.double_ranks import NEARLY_SINGULAR, smallest_share
+from nag.numerics.doubles import ARRIVED
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import move_point
 from nag.numerics.power_series import Series, SeriesRing
@@ -21,8 +22,8 @@ from nag.numerics.sharpening import ZERO
 STEPS = 60
 # Singular values beside the largest one that Newton's method does not divide by.
 RANK = 1e-12
-# Steps beside the point that lead nowhere, and those that are rounding errors.
-ASTRAY, ARRIVED = 1e3, 1e-14
+# Steps beside the point that lead nowhere.
+ASTRAY = 1e3
 # Last step, and values beside the point's square, where Newton's method has come near to a zero,
 # perhaps a multiple one: more than that is seen in all digits.
 SLOW, VANISHING = 1e-2, 1e-6

@@ -26,10 +26,10 @@ from nag.numerics.ball_ranks import row_echelon
 from nag.numerics.digits import DIGITS, log_size, rational, working_digits
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import local_dimension
-from nag.numerics.local_structure import NOTHING
 from nag.numerics.located_zero import exact_zero
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.read_only import fixed_mapping
+from nag.numerics.sharpening import ZERO
 
 # Orders beyond this are not looked at.
 HIGHEST = 8
@@ -157,7 +157,7 @@ def _part(ring: SeriesRing, series: Series, order: int) -> dict[tuple[int, ...],
     return {
         ring.exponents(key): flint.acb(c)
         for key, c in series.items()
-        if ring.degree(key) == order and log_size(c) > NOTHING
+        if ring.degree(key) == order and log_size(c) > ZERO
     }
 
 
@@ -177,9 +177,9 @@ def _independent(
 ) -> list[dict[tuple[int, ...], flint.acb]]:
     """A basis of the span of forms, their leading coefficients one."""
     monomials = sorted({e for part in parts for e in part}, reverse=True)
-    rows = row_echelon([[part.get(e, 0) for e in monomials] for part in parts], NOTHING)
+    rows = row_echelon([[part.get(e, 0) for e in monomials] for part in parts], ZERO)
     nonzero = [[(e, c) for e, c in zip(monomials, row, strict=True)] for row in rows]
-    return [{e: c for e, c in row if log_size(c) > NOTHING} for row in nonzero]
+    return [{e: c for e, c in row if log_size(c) > ZERO} for row in nonzero]
 
 
 def _recognised(forms: Sequence[dict[tuple[int, ...], flint.acb]]) -> list[Form]:
@@ -191,7 +191,7 @@ def _recognised(forms: Sequence[dict[tuple[int, ...], flint.acb]]) -> list[Form]
 
 
 def _rounded(z: complex) -> complex:
-    real, imag = (x if abs(x) > 10.0**NOTHING else 0.0 for x in (z.real, z.imag))
+    real, imag = (x if abs(x) > 10.0**ZERO else 0.0 for x in (z.real, z.imag))
     return complex(real, imag)
 
 

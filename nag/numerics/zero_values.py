@@ -17,6 +17,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import BITS
+from nag.numerics.doubles import SLACK
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 
@@ -24,8 +25,8 @@ from nag.numerics.singular_point import Place, SingularEnd, analyse
 ON = 1e-9
 # Values at points that are not sharpened that are certainly not zero.
 NONZERO = 1e-6
-# How much larger than its estimate the error of a point may be, and the least that is believed.
-SLACK, LEAST = 1e3, 1e-12
+# The least error of a point that is believed.
+LEAST = 1e-12
 
 
 def widen_error(x: np.ndarray, accuracy: float) -> float:
@@ -37,8 +38,10 @@ def widen_error(x: np.ndarray, accuracy: float) -> float:
 ALIKE, NOTHING = 1e-6, 1e-60
 # Relative error of a zero that is known by its written digits.
 WRITTEN = 1e-90
-# Values beside their terms that are zero at zeros of a hundred digits.
-VANISHES = 1e-80
+# Values beside their terms, distances and pivots that are zero at zeros of a hundred digits, and
+# their decimal logarithm.
+ZERO = -80.0
+VANISHES = 10.0**ZERO
 # Bits in which the sizes of terms are added up.
 LEAST_BITS = 128
 

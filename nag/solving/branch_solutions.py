@@ -28,11 +28,13 @@ from nag.numerics.branch_union import (
     find_repeats,
     multiplicities_in_scheme,
 )
+from nag.numerics.coincidence import NEAR
 from nag.numerics.digits import DIGITS, bits_of, doubles
+from nag.numerics.doubles import SLACK
 from nag.numerics.natural_coordinates import NaturalCoordinates, comparable_coordinates
+from nag.numerics.precise_point import WORKING_DIGITS
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import (
-    SLACK,
     WRITTEN,
     choose_alike,
     possible_zeros,
@@ -46,10 +48,6 @@ from nag.solving.solutions import LargerSets, PathStatistics, Solution, SolveRes
 # Coordinates with larger errors than this, relative to their sizes, are worked out in more digits:
 # terms of what gives the variables that were eliminated may cancel.
 ROUGH = 1e-9
-# Solutions that may be the same, found in two branches: relative distance.
-NEAR = 1e-7
-# Digits to compute with.
-WORKING = 120
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +100,7 @@ class _Found(GenericPoint):
         # Zeros of other branches may be close to it.
         y = self._zeros[0].precise.centre if self.tracked is not None else ()
         images = BallPolynomials.of(self.branch.elimination.images)
-        return list(images.values(y, bits_of(WORKING)).mid().entries()), WRITTEN
+        return list(images.values(y, bits_of(WORKING_DIGITS)).mid().entries()), WRITTEN
 
     def carry_solution(
         self, solution: Solution, natural: NaturalCoordinates, equations: Evaluator
@@ -309,7 +307,7 @@ def _lift_in_digits(
     if len(zeros) != 1 or zeros[0].multiplicity != 1 or zeros[0].precise is None:
         return None
     zero = zeros[0].precise
-    images = BallPolynomials.of(elimination.images).values(zero.centre, bits_of(WORKING))
+    images = BallPolynomials.of(elimination.images).values(zero.centre, bits_of(WORKING_DIGITS))
     return doubles(images.mid().entries()), zero.radii
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
-from nag.numerics.certified_points import NEAR
+from nag.numerics.coincidence import NEAR
 from nag.solving.solutions import SolveResult
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start import KINDS

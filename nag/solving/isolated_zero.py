@@ -10,14 +10,12 @@ import numpy as np
 
 from nag.numerics.coincidence import SAFETY
 from nag.numerics.digits import bits_of, in_bits, number_of_words
-from nag.numerics.precise_point import PrecisePoint
+from nag.numerics.precise_point import WORKING_DIGITS, PrecisePoint
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import VANISHES
 from nag.solving.start.target import StartSystem
 from nag.tracking.paths import Ball
 
-# Digits in which the quotients of projective coordinates are worked out.
-DIGITS = 110
 # Relative error of a coordinate in doubles, where a few operations led to it.
 ROUNDING = 2.0**-50
 # Imaginary parts of real points, relative to their size, where errors are underestimated.
@@ -29,7 +27,7 @@ def affine_point(begin: StartSystem, ball: Ball) -> PrecisePoint:
     shift, x = len(begin.groups), [number_of_words(c) for c in ball.centre]
     values: dict[int, flint.acb] = {}
     errors: dict[int, float] = {}
-    with in_bits(bits_of(DIGITS)):
+    with in_bits(bits_of(WORKING_DIGITS)):
         for k, group in enumerate(begin.groups):
             size = float(abs(x[k]).mid())
             for i in group:

@@ -24,9 +24,9 @@ from nag.algebra.family import Family
 from nag.numerics.array_table import ArrayTable
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import bits_of, doubles
+from nag.numerics.doubles import EPS
 from nag.numerics.krawczyk import invert_matrices
 
-EPS = float(np.finfo(float).eps)
 # Newton steps in doubles at most, and with residuals in `DIGITS` digits.
 STEPS, FINE_STEPS, DIGITS = 8, 4, 50
 # Points at once; and how many are worth more digits, some 10 ms each.

@@ -10,9 +10,10 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.zero_count import Completeness
+from nag.numerics.coincidence import NEAR
 from nag.numerics.digits import DIGITS
+from nag.numerics.doubles import SLACK
 from nag.numerics.singular_point import Place, analyse
-from nag.numerics.zero_values import SLACK
 from nag.solving.isolated_zero import IsolatedZero
 from nag.solving.path_search import PathSearch
 from nag.solving.tropical_zeros import tropical_zeros
@@ -20,8 +21,8 @@ from nag.tracking.paths import PathStatus
 
 # They are looked for beside so many paths: cells take time as well.
 MOST_PATHS = 2000
-# Lost paths at whose last points zeros are looked for, and how near to one these are at best.
-MOST_LOST, NEAR = 16, 1e-6
+# Lost paths at whose last points zeros are looked for.
+MOST_LOST = 16
 # Binary logarithm of a size at which a zero may look infinite to the least evidence: some 1e8.
 EXTREME = 26.0
 

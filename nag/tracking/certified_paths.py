@@ -18,7 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.numerics.array_table import ArrayTable
-from nag.numerics.discs import LEAST, UNIT, UP, Discs, magnitude, rounding_of_sum
+from nag.numerics.discs import LEAST, UP, Discs, magnitude, rounding_of_sum
+from nag.numerics.doubles import UNIT
 from nag.numerics.krawczyk import invert_matrices
 from nag.tracking.moving_discs import MovingSystem, times
 

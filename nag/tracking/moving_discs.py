@@ -18,7 +18,6 @@ import numpy as np
 
 from nag.numerics.discs import (
     LEAST,
-    UNIT,
     UP,
     DiscPolynomials,
     Discs,
@@ -27,6 +26,7 @@ from nag.numerics.discs import (
     magnitude,
     rounding_of_sum,
 )
+from nag.numerics.doubles import UNIT
 from nag.tracking.homotopy import Homotopy
 
 

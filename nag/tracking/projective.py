@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from nag.numerics.coincidence import neighbours
+from nag.numerics.doubles import SLACK
 from nag.tracking.homotopy import norms
 
 Groups = Sequence[Sequence[int]]
@@ -14,8 +15,6 @@ Groups = Sequence[Sequence[int]]
 # Relative error of a point that is known to all digits: rounding of two homogeneous coordinates,
 # and of their quotient.
 ROUNDING = 5 * 2.0**-53
-# Errors that Newton's method estimates may be too small by this factor.
-SAFETY = 1e3
 
 
 def aligned_difference(groups: Groups, first: np.ndarray, second: np.ndarray) -> np.ndarray:
@@ -45,7 +44,7 @@ def coinciding_pairs(groups: Groups, points: np.ndarray, errors: np.ndarray) -> 
         points: of unit norm in each group, shape ``(P, N)``.
         errors: their relative errors, shape ``(P,)``.
     """
-    radii = SAFETY * np.maximum(ROUNDING, errors)
+    radii = SLACK * np.maximum(ROUNDING, errors)
     # |<v, x>|^2 for a fixed v is the same for all multiples of x, and sorts the points.
     key = np.zeros(len(points))
     for indices in groups:

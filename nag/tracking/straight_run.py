@@ -14,6 +14,7 @@ import numpy as np
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import any_less, load, select_less, splat, store
 from nag.machine_code.records import Complexes, Reals, Wholes
+from nag.numerics.doubles import ROUNDED
 from nag.tracking.evaluation import complete_slots, incomplete_slots, products
 from nag.tracking.kernel_arrays import KernelEquations, Work
 from nag.tracking.linear_algebra import factorize, substitute
@@ -50,8 +51,6 @@ ARRIVED, STEP_SIZE, STEPS, START, NOT_FINITE = 0, 1, 2, 3, 5
 PATIENCE = 48
 # Second corrections as small as this do not say how much longer a step may be.
 ROUNDING = 1e-9
-# Least error of a point that is believed.
-LEAST = 1e-15
 # Steps, relative to t, at which a path is left to others.
 SHORTEST = 1e-10
 # Corrections are rounding errors if they are at most so many times what these are estimated to be.
@@ -265,7 +264,7 @@ def _judged(w, lane, b):
     newton = b.newton_end if exact else b.newton
     left = min(theta, 1.0) * second
     if left <= newton or rounding:
-        w.accuracy[lane] = max(left if left <= newton else second, LEAST)
+        w.accuracy[lane] = max(left if left <= newton else second, ROUNDED)
         return ACCEPTED
     return UNFINISHED if w.rounds[lane] < 5 else REJECTED
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 from nag.machine_code.lanes import fma, fnma, load, splat, square_root
+from nag.numerics.doubles import UNIT
 from nag.tracking.evaluation import (
     block_of_jacobian,
     block_of_values,
@@ -19,9 +20,6 @@ from nag.tracking.evaluation import (
     weigh_block,
 )
 from nag.tracking.linear_algebra import PHASE
-
-# Relative error of a double.
-EPSILON = 2.0**-53
 
 
 def factors_or_powers_at(z, s, w):
@@ -119,7 +117,7 @@ def _square(data, k):
 
 def _write_error(z, w, k, square):
     """Rounding errors of terms with a sum of squares; phases that no smooth vector cancels."""
-    size = square_root(square) * splat(EPSILON)
+    size = square_root(square) * splat(UNIT)
     re, im = math.cos(PHASE * (k * k)), math.sin(PHASE * (k * k))
     z.write(w.right, k, z.exact(size * splat(re), size * splat(im)))
 

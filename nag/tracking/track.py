@@ -14,6 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from nag.errors import NagError
+from nag.numerics.coincidence import LEAST
+from nag.numerics.doubles import RESOLVED, ROUGH, ROUNDED, SLACK
 from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.jumps import collisions, find_like_branches
@@ -22,23 +24,19 @@ from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
 from nag.tracking.settings import Settings, find_settings, tighten
 
-# Newton's method may move the end of a path by so many of its errors, and by this much, or by this
-# part of the smallest singular value there.
-STRAYED, LEAST, BASIN = 1e3, 1e-11, 0.1
-# Errors of ends that Newton's method found: of a regular end, and of one of a generic system.
-SHARP, ROUGH = 1e-12, 1e-8
+# Newton's method may move the end of a path by this part of the smallest singular value there, or
+# by what its errors allow.
+BASIN = 0.1
+# Error of a regular end that Newton's method found.
+SHARP = 1e-12
 # Smallest homogenising coordinate of a finite zero of a generic system.
 AT_INFINITY = 1e-10
 # Least ratio of a singular value to a Newton step that proves a regular zero.
 PROOF = 1e5
-# Least error of a path's end that is believed.
-FINEST = 1e-15
 # Rounding errors of a homogenising coordinate that Newton's method found with residuals in
 # double-double, times the inverse of the smallest singular value; and the part of such a coordinate
 # that they may be at a finite end.
 RESIDUAL, SHARE = 1e-29, 1e-14
-# A coordinate that exceeds the error of its point so many times does not vanish.
-NONZERO = 1e3
 # Below so many paths a second thread costs more than it brings.
 PATHS_PER_THREAD = 64
 
@@ -125,7 +123,7 @@ def track_regular(
     ended = np.flatnonzero(raw.reason == Reason.NONE)
     # A row may be small at a point near infinity, so that singular values would say nothing.
     sharp = refine(homotopy, None, raw.points[ended])
-    good = (sharp.moved <= STRAYED * raw.error[ended] + LEAST) & (sharp.error < ROUGH)
+    good = (sharp.moved <= SLACK * raw.error[ended] + LEAST) & (sharp.error < ROUGH)
     points = homotopy.normalized(sharp.points)
     good &= np.abs(points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf) > AT_INFINITY
     return RegularEnds(points[good], ended[good], sharp.error[good])
@@ -215,7 +213,7 @@ def _all_are_found(homotopy: Homotopy, paths: Paths, most: int) -> bool:
     if len(regular) != most or len(collisions(homotopy, paths)):
         return False
     sizes = np.abs(paths.points[regular]).min(axis=1)
-    return bool((sizes > NONZERO * paths.accuracy[regular]).all())
+    return bool((sizes > RESOLVED * paths.accuracy[regular]).all())
 
 
 def run_in_doubles(
@@ -292,11 +290,11 @@ def _judged(homotopy: Homotopy, raw: StraightRun) -> tuple[Paths, np.ndarray]:
     accuracy, condition = np.full(P, np.inf), np.full(P, np.inf)
     ended = np.flatnonzero(raw.reason == int(Reason.NONE))
     if len(ended):
-        error = np.maximum(raw.error[ended], FINEST)
+        error = np.maximum(raw.error[ended], ROUNDED)
         sharp = refine(homotopy, None, points[ended])
         # Newton's method proves a regular zero where its steps are far smaller than the singular
         # values, which hardly change on the way.
-        near = (sharp.moved <= STRAYED * error + LEAST) | (sharp.moved <= BASIN * sharp.smallest)
+        near = (sharp.moved <= SLACK * error + LEAST) | (sharp.moved <= BASIN * sharp.smallest)
         proved = near & (sharp.smallest > 0.5 * sharp.before)
         proved &= (sharp.error < SHARP) & (sharp.smallest > PROOF * sharp.error)
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)

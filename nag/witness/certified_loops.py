@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.certified_points import NEAR, Proof
-from nag.numerics.coincidence import join_labels
+from nag.numerics.certified_points import Proof
+from nag.numerics.coincidence import NEAR, join_labels
 from nag.numerics.discs import Terms
 from nag.tracking.certified_paths import ProvedZeros, certified_paths, prove_zeros_near
 from nag.tracking.moving_discs import MovingPart, MovingSystem

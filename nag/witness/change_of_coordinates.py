@@ -20,6 +20,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.numerics.digits import bits_of, change_units
+from nag.numerics.doubles import EPS
 from nag.numerics.natural_coordinates import NaturalCoordinates, comparable_coordinates
 from nag.witness.close_points import (
     CLOSE,
@@ -31,7 +32,7 @@ from nag.witness.close_points import (
     follow_slice,
 )
 from nag.witness.cutting import Cut
-from nag.witness.exact_points import EPS, sharpen_points
+from nag.witness.exact_points import sharpen_points
 from nag.witness.fibres import Fibre
 from nag.witness.points import Points, with_fine
 from nag.witness.slices import to_slice

@@ -21,6 +21,7 @@ from nag.numerics.newton import find_zero, inverse_of, newton_step, subtract_ste
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.read_only import fixed_array
 from nag.text.json_text import real_or_null
+from nag.tracking.close_paths import WORDS
 from nag.witness.slices import pad_rows
 
 if TYPE_CHECKING:
@@ -32,8 +33,8 @@ CLOSE = 1e-4
 # Far from the origin that suits the equations nothing is tracked, and points are close only where
 # Newton's method about that origin might be led to another one by what doubles round there.
 CLOSE_AFAR = 1e-9
-# Sums of so many doubles, and the digits that they hold.
-WORDS, DIGITS = 4, 62
+# Digits that sums of `WORDS` doubles hold.
+DIGITS = 62
 # The part of the distance to the next point that Newton's method may move a close point by.
 BASIN = 0.1
 # Digits behind the point to which Newton's constant is probed: beyond all distances of points that

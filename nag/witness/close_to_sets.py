@@ -13,18 +13,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.numerics.coincidence import coincident
+from nag.numerics.doubles import ROUNDED
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.numerics.zero_values import ZERO
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre
 from nag.witness.slices import pad_rows
 
-# Zeros nearer to each other than this (decimal logarithm), relative to one, are the same.
-SAME = -80.0
-# Doubles are no more accurate than this, relative to the point; regular ends nearer to a zero than
-# this are compared with it in digits.
-ROUNDED, CLOSE = 1e-15, 1e-9
+# Regular ends nearer to a zero than this, relative to it, are compared with it in digits.
+CLOSE = 1e-9
 # An end is looked at as far about it as so many times its error.
 REACH = 10.0
 
@@ -96,4 +95,4 @@ def is_among_points(zero: SingularEnd, fibres: Sequence[Fibre]) -> bool | None:
 
 def are_same(x: PrecisePoint, y: PrecisePoint) -> bool:
     """Whether points that are known to a hundred digits are one."""
-    return x.log_distance(y) < SAME
+    return x.log_distance(y) < ZERO

@@ -7,21 +7,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.polynomial import ROUND_NUMBERS, Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.coincidence import LEAST
+from nag.numerics.double_ranks import NEARLY_SINGULAR
+from nag.numerics.doubles import ARRIVED
 from nag.numerics.precise_point import POINT_DIGITS, PrecisePoint, precise_zero
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import ON, all_vanish
 from nag.witness.close_points import zero_from
 from nag.witness.fibres import Fibre
-from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import pad_rows
-
-# Above this singular value a zero of as many equations as unknowns needs no confirmation.
-REGULAR = 1e-5
-# Values in doubles below this, beside their terms, are rounding, if coefficients have no more
-# digits.
-CERTAIN, ROUND_NUMBERS = 1e-14, 6
 
 
 def is_confirmed(fibre: Fibre, i: int, equations: Sequence[Polynomial]) -> bool:
@@ -35,7 +31,11 @@ def is_confirmed(fibre: Fibre, i: int, equations: Sequence[Polynomial]) -> bool:
         # Far out, powers of the coordinates leave the range of doubles.
         finite = np.isfinite(matrix).all()
         smallest = np.linalg.svd(matrix, compute_uv=False).min(initial=np.inf) if finite else 0.0
-        if not cut.deflated and len(cut.polynomials) == len(equations) and smallest > REGULAR:
+        if (
+            not cut.deflated
+            and len(cut.polynomials) == len(equations)
+            and smallest > NEARLY_SINGULAR
+        ):
             return True
     return _vanish_at(fibre, i, equations) is True
 
@@ -52,7 +52,7 @@ def find_vanishing(fibre: Fibre, f: Polynomial) -> list[bool | None]:
     small = evaluator.residuals(x)[:, 0] < ON
     if not small.any():
         return [False] * len(x)
-    rounding = np.abs(evaluator.values(x)) <= CERTAIN * evaluator.absolute(x)
+    rounding = np.abs(evaluator.values(x)) <= ARRIVED * evaluator.absolute(x)
     if max(g.digits for g in (f, *cut.polynomials)) > ROUND_NUMBERS:
         rounding[:] = False
     rounding[list(fibre.fine)] = False
@@ -88,7 +88,7 @@ def _vanish_at(fibre: Fibre, i: int, equations: Sequence[Polynomial]) -> bool | 
     if cut.aux or i in fibre.fine:
         return None
     slices = pad_rows(fibre.rows, 1 + len(z))
-    zero = analyse(cut.polynomials, z, ACCURACY, np.random.default_rng(0), slices)
+    zero = analyse(cut.polynomials, z, LEAST, np.random.default_rng(0), slices)
     if zero.place is not Place.ISOLATED or zero.precise is None:
         return None
     return all_vanish(equations, zero.precise)

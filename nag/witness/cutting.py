@@ -18,27 +18,24 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank, pivot_rows
+from nag.numerics.doubles import ARRIVED, MULTIPLE, ROUGH, ROUNDED, SHARP, SLACK
 from nag.numerics.scaling import scaled_terms, variable_scales
-from nag.numerics.zero_values import SLACK
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.witness.isosingular import DeflatedEquations, Level
 from nag.witness.slices import pad_rows
 
-# Newton's method may correct an end by this part of its size: errors of singular ones are unsure.
-NEAR = 1e-7
 # A deflation of more steps that add unknowns has not been met in the literature's examples.
 MOST_DEFLATIONS = 4
 # Gradients below this, relative to what their degree lets them have, are not scaled up further.
 FLAT = 1e-4
 # Newton's method from the end point of a path must arrive within this many steps.
 NEWTON_STEPS = 12
-# Steps that are rounding errors, as are singular values so small beside the largest; last steps at
-# points that are known, well or badly conditioned; and residuals there.
-ROUNDING, SHARP, ROUGH, VANISHING = 1e-14, 1e-10, 1e-8, 1e-11
+# Values at points that are known.
+VANISHING = 1e-11
 # Roundings in such a step, times the condition.
 LOSS = 1e2
-# Rounding errors of values, and what they may change a regular zero's least singular value by.
-ROUNDED, CHANGED = 1e-15, 0.1
+# What rounding errors of values may change a regular zero's least singular value by.
+CHANGED = 0.1
 # Sizes are very unequal if they, and 1, differ by more than two to this power.
 UNEQUAL = 10
 
@@ -165,13 +162,13 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
             # Powers of the coordinates leave the range of doubles.
             return Sharpened(z, np.inf, False)
         weights = 1 / np.maximum(np.linalg.norm(matrix, axis=1), _floors(evaluator, z, len(a)))
-        delta, _, _, s = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=ROUNDING)
+        delta, _, _, s = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=ARRIVED)
         z = z - delta
         if len(s) and s[-1] > 0:
             floor = min(max(SHARP, LOSS * np.finfo(float).eps * s[0] / s[-1]), ROUGH)
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
         # Rounding alone keeps the steps at a badly conditioned point from shrinking further.
-        if step < ROUNDING or (step < floor and step > 0.25 * last):
+        if step < ARRIVED or (step < floor and step > 0.25 * last):
             break
         slow += step > 0.25 * last
         if not np.isfinite(step) or slow > 2:
@@ -193,7 +190,7 @@ def _floors(evaluator: Evaluator, z: np.ndarray, slices: int) -> np.ndarray:
 def is_end(x: np.ndarray, accuracy: float, zero: np.ndarray) -> bool:
     """Whether a zero is where a path ended, not somewhere in the neighbourhood of its end ``x``."""
     distance = np.linalg.norm(zero - x) / (1 + np.linalg.norm(x))
-    return bool(distance <= max(SLACK * accuracy, NEAR))
+    return bool(distance <= max(SLACK * accuracy, MULTIPLE))
 
 
 def _null_basis(rows: np.ndarray, columns: int) -> np.ndarray:

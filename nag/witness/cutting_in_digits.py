@@ -17,7 +17,7 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import regular_block
 from nag.numerics.digits import BITS, in_bits, middle
 from nag.numerics.singular_point import SingularEnd
-from nag.numerics.zero_values import all_vanish, is_negligible
+from nag.numerics.zero_values import ZERO, all_vanish, is_negligible
 from nag.witness.close_points import CLOSE, PointInWords, fine_of_balls, with_newton_constant
 from nag.witness.close_to_sets import find_nearby_zeros
 from nag.witness.confirm import zero_in_digits
@@ -26,8 +26,6 @@ from nag.witness.fibres import Fibre, admit_end
 from nag.witness.isosingular import DeflatedEquations
 from nag.witness.slices import pad_rows
 
-# A pivot that is none in `DIGITS` digits (decimal logarithm).
-ZERO = -80.0
 # Part of its size that a point is off where doubles tell Newton's constant there: where other zeros
 # are close, second corrections are 1e-8 then, which at conditions up to 1e8 no rounding error is.
 PROBED = 1e-6

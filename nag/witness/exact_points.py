@@ -20,6 +20,8 @@ import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.coincidence import LEAST
+from nag.numerics.doubles import EPS
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import WRITTEN, choose_alike, possible_zeros
@@ -27,8 +29,7 @@ from nag.tracking.newton import Refined, refine
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import sharpen
 from nag.witness.fibres import Fibre, homogeneous
-from nag.witness.frame import EPS, Frame
-from nag.witness.multiplicity import ACCURACY
+from nag.witness.frame import Frame
 from nag.witness.slices import pad_rows
 from nag.witness.witness import DOUBLE, WitnessSet, relative_errors
 
@@ -308,7 +309,7 @@ def exact_zeros(
         accuracy = radii
     elif component.fibres or not (each_known or simple):
         # Of what was sharpened by a deflation no more is known.
-        accuracy = max(component.accuracy, ACCURACY)
+        accuracy = max(component.accuracy, LEAST)
     zeros = possible_zeros(equations, x, accuracy, np.random.default_rng(0), rows)
     if isolated:
         # Paths end at a zero as many times as its multiplicity says: no other is meant.

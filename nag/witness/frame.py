@@ -8,13 +8,12 @@ import numpy as np
 
 from nag.algebra.elimination import Elimination
 from nag.algebra.symmetry import SignedPermutation
+from nag.numerics.doubles import EPS
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.witness.close_points import PointInWords
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
 from nag.witness.witness import Decomposition, Slice, WitnessSet
-
-EPS = float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,13 +13,12 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.numerics.double_ranks import numerical_corank
+from nag.numerics.doubles import ARRIVED, SHARP
 
 MOST_STEPS = 200
 # Residuals from which the undamped steps take over, and that a zero must reach.
 CLOSE = 1e-6
 ZERO = 1e-13
-# The last step at a zero, relative to the point.
-SHARP = 1e-10
 # Singular values below this, relative to the largest, may belong to the kernel on the zero set.
 SMALL = 1e-3
 # Damping, beside the squared residual: where it begins, the least, and that from which on steps are
@@ -27,8 +26,8 @@ SMALL = 1e-3
 FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING = 1e-2, 1e-8, 1e8
 # Part of what a linear equation would gain that makes a step worth taking.
 GAIN = 1e-3
-# Steps that are rounding errors; and that may be, where they do not shrink any more.
-ARRIVED, NEARLY = 1e-14, 1e-11
+# Steps that may be rounding errors, where they do not shrink any more.
+NEARLY = 1e-11
 
 
 @dataclass(frozen=True, eq=False)

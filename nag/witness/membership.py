@@ -19,11 +19,12 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import BEYOND, MISS, classify_arrivals
-from nag.numerics.digits import bits_of, doubles, in_bits, to_ball
+from nag.numerics.digits import BITS, bits_of, doubles, in_bits, to_ball
+from nag.numerics.doubles import ROUNDED
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.newton import newton_step
 from nag.numerics.singular_point import Place, analyse
-from nag.numerics.zero_values import NONZERO
+from nag.numerics.zero_values import LEAST, NONZERO, ON
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.close_points import BASIN, DIGITS, PointInWords, distance, with_newton_constant
@@ -38,12 +39,6 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # What rounding may do to a point that is close to others, and how much further the next one is.
 SPREAD = 10.0
-# Digits in which exact points are compared with zeros that are known to 100.
-EXACTLY = 150
-# A point that satisfies the equations so well, relative to their terms, is taken for a rounded one.
-ROUNDED = 1e-9
-# Relative error of an exact point that is rounded to doubles, and least one of others.
-EXACT, INEXACT = 1e-15, 1e-12
 
 
 class Membership(Enum):
@@ -393,7 +388,7 @@ def locate_point(
 ) -> PointMembership:
     """Which components of a decomposition an exact point lies on.
 
-    One that satisfies the equations to `ROUNDED` only is taken for a rounded one.
+    One that satisfies the equations to `ON` only is taken for a rounded one.
 
     Args:
         decomposition: with every component of each orbit.
@@ -406,11 +401,11 @@ def locate_point(
     evaluator = Evaluator.of(system.polynomials, system.n)
     residual = float(evaluator.residuals(at[None]).max(initial=0.0))
     answers = (Membership.FOREIGN,) * len(components)
-    if exact or residual < ROUNDED:
+    if exact or residual < ON:
         answers = memberships(
             decomposition,
             at,
-            accuracy=EXACT if exact else max(INEXACT, 10 * residual),
+            accuracy=ROUNDED if exact else max(LEAST, 10 * residual),
             exact=tuple(point) if exact else (),
             run=run,
         )
@@ -589,7 +584,7 @@ def _is_exactly(
     known = zeros[0].precise if len(zeros) == 1 else None
     if known is None:
         return None
-    with in_bits(bits_of(EXACTLY)):
+    with in_bits(BITS):
         pairs = zip(known.centre, map(to_ball, point), strict=True)
         gaps = [float(abs(a - b).mid()) for a, b in pairs]
     return bool((np.array(gaps) <= SPREAD * known.radii).all())
@@ -661,7 +656,7 @@ def rounded_error(system: PolynomialSystem, at: np.ndarray) -> float | None:
     """The relative error that a zero known to rounding may have; None if the point is none."""
     evaluator = Evaluator.of(system.polynomials, system.n)
     residual = float(evaluator.residuals(at[None]).max(initial=0.0))
-    return max(INEXACT, 10 * residual) if residual < ROUNDED else None
+    return max(LEAST, 10 * residual) if residual < ON else None
 
 
 def membership_in(
@@ -692,13 +687,13 @@ def is_on_component(
     if exact:
         if not all(is_zero(value) for value in system(entries)):
             return False
-        accuracy = EXACT
+        accuracy = ROUNDED
     else:
         evaluator = Evaluator.of(system.polynomials, system.n)
         residual = float(evaluator.residuals(at[None]).max(initial=0.0))
-        if residual > max(ROUNDED, accuracy or 0.0):
+        if residual > max(ON, accuracy or 0.0):
             return False
-        accuracy = max(INEXACT, 10 * residual) if accuracy is None else accuracy
+        accuracy = max(LEAST, 10 * residual) if accuracy is None else accuracy
     answer = membership_in(system, component, at, accuracy, run, entries if exact else ())
     if answer is Membership.UNDECIDED:
         raise UndecidedError([], [0])

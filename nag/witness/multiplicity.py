@@ -16,17 +16,12 @@ import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.coincidence import classify_arrivals
+from nag.numerics.coincidence import LEAST, classify_arrivals
+from nag.numerics.doubles import MULTIPLE
 from nag.numerics.zero_values import WRITTEN, multiplicity_of_all, possible_zeros
 from nag.tracking.run import Run
 from nag.witness.fibres import Fibre, move_through
 from nag.witness.slices import pad_rows
-
-# How well points are known that were sharpened in doubles, by a deflation that may be badly
-# conditioned.
-ACCURACY = 1e-11
-# Relative error of ends at a point of multiplicity m, about the m-th root of rounding.
-MULTIPLE = 1e-7
 
 
 def multiplicity(
@@ -41,7 +36,7 @@ def multiplicity(
     for any of several zeros, it is what they all have. See
     `nag.numerics.singular_point.analyse`.
     """
-    accuracy = ACCURACY if isinstance(x, np.ndarray) else WRITTEN
+    accuracy = LEAST if isinstance(x, np.ndarray) else WRITTEN
     zeros = possible_zeros(polynomials, x, accuracy, rng, pad_rows(rows, 1 + len(x)))
     return multiplicity_of_all(zeros) or 0
 

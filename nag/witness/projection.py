@@ -17,6 +17,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
 from nag.numerics.coincidence import clusters
 from nag.numerics.double_ranks import matrix_corank
+from nag.numerics.doubles import EPS, ROUGH
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -28,7 +29,6 @@ from nag.witness.change_of_coordinates import (
 from nag.witness.component_equations import component_fibres
 from nag.witness.exact_points import SharpPoints
 from nag.witness.fibres import Fibre
-from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
 from nag.witness.moving import move_and_sharpen
 from nag.witness.slices import random_rows, to_slice
@@ -36,8 +36,6 @@ from nag.witness.witness import Slice, WitnessSet, relative_errors
 
 # Slices on which the numbers of points must agree.
 SLICES = 2
-# Newton's last step, relative to the point, at points that are compared.
-SHARP = 1e-8
 
 
 class ProjectionError(ComponentError):
@@ -184,7 +182,7 @@ def _pseudo_witness(
     target = _special_rows(rng, sizes, coordinates, r, d - r)
     there, paths = move_and_sharpen(fibres, target, rng, run)
     # Finite points of a generic slice are regular (Bertini's theorem).
-    if paths.failed or not there.accuracy < SHARP:
+    if paths.failed or not there.accuracy < ROUGH:
         raise ProjectionError("paths failed; the component may not be irreducible")
     units = sizes[[1 + i for i in coordinates]]
     image = there.x[:, list(coordinates)] / units

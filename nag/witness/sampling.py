@@ -13,6 +13,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
+from nag.numerics.doubles import EPS, SHARP
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.zero_values import ON
@@ -23,14 +24,10 @@ from nag.witness.change_of_coordinates import carry_component, carry_points, coo
 from nag.witness.component_equations import component_fibres
 from nag.witness.exact_points import SharpPoints
 from nag.witness.fibres import Fibre
-from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
 from nag.witness.moving import move_and_sharpen
 from nag.witness.slices import random_rows
 from nag.witness.witness import WitnessSet, relative_errors
-
-# Newton's last step, relative to the point, at a sample.
-SHARP = 1e-10
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,6 +23,7 @@ import numpy as np
 from nag.algebra.exact_ranks import LARGE
 from nag.errors import StartError
 from nag.numerics.digits import bits_of, in_bits
+from nag.numerics.precise_point import POINT_DIGITS
 from nag.solving.start.coefficient_monodromy import (
     GenericSystem,
     find_by_loops,
@@ -43,8 +44,8 @@ from nag.tracking.track import track_regular
 ROUNDING, FINE_ROUNDING, VISIBLE = 1e-12, 1e-50, 10.0
 # A larger sum is none of rounding, whatever the points' condition.
 CLEAR = 1e-6
-# Steps of Newton's method from doubles to 64 digits, and digits of what is worked out from these.
-STEPS, DIGITS = 5, 100
+# Steps of Newton's method from doubles to 64 digits.
+STEPS = 5
 # Bits of the pencil's random numbers behind the point, and of the coefficients that their products
 # are added to: those of all its systems are exact in doubles then, and their points are known to
 # any number of digits.
@@ -188,7 +189,7 @@ def _second_differences(
     for rows, points in there:
         homotopy = Homotopy(rows, np.zeros((0, rows.N), dtype=complex))
         fine.append(affine_points(newton_steps(homotopy, points, 4, STEPS)))
-    with in_bits(bits_of(DIGITS)):
+    with in_bits(bits_of(POINT_DIGITS)):
         u, v = map(flint.acb, shifts)
         differences = [
             [(b - a) / u - (c - a) / v for a, b, c in zip(*each, strict=True)]

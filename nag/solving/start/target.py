@@ -13,14 +13,13 @@ from nag.algebra.combinations import of_fewest_terms
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.errors import NagError
+from nag.numerics.doubles import UNIT
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.known import NOTHING, KnownOfPaths
 
-# Largest relative error of a number that is rounded to a double.
-HALF_UNIT = 2.0**-53
 Terms = Mapping[Exponents, Number | complex]
 
 
@@ -109,7 +108,7 @@ class Target:
         before = np.linalg.norm(points * self._units, axis=1)
         after = np.linalg.norm(self.original(points), axis=1)
         shift = float(np.linalg.norm(self._origin))
-        return HALF_UNIT * (before + shift + after) / (1 + after)
+        return UNIT * (before + shift + after) / (1 + after)
 
     def original_radii(self, point: np.ndarray, radii: np.ndarray | None) -> np.ndarray | None:
         """Errors of a point's original coordinates, from those of ``y``, shape ``(n,)``."""

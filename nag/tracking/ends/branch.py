@@ -11,12 +11,11 @@ from __future__ import annotations
 import math
 
 from nag.machine_code.lanes import any_less, fma, load, select_less, splat, square_root, store
+from nag.numerics.doubles import SMALLEST
 from nag.tracking.numbers.complex_numbers import SMALL_SQUARE, largest, length
 
 # Longest step, in log t.
 LONGEST = 40.0
-# A last term of a series that is as small as this is none.
-TINY = 1e-290
 
 
 def _keep(z, data, k, accepted, value):
@@ -66,7 +65,7 @@ def estimate_radius(z, s, r, order):
         own = z.magnitude(z.read(r.series, (order - 3) * size + j)) * weight
         other = z.magnitude(z.read(r.fresh, (order - 3) * s.N + j)) * share
         third = largest(third, select_less(log, plain, other, own))
-    least = splat(TINY)
+    least = splat(SMALLEST)
     inverse = splat(1.0) / largest(last, least)
     radius = largest(second * inverse, square_root(third * inverse))
     store(r.measures, 0, select_less(least, last, radius, splat(LONGEST)))

@@ -16,8 +16,6 @@ FLOOR, DOUBLES = 1e-9, 1e-13
 MOST_CORRECTIONS = 12
 # Corrections of so many rounding errors may be nothing else.
 STAGNANT = 1e2
-# A second correction of so many says how large Newton's constant is at most, not what it is.
-NOISY = 1e2
 
 
 def lay_floors(z, s, r):
@@ -130,7 +128,7 @@ def _judged(z, r, lane, k):
     if k == 1:
         # A second correction that is half rounding errors says how large it is at most.
         curvature = theta / r.first[lane]
-        if excess <= NOISY:
+        if excess <= STAGNANT:
             curvature = min(curvature, r.curvature[lane])
         r.curvature[lane] = curvature
     if noise:

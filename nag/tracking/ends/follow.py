@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nag.numerics.doubles import RESOLVED, ROUNDED
 from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.inclusion import prove_end
 from nag.tracking.ends.limits import BEYOND, LEAST_EVIDENCE, Limit, Limits, digits_of_evidence
@@ -28,10 +29,6 @@ GAINED, NEARLY = 0.1, 1e-6
 NOISE = 1e-3
 # Part of t at which a limit is looked for next, where nothing is known of it, and the least.
 FURTHER, FURTHEST = 1e-3, 1e-8
-# A coordinate is known if it exceeds its rounding error so many times.
-KNOWN = 1e3
-# Relative error of a finite end, as a point of affine space, that more digits need not better.
-SHARP = 1e-15
 
 
 @dataclass(eq=False)
@@ -147,7 +144,7 @@ class States:
 
     def known(self, path: int) -> np.ndarray:
         """Which coordinates exceed their rounding errors."""
-        return np.abs(self.point(path)) > KNOWN * self.errors[path]
+        return np.abs(self.point(path)) > RESOLVED * self.errors[path]
 
 
 def _in_words(points: np.ndarray, words: int = 2) -> np.ndarray:
@@ -275,7 +272,7 @@ def _follow_in(
                         again.append(path)
                     del states.found[path]
                 elif _ambiguous(homotopy, states, path, needs[0], terms) or (
-                    more and _affine_error(homotopy, states, path) > SHARP
+                    more and _affine_error(homotopy, states, path) > ROUNDED
                 ):
                     states.ends[path], states.tried[path] = states.found.pop(path), 0
                     states.limits.pop(path, None)
@@ -299,7 +296,7 @@ def _confirmed(states: States, path: int, terms: Terms) -> bool:
 def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float, terms: Terms) -> bool:
     """Whether a regular end is at infinity to fewer digits than are needed, or only seems to be."""
     far = [j for j in homotopy.infinity if not states.known(path)[j]]
-    if not far or float(KNOWN * states.errors[path][far].max()) > need:
+    if not far or float(RESOLVED * states.errors[path][far].max()) > need:
         return bool(far)
     return not at_infinity(terms, states.found[path], far)
 

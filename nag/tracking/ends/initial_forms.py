@@ -20,6 +20,7 @@ import numpy as np
 
 from nag.numerics.ball_polynomials import Factors
 from nag.numerics.digits import in_bits, log_size
+from nag.numerics.double_ranks import INDEPENDENT
 from nag.tracking.ends.terms import Terms
 from nag.tracking.paths import NEVER
 
@@ -28,8 +29,6 @@ FINE = 400
 # Values that are zero, and by how much others must grow so many errors away, or this far at least:
 # decimal logarithms.
 ZERO, GROWN, AWAY, CLOSE = -100.0, 2.0, 1e4, 1e-10
-# Singular values that are none, relative to the largest.
-RANK = 1e-6
 # Steps of Newton's method with a fixed inverse, and their least gain, decimal logarithm.
 STEPS, GAIN = 40, 1.0
 
@@ -150,7 +149,7 @@ def _inverse(
             for j, k in factors:
                 row[j] += k * part
     jacobian[range(len(forms), len(jacobian)), first] = 1.0
-    return np.linalg.pinv(jacobian, rcond=RANK)[:, : len(forms)]
+    return np.linalg.pinv(jacobian, rcond=INDEPENDENT)[:, : len(forms)]
 
 
 def _left(forms: Sequence[Form], inverse: np.ndarray, x: Sequence[Any]) -> np.ndarray:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from nag.machine_code.lanes import load, select_less, splat, store
+from nag.numerics.doubles import RESOLVED
 from nag.tracking.ends.branch import keep_series
-from nag.tracking.ends.linear_algebra import RESOLVED
 from nag.tracking.numbers.complex_numbers import largest
 
 # Largest product of the rounding error of a point and Newton's constant that leaves it safe.

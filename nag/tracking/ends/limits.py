@@ -17,6 +17,7 @@ import flint
 import numpy as np
 
 from nag.algebra.number import decimal_digits
+from nag.algebra.polynomial import ROUND_NUMBERS
 from nag.numerics.digits import in_bits, number_of_words, real_of_words, words_of_number
 from nag.tracking.ends.initial_forms import FINE, InitialForms
 from nag.tracking.ends.runs import MAX_WINDING
@@ -24,9 +25,8 @@ from nag.tracking.ends.terms import BITS, Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import NEVER, relative
 
-# Digits to which equations with coefficients of so few digits must hold at least, and the most
-# that may be asked for.
-LEAST_EVIDENCE, ROUND_NUMBERS, MOST_EVIDENCE = 14, 6, 58
+# Digits to which equations must hold at least, and the most that may be asked for.
+LEAST_EVIDENCE, MOST_EVIDENCE = 14, 58
 # An order in units of 1 / w is a whole number to so many units.
 WHOLE = 1e-3
 LARGEST = 100

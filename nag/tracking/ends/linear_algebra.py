@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from nag.machine_code.lanes import fma, load, select_less, splat, square_root, store
+from nag.numerics.doubles import LARGEST, RESOLVED, SMALLEST
 from nag.tracking.linear_algebra import PHASE, order_rows
 from nag.tracking.numbers.complex_numbers import largest
 from nag.tracking.numbers.error_free import power_near_inverse
@@ -13,10 +14,6 @@ from nag.tracking.numbers.error_free import power_near_inverse
 GONE = 1e-6
 # Largest coordinate of a point from doubles that may be nothing but their rounding errors.
 ROUGHEST = 1e-6
-# A coordinate that exceeds its rounding error so many times is not zero.
-RESOLVED = 1e3
-# Values whose inverses, and products with others, stay in the range of doubles.
-LEAST, LARGEST = 1e-290, 1e290
 
 
 def _power_near_inverse(r, value):
@@ -24,7 +21,7 @@ def _power_near_inverse(r, value):
     store(r.measures, 0, value)
     for lane in range(8):
         size = r.measures[lane]
-        finite = size > LEAST and size < LARGEST
+        finite = size > SMALLEST and size < LARGEST
         r.measures[lane] = power_near_inverse(size) if finite else 1.0
     return load(r.measures, 0)
 
