@@ -15,13 +15,18 @@ numerics.doubles.ARRIVED *                  1e-14   Newton's steps, values besid
                                                     rounding where coefficients have at most six
                                                     digits; with longer ones, zeros are computed to
                                                     100 digits.
-numerics.doubles.SHARP *                    1e-10   Newton's last step at a zero: all below 7e-14.
+numerics.doubles.SHARPEST *                 1e-12   Newton's last step at a regular end in doubles,
+                                                    2800 of which lay below 1.1e-15; larger ones, as
+                                                    one of 5e-11, get 32 digits.
+numerics.doubles.SHARP *                    1e-10   The same at a zero: all below 7e-14.
 numerics.doubles.ROUGH                      1e-8    The same where the point is badly conditioned,
                                                     and of zeros of generic systems, which are
                                                     tracked in doubles alone. Ends of loops may have
                                                     such errors, whatever the tracker thinks: a jump
                                                     to a close point must not join components. Error
                                                     of a point where none is told.
+numerics.doubles.VANISHING *                1e-11   Values at a point where Newton's method arrived:
+                                                    all lay below 2e-16.
 numerics.doubles.MULTIPLE                   1e-7    Error of a singular end, about a root of
                                                     rounding; estimates of it are themselves
                                                     uncertain.
@@ -137,11 +142,6 @@ tracking.track.PROOF *                      1e5     Smallest singular value over
 tracking.track.RESIDUAL *                   1e-29   A homogenising coordinate of a regular end in
                                                     doubles, residuals in double-double, is known to
                                                     this over the smallest singular value.
-tracking.track.SHARE                        1e-14   Part of it that this may be, as points are as
-                                                    accurate after division. Others get 32 digits.
-tracking.track.SHARP *                      1e-12   Newton's last step at a regular end in doubles,
-                                                    2800 of which lay below 1.1e-15; larger ones, as
-                                                    one of 5e-11, get 32 digits.
 tracking.track.AT_INFINITY                  1e-10   Homogenising coordinates of finite zeros of such
                                                     systems.
 tracking.jumps.ALIKE                        1e-9    Leading coefficients of branches that are
@@ -153,12 +153,9 @@ tracking.certified_paths.SHORTEST           1e-9    Steps, relative to t, at whi
                                                     without a proof.
 tracking.ends.at_infinity.ZERO              -150    Decimal logarithm of coordinates, beside the
                                                     largest, that are zero in 160 digits.
-tracking.ends.initial_forms.ZERO            -100    Decimal logarithm of forms that are zero at a
-                                                    limit at infinity, of 120 digits.
 tracking.ends.initial_forms.GROWN           2       Digits by which others must grow away from it,
                                                     as about a multiple zero: a constant shows that
                                                     the forms have no zero.
-tracking.ends.initial_forms.AWAY            1e4     How far away that is, in errors of the limit.
 tracking.ends.initial_forms.CLOSE           1e-10   The least that this is.
 tracking.ends.limits.LEAST_EVIDENCE *       14      Digits to which the exact equations' terms of
                                                     least order must cancel at a limit, so that
@@ -204,7 +201,6 @@ tracking.ends.linear_algebra.ROUGHEST       1e-6    Coordinate of a point from d
                                                     lead away from the path.
 solving.path_ends.INFINITE                  2e-12   Homogenising coordinates of ends at infinity,
                                                     beside what is proved of them.
-solving.path_ends.ROUGHLY_INFINITE          1e-7    The same of ends in few digits.
 solving.path_ends.NEARLY                    1e-5    Values, beside their terms, of ends that are no
                                                     zeros, however badly they are known.
 solving.isolated_zero.REAL *                1e-10   Imaginary parts, beside a point's size, of zeros
@@ -228,7 +224,6 @@ solving.solution_classes.CLEAR              1e-3    Errors of a class's invarian
                                                     is not told from others: its path is lost.
 solving.solve_classes.FEW                   0.1     Part of the classes that chance may lose; more,
                                                     and the parameters are special.
-solving.start.family_monodromy.VANISHING    1e-13   Values at a first solution.
 solving.start.mixed_cells.SHARE             1e-8    Distance from 0 and 1 of fractions with volumes
                                                     of cells below: less is rounding.
 solving.start.mixed_cells.ZERO              1e-9    The same of pivots, and of rates from 0.
@@ -240,8 +235,6 @@ solving.start.monodromy.ROUNDING            1e-12   Sum of second differences ov
                                                     motion that is rounding.
 solving.start.monodromy.VISIBLE             10      Own second difference of each point, in those,
                                                     without which its absence could not show.
-witness.close_to_sets.CLOSE                 1e-9    Ends of regular paths nearer than this to a zero
-                                                    are compared with it in digits.
 witness.close_to_sets.REACH                 10      Errors of an end within which others are taken
                                                     to stand for the same zeros, which are looked at
                                                     once.
@@ -271,12 +264,9 @@ witness.cutting.CHANGED                     0.1     Part of the smallest singula
                                                     may change as far from a zero as rounding errors
                                                     of the values say: more may be a double zero's,
                                                     which is looked for in more digits.
-witness.cutting.VANISHING *                 1e-11   Values at a point where Newton's method arrived:
-                                                    all lay below 2e-16.
 witness.exact_points.RESIDUAL               1e-31   Error of residuals in double-double: a bound.
 witness.exact_points.ARRIVED                1e-6    Newton's last step in doubles; after a larger
                                                     one points are found in balls.
-witness.gauss_newton.ZERO                   1e-13   Values at a zero found from a random point.
 witness.gauss_newton.SMALL                  1e-3    Singular values, over the largest, that may
                                                     belong to the kernel; the gap decides.
 witness.membership.SPREAD                   10      Distances, in what rounding may do to a point,
@@ -362,11 +352,8 @@ real.arc_tracing.SHRINK                     0.05    Newton's second correction b
                                                     where another branch is as many times as far as
                                                     the point is off.
 real.find_curve.SAME                        1e-12   Difference of critical values of two methods.
-mechanism.assembly.REAL                     1e-8    Imaginary parts of real assemblies, relative.
 mechanism.inverse_kinematics.REACHED        1e-10   Relative residual of a pose that a leg reaches;
                                                     what it does not reach is said, not dismissed.
-mechanism.inverse_kinematics.DISPLACEMENT   1e-6    Norm of a factor, beside the squares that it is
-                                                    the sum of, from which it is a displacement.
 mechanism.pose_model.REAL                   1e-12   Imaginary parts of Study coordinates of a pose,
                                                     relative, that is lifted to real joints.
 mechanism.motions.NO_PITCH                  1e-7    Pitches, moments and entries of unit axes that
@@ -380,8 +367,6 @@ mechanism.nearly_mobile.PARALLEL            9e-4    Squared sines of angles betw
                                                     as parallel, where a centre is looked for.
 mechanism.nearly_mobile.HINT                1e-6    Smallest singular value, beside the next, at
                                                     which a rigid mechanism may be meant to move.
-mechanism.overconstrained.CLOSE             1e-9    Lengths and sines of angles that are the same,
-                                                    of lines that were fitted in doubles.
 kinematics.path.KERNEL                      1e-8    Singular values of equations along a curve, over
                                                     the largest, that are zero: Newton's steps that
                                                     bring samples onto it leave them out.
@@ -423,24 +408,24 @@ PHASE; tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER; tracking.
 CORRECT, TINY, FAR; tracking.projective: ROUNDING; tracking.track: BASIN; tracking.ends.end_run:
 TRIAL, SMALLER, SHORTEST, LAST_T; tracking.ends.follow: FURTHER, FURTHEST; tracking.jumps:
 NEIGHBOURS; tracking.settings: TIGHTER, SHARPER; tracking.straight_run: SHORTEST, OVERFLOW,
-ROUNDING, FARTHEST; solving.certified_paths: FURTHER; solving.kantorovich: SMALL, PROMISING, WIDEST,
-TINY; solving.isolated_zero: ROUNDING; solving.branch_solutions: ROUGH; solving.solution_classes:
-STEP; solving.start.choice: WORK; solving.start.family_monodromy: SHARP;
-solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
-solving.tropical_zeros: ARRIVED, NEAR; witness.close_points: STEEPEST; witness.cutting: FLAT, LOSS;
-witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP, BITS_PER_DIGIT, SPLITTER; witness.fibres:
-STEEPER; witness.gauss_newton: CLOSE, FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, NEARLY;
-witness.real_points: SPREAD, SHORTEST, STILL; decomposition.curve_genus: NEAR, OUTSIDE, SHRINK,
-LEAST_RADIUS; decomposition.hypersurface: NEARER; decomposition.growth: PATH, FACTOR, ENTRY, STEP;
-decomposition.superset: REGULAR; decomposition.power_sums: EQUATIONS, ROUNDING, EVEN;
-decomposition.zero_sums: SPARE; real.arc_tracing: ARRIVED, CHORD, CORRECTION, EASY, FIRST, LARGEST,
-LEAST, MOVED, REACHED, ROUNDED, TURN; real.arcs: NEAR_END; real.critical_values: ASIDE, PARTED;
-real.even_points: CHORD, HALF_ANGLE, KEPT, TURN; real.fibre_table: SAME; real.find_curve:
-LEAST_RADIUS; real.real_pieces: SIZES; real.real_samples: SPREAD; mechanism.bonds: NEAR, NEARER,
-LEAST_SIZE; mechanism.inverse_kinematics: TINY, LEAST_DAMPING, LEAST_SHARE; mechanism.mobility_at:
-LEAST_SECONDS; mechanism.moving_parts: LENGTH; mechanism.nearly_mobile: STEP, SHORTEST_STEP,
-STRAIGHT, BEND, LONGEST_SLIDE, WEIGHTS, COMPLEX_STEP, SMALL; mechanism.operation_modes: NEARER;
-kinematics.path: ARRIVED, PROMISING; kinematics.turning_points: NARROWER; files.json_values: AGREES;
-check.four_way: ROUNDING; decomposition.shown: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:
-PATIENCE; cli.running: INTERVAL; numerics.doubles: LARGEST, SMALLEST, EPS, UNIT.
+ROUNDING, FARTHEST; solving.certified_paths: FURTHER; solving.kantorovich: PROMISING, WIDEST, TINY;
+solving.isolated_zero: ROUNDING; solving.branch_solutions: ROUGH; solving.solution_classes: STEP;
+solving.start.choice: WORK; solving.start.family_monodromy: SHARP; solving.start.multihomogeneous:
+EXACT; solving.start.polyhedral: WIDTH, LENGTH; solving.tropical_zeros: NEAR; witness.close_points:
+STEEPEST; witness.cutting: FLAT, LOSS; witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP,
+BITS_PER_DIGIT, SPLITTER; witness.fibres: STEEPER; witness.gauss_newton: CLOSE, FIRST_DAMPING,
+LEAST_DAMPING, MOST_DAMPING, GAIN, NEARLY; witness.real_points: SPREAD, SHORTEST, STILL;
+decomposition.curve_genus: NEAR, OUTSIDE, SHRINK, LEAST_RADIUS; decomposition.hypersurface: NEARER;
+decomposition.growth: PATH, FACTOR, ENTRY, STEP; decomposition.superset: REGULAR;
+decomposition.power_sums: EQUATIONS, EVEN; decomposition.zero_sums: SPARE; real.arc_tracing:
+ARRIVED, CHORD, CORRECTION, EASY, FIRST, LARGEST, LEAST, MOVED, REACHED, ROUNDED, TURN; real.arcs:
+NEAR_END; real.critical_values: ASIDE, PARTED; real.even_points: CHORD, HALF_ANGLE, KEPT, TURN;
+real.fibre_table: SAME; real.find_curve: LEAST_RADIUS; real.real_pieces: SIZES; real.real_samples:
+SPREAD; mechanism.bonds: NEAR, NEARER, LEAST_SIZE; mechanism.inverse_kinematics: TINY,
+LEAST_DAMPING, LEAST_SHARE; mechanism.mobility_at: LEAST_SECONDS; mechanism.moving_parts: LENGTH;
+mechanism.nearly_mobile: STEP, SHORTEST_STEP, STRAIGHT, BEND, LONGEST_SLIDE, WEIGHTS, COMPLEX_STEP,
+SMALL; mechanism.operation_modes: NEARER; kinematics.path: ARRIVED, PROMISING;
+kinematics.turning_points: NARROWER; files.json_values: AGREES; decomposition.shown: NOTHING;
+cli.bench: PATIENCE; cli.bench_decompose: PATIENCE; cli.running: INTERVAL; numerics.doubles:
+LARGEST, SMALLEST, EPS, UNIT.
 """

@@ -130,7 +130,7 @@ def watched(measured: Measured) -> ExitStack:
     def refined(sharp: Any, homotopy: Any, *_: Any) -> None:
         close = sharp.error < 1e-12
         ratio = sharp.smallest / sharp.error
-        measured.add("SHARP (of track)", tracking.SHARP, sharp.error)
+        measured.add("SHARPEST", doubles.SHARPEST, sharp.error)
         measured.add("PROOF", tracking.PROOF, ratio[close])
         proved = close & (ratio > tracking.PROOF)
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
@@ -253,9 +253,9 @@ def watched_decomposition(measured: Measured) -> ExitStack:
 
     def sharpened(found: Any, evaluator: Any, *_: Any) -> None:
         if np.isfinite(found.step):
-            measured.add("SHARP (of cutting)", doubles.SHARP, found.step)
+            measured.add("SHARP", doubles.SHARP, found.step)
             residuals = evaluator.residuals(found.z[None]).max(initial=0.0)
-            measured.add("VANISHING", cutting.VANISHING, residuals)
+            measured.add("VANISHING", doubles.VANISHING, residuals)
 
     def straight(_: Any, own: Any, indices: Any) -> None:
         motion = max(own.known[i].motion for i in indices)

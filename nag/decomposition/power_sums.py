@@ -17,6 +17,7 @@ from math import comb
 import numpy as np
 
 from nag.algebra.evaluation import series_products
+from nag.numerics.doubles import EPS
 from nag.witness.cutting import Cut
 from nag.witness.points import Points
 from nag.witness.slices import complex_normal, pad_rows
@@ -26,9 +27,8 @@ FEWEST_POWERS, MOST_POWERS, MOST_DEGREE, EQUATIONS = 4, 12, 4, 1.5
 # Singular values that are no errors of the equations, in units of these; and how far solutions of
 # equations may be from 0 and 1.
 CERTAIN, UNCLEAR = 100.0, 0.1
-# Relative errors of points in doubles, and least errors of columns; and the least over that of the
-# worst column, as indicators are read in units of errors.
-ROUNDING, EVEN = 2e-16, 1e-4
+# Least error of a column over that of the worst one, as indicators are read in units of errors.
+EVEN = 1e-4
 # Points that are looked at together.
 BLOCK = 300
 
@@ -63,7 +63,7 @@ class PowerSums:
             sizes = np.linalg.norm(first, axis=1, keepdims=True)
             sizes[sizes == 0] = 1.0
             first, second = first / sizes, second / sizes
-            errors = np.linalg.norm(first - second, axis=0) + ROUNDING
+            errors = np.linalg.norm(first - second, axis=0) + EPS
         return cls(first, errors)
 
     def smallest_unions(self, classes: Sequence[np.ndarray]) -> list[list[int]] | None:
@@ -200,7 +200,7 @@ def _series(
 
     values = np.concatenate([evaluator.values(z), rows[:, 0] + z @ slopes.T], axis=1)
     z = z - np.linalg.solve(jacobians(z), values[:, :, None])[:, :, 0]
-    z = z * (1 + ROUNDING * complex_normal(rng, z.shape))
+    z = z * (1 + EPS * complex_normal(rng, z.shape))
     inverse = np.linalg.inv(jacobians(z))
     result = np.zeros((count, m, 1 + powers), dtype=complex)
     result[:, :, 0], result[:, :, 1] = z, -inverse[:, :, -1]

@@ -10,9 +10,7 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.axes import Space
 from nag.mechanism.path_estimates import Alternative
-
-# Imaginary parts of real assemblies, relative to the size of the point.
-REAL = 1e-8
+from nag.numerics.doubles import ROUGH
 
 
 @dataclass(frozen=True)
@@ -71,5 +69,5 @@ class AssemblyModel:
 
         So it is here where its coordinates are real.
         """
-        bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
+        bound = ROUGH * (1 + max((abs(x) for x in point), default=0.0))
         return all(abs(complex(x).imag) <= bound for x in point)

@@ -24,11 +24,12 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.mechanism.assembly import REAL, AssemblyModel, Side
+from nag.mechanism.assembly import AssemblyModel, Side
 from nag.mechanism.axes import Space, cross, difference, dot
 from nag.mechanism.framework import Framework, FrameworkError, Place
 from nag.mechanism.isotropic import conjugates, isotropic_system
 from nag.mechanism.path_estimates import Alternative, fewest_estimated_paths
+from nag.numerics.doubles import ROUGH
 
 
 @dataclass(frozen=True)
@@ -159,7 +160,7 @@ class FrameworkModel(AssemblyModel):
         """Whether a solution is a real realisation, to within rounding."""
         if not self.coordinates.startswith("z"):
             return self._has_real_frame and super().is_real(point)
-        bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
+        bound = ROUGH * (1 + max((abs(x) for x in point), default=0.0))
         if self.coordinates == "z":
             pairs = zip(point, conjugates(self.framework, point), strict=True)
         else:

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from nag.mechanism.loop_product import Element
+from nag.numerics.zero_values import NONZERO
 
 # Random starts of a round, their steps, and rounds for a pose that is not reached before.
 STARTS, STEPS, ROUNDS = 24, 60, 12
@@ -21,8 +22,6 @@ LAST_STEPS = 4
 TINY = 1e-12
 # Relative residual of a pose that is reached.
 REACHED = 1e-10
-# A factor's norm, beside the squares that it is the sum of, from which it is a displacement.
-DISPLACEMENT = 1e-6
 # Least damping of a step; share of a factor's size in the squares that its norm is compared with.
 LEAST_DAMPING, LEAST_SHARE = 1e-14, 1e-3
 
@@ -236,7 +235,7 @@ def _are_displacements(
         real = (w @ own)[:, :4]
         squares = np.sum(np.abs(real) ** 2, axis=1)
         whole = np.sum(np.abs(w) ** 2, axis=1)
-        found &= np.abs(np.sum(real**2, axis=1)) > DISPLACEMENT * np.maximum(
+        found &= np.abs(np.sum(real**2, axis=1)) > NONZERO * np.maximum(
             squares, whole * LEAST_SHARE
         )
     return found

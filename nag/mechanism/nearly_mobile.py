@@ -28,9 +28,10 @@ from nag.errors import NagError
 from nag.mechanism.axes import cross
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.loops import Loop, loop_structure
-from nag.mechanism.overconstrained import CLOSE, known_linkage
+from nag.mechanism.overconstrained import known_linkage
 from nag.mechanism.quaternion import multiply
 from nag.numerics.doubles import ROUNDED
+from nag.numerics.zero_values import ON
 
 # Arc of joint coordinates from one position to the next, radians or sizes of the mechanism; where
 # the motion bends, steps are halved down to the shortest.
@@ -809,5 +810,5 @@ def _linkage_of(chains: Chains, loop: Loop, change: float) -> LoopLinkage:
     own = [places[name] for name in names]
     axis, point = chains.axis[own], chains.point[own]
     linkage = known_linkage(axis, point)
-    next_to = known_linkage(axis, point, max(CLOSE, MEANT * change))
+    next_to = known_linkage(axis, point, max(ON, MEANT * change))
     return LoopLinkage(names, linkage, None if next_to == linkage else next_to)

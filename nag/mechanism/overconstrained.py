@@ -14,8 +14,7 @@ from math import pi
 
 import numpy as np
 
-# Lines that are given in doubles, after a fit, satisfy exact conditions up to so much.
-CLOSE = 1e-9
+from nag.numerics.zero_values import ON
 
 Array = np.ndarray
 
@@ -74,7 +73,7 @@ class Links:
                 )
 
 
-def known_linkage(axis: Array, point: Array, close: float = CLOSE) -> str | None:
+def known_linkage(axis: Array, point: Array, close: float = ON) -> str | None:
     """The name of the overconstrained linkage whose axes these lines are, in their order.
 
     Args:
@@ -137,7 +136,7 @@ def _concurrent(axis: Array, point: Array, close: float) -> bool:
     return bool(np.abs(np.einsum("kij,kj->ki", across, point - centre)).max() < close)
 
 
-def links_of(axis: Array, point: Array, close: float = CLOSE) -> Links:
+def links_of(axis: Array, point: Array, close: float = ON) -> Links:
     """Lengths, twists and offsets of the links between lines; normals go from line to line.
 
     Args:

@@ -16,9 +16,12 @@ ROUNDED = 1e-15
 # Newton's steps that are rounding errors, as are values beside their terms, and singular values
 # beside the largest.
 ARRIVED = 1e-14
-# Newton's last step at a point that is known, and at one that is badly conditioned.
+# Newton's last step at a regular end of a path, at a point that is known, and at one that is badly
+# conditioned; values beside their terms there.
+SHARPEST = 1e-12
 SHARP = 1e-10
 ROUGH = 1e-8
+VANISHING = 1e-11
 # A multiple zero of multiplicity m is known to about the m-th root of rounding.
 MULTIPLE = 1e-7
 # Estimated errors may be too small by this factor: a bound, no decision.

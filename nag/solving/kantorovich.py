@@ -24,15 +24,15 @@ from nag.algebra.family import Family
 from nag.numerics.array_table import ArrayTable
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import bits_of, doubles
-from nag.numerics.doubles import EPS
+from nag.numerics.doubles import EPS, SHARPEST
 from nag.numerics.krawczyk import invert_matrices
 
 # Newton steps in doubles at most, and with residuals in `DIGITS` digits.
 STEPS, FINE_STEPS, DIGITS = 8, 4, 50
 # Points at once; and how many are worth more digits, some 10 ms each.
 BLOCK, MOST_FINE = 256, 200
-# Steps that leave nothing to be gained in doubles, and those that promise convergence.
-SMALL, PROMISING = 1e-12, 1e-3
+# Steps that promise convergence.
+PROMISING = 1e-3
 # Second derivatives in the ball are at most so many times those at its centre, if its radius is
 # below a percent and degrees below 30.
 NEARBY = 1.5
@@ -139,7 +139,7 @@ class Confirmation:
                 near = np.abs(moved).max(axis=1) < 0.1 * (1 + np.abs(here).max(axis=1))
                 points[going[near]] = (here - moved)[near]
                 length[going] = size
-                going = going[near & (size > SMALL)]
+                going = going[near & (size > SHARPEST)]
                 if not len(going):
                     break
             judged = self._bound_distances(points, values, finite, _sizes(points), None)

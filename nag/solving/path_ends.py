@@ -17,6 +17,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import clusters, coincident, conjugates_present
+from nag.numerics.doubles import MULTIPLE
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.zero_values import ON, vanishes_at, vanishes_at_point
 from nag.solving.isolated_zero import IsolatedZero, affine_point, which_are_real
@@ -32,8 +33,8 @@ from nag.tracking.projective import coinciding_pairs
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
 # Homogenising coordinates of ends at infinity are less than this, or than their errors, which are
-# less than the second number.
-INFINITE, ROUGHLY_INFINITE = 2e-12, 1e-7
+# less than `MULTIPLE`.
+INFINITE = 2e-12
 # Points evaluated at once.
 BLOCK = 2048
 
@@ -402,7 +403,7 @@ def list_doubts(begin: StartSystem, paths: Paths) -> list[str]:
         notes.append(f"{failed} of {len(paths)} paths failed: {causes}")
     infinite = paths.where(PathStatus.AT_INFINITY)
     far = np.abs(paths.points[infinite][:, list(begin.homotopy.infinity)])
-    error = np.minimum(paths.accuracy[infinite], ROUGHLY_INFINITE)
+    error = np.minimum(paths.accuracy[infinite], MULTIPLE)
     unsure = int((far.min(axis=1, initial=np.inf) > np.maximum(INFINITE, error)).sum())
     if unsure:
         notes.append(f"{unsure} paths to infinity may end at solutions far out")

@@ -22,6 +22,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.errors import StartError
+from nag.numerics.doubles import SHARPEST
 from nag.numerics.scaling import magnitude, scaled_terms
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.solving.start.mixed_cells import LARGEST_LIFT, MixedCells, mixed_cells
@@ -32,8 +33,6 @@ UNITS, RANDOM = 4096, 32
 # Sizes that doubles hold, powers of them included, as powers of 2.
 LARGEST = 900
 NEWTON_STEPS = 12
-# Last step of Newton's method.
-ARRIVED = 1e-12
 # Newton's method may lead so far from the binomials' zero, in each coordinate's size.
 NEAR = 0.5
 # Distance, relative to the largest coordinate, at which a zero is none of the known ones.
@@ -145,8 +144,8 @@ def _zero(
         y = y - step
         if not (np.abs(y - start) < NEAR * np.abs(start)).all():
             return None
-        if (np.abs(step) < ARRIVED * np.abs(y)).all():
-            end = analyse(scaled, y, ARRIVED, rng)
+        if (np.abs(step) < SHARPEST * np.abs(y)).all():
+            end = analyse(scaled, y, SHARPEST, rng)
             if end.place is not Place.ISOLATED or end.multiplicity != 1:
                 return None
             residual = float(evaluator.residuals(end.point[None]).max())

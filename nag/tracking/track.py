@@ -15,7 +15,7 @@ import numpy as np
 
 from nag.errors import NagError
 from nag.numerics.coincidence import LEAST
-from nag.numerics.doubles import RESOLVED, ROUGH, ROUNDED, SLACK
+from nag.numerics.doubles import ARRIVED, RESOLVED, ROUGH, ROUNDED, SHARPEST, SLACK
 from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.jumps import collisions, find_like_branches
@@ -27,16 +27,14 @@ from nag.tracking.settings import Settings, find_settings, tighten
 # Newton's method may move the end of a path by this part of the smallest singular value there, or
 # by what its errors allow.
 BASIN = 0.1
-# Error of a regular end that Newton's method found.
-SHARP = 1e-12
 # Smallest homogenising coordinate of a finite zero of a generic system.
 AT_INFINITY = 1e-10
 # Least ratio of a singular value to a Newton step that proves a regular zero.
 PROOF = 1e5
 # Rounding errors of a homogenising coordinate that Newton's method found with residuals in
-# double-double, times the inverse of the smallest singular value; and the part of such a coordinate
-# that they may be at a finite end.
-RESIDUAL, SHARE = 1e-29, 1e-14
+# double-double, times the inverse of the smallest singular value; of such a coordinate at a finite
+# end they are rounding.
+RESIDUAL = 1e-29
 # Below so many paths a second thread costs more than it brings.
 PATHS_PER_THREAD = 64
 
@@ -296,9 +294,9 @@ def _judged(homotopy: Homotopy, raw: StraightRun) -> tuple[Paths, np.ndarray]:
         # values, which hardly change on the way.
         near = (sharp.moved <= SLACK * error + LEAST) | (sharp.moved <= BASIN * sharp.smallest)
         proved = near & (sharp.smallest > 0.5 * sharp.before)
-        proved &= (sharp.error < SHARP) & (sharp.smallest > PROOF * sharp.error)
+        proved &= (sharp.error < SHARPEST) & (sharp.smallest > PROOF * sharp.error)
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
-        known = sizes * np.maximum(sharp.smallest, 1e-300) > RESIDUAL / SHARE
+        known = sizes * np.maximum(sharp.smallest, 1e-300) > RESIDUAL / ARRIVED
         points[ended] = sharp.points
         condition[ended] = sharp.condition
         regular[ended] = proved

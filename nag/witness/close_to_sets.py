@@ -17,13 +17,12 @@ from nag.numerics.doubles import ROUNDED
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.zero_values import ZERO
+from nag.witness.close_points import CLOSE_AFAR
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre
 from nag.witness.slices import pad_rows
 
-# Regular ends nearer to a zero than this, relative to it, are compared with it in digits.
-CLOSE = 1e-9
 # An end is looked at as far about it as so many times its error.
 REACH = 10.0
 
@@ -85,7 +84,7 @@ def is_among_points(zero: SingularEnd, fibres: Sequence[Fibre]) -> bool | None:
     if here is None:
         return None
     for fibre in fibres:
-        for i in np.flatnonzero(coincident(fibre.x, zero.point, CLOSE)).tolist():
+        for i in np.flatnonzero(coincident(fibre.x, zero.point, CLOSE_AFAR)).tolist():
             there = zero_in_digits(fibre, i)
             if there is not None and are_same(here, there.first(len(here))):
                 return True

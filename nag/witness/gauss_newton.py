@@ -13,12 +13,11 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.numerics.double_ranks import numerical_corank
-from nag.numerics.doubles import ARRIVED, SHARP
+from nag.numerics.doubles import ARRIVED, SHARP, VANISHING
 
 MOST_STEPS = 200
 # Residuals from which the undamped steps take over, and that a zero must reach.
 CLOSE = 1e-6
-ZERO = 1e-13
 # Singular values below this, relative to the largest, may belong to the kernel on the zero set.
 SMALL = 1e-3
 # Damping, beside the squared residual: where it begins, the least, and that from which on steps are
@@ -102,4 +101,4 @@ def polish(evaluator: Evaluator, x: np.ndarray, corank: int | None = None) -> It
         if step < ARRIVED or (step < NEARLY and step >= last):
             break
     residual = float(evaluator.residuals(x[None]).max(initial=0.0))
-    return IterationEnd(x, corank, step, step < SHARP and residual < ZERO)
+    return IterationEnd(x, corank, step, step < SHARP and residual < VANISHING)

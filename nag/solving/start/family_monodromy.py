@@ -23,7 +23,7 @@ from nag.algebra.family import Family
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.errors import StartError
 from nag.numerics.double_ranks import NEARLY_SINGULAR, smallest_share
-from nag.numerics.doubles import ARRIVED
+from nag.numerics.doubles import ARRIVED, VANISHING
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solution_classes import distinct_classes
 from nag.solving.start.monodromy_loops import Ends, Way, run_loop
@@ -42,8 +42,6 @@ CONFIRMING, IDLE = 3, 8
 MOST_LOOPS = 120
 # Random points and Newton steps that are tried for a first solution.
 SEEDS, NEWTON_STEPS = 200, 60
-# Values at a first solution, beside their terms.
-VANISHING = 1e-13
 # A loop that loses a path finds it again later, so that nothing is tracked twice. Points that are
 # sharper than for other paths save more steps than they cost, and more paths arrive.
 SHARP = 1e-9

@@ -19,16 +19,18 @@ import flint
 import numpy as np
 
 from nag.numerics.ball_polynomials import Factors
+from nag.numerics.coincidence import BEYOND
 from nag.numerics.digits import in_bits, log_size
 from nag.numerics.double_ranks import INDEPENDENT
+from nag.numerics.sharpening import ZERO
 from nag.tracking.ends.terms import Terms
 from nag.tracking.paths import NEVER
 
 # Bits of forms that are to tell zeros: 120 digits.
 FINE = 400
-# Values that are zero, and by how much others must grow so many errors away, or this far at least:
-# decimal logarithms.
-ZERO, GROWN, AWAY, CLOSE = -100.0, 2.0, 1e4, 1e-10
+# By how much values that are not zero must grow so many errors away as `BEYOND` says, a decimal
+# logarithm, or this far at least.
+GROWN, CLOSE = 2.0, 1e-10
 # Steps of Newton's method with a fixed inverse, and their least gain, decimal logarithm.
 STEPS, GAIN = 40, 1.0
 
@@ -111,7 +113,7 @@ class InitialForms:
             if not rest.any():
                 return True
             phases = np.exp(2j * np.pi * np.random.default_rng(0).random(len(there)))
-            shift = max(error * AWAY, CLOSE)
+            shift = max(error * BEYOND, CLOSE)
             moved = [z * flint.acb(complex(1 + shift * u)) for z, u in zip(x, phases, strict=True)]
             return bool((_left(forms, inverse, moved)[rest] > here[rest] + GROWN).all())
 
