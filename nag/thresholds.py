@@ -410,22 +410,21 @@ TRIAL, SMALLER, SHORTEST, LAST_T; tracking.ends.follow: FURTHER, FURTHEST; track
 NEIGHBOURS; tracking.settings: TIGHTER, SHARPER; tracking.straight_run: SHORTEST, OVERFLOW,
 ROUNDING, FARTHEST; solving.certified_paths: FURTHER; solving.kantorovich: PROMISING, WIDEST, TINY;
 solving.isolated_zero: ROUNDING; solving.branch_solutions: ROUGH; solving.solution_classes: STEP;
-solving.start.choice: WORK; solving.start.family_monodromy: SHARP; solving.start.multihomogeneous:
-EXACT; solving.start.polyhedral: WIDTH, LENGTH; solving.tropical_zeros: NEAR; witness.close_points:
-STEEPEST; witness.cutting: FLAT, LOSS; witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP,
-BITS_PER_DIGIT, SPLITTER; witness.fibres: STEEPER; witness.gauss_newton: CLOSE, FIRST_DAMPING,
-LEAST_DAMPING, MOST_DAMPING, GAIN, NEARLY; witness.real_points: SPREAD, SHORTEST, STILL;
-decomposition.curve_genus: NEAR, OUTSIDE, SHRINK, LEAST_RADIUS; decomposition.hypersurface: NEARER;
-decomposition.growth: PATH, FACTOR, ENTRY, STEP; decomposition.superset: REGULAR;
-decomposition.power_sums: EQUATIONS, EVEN; decomposition.zero_sums: SPARE; real.arc_tracing:
-ARRIVED, CHORD, CORRECTION, EASY, FIRST, LARGEST, LEAST, MOVED, REACHED, ROUNDED, TURN; real.arcs:
-NEAR_END; real.critical_values: ASIDE, PARTED; real.even_points: CHORD, HALF_ANGLE, KEPT, TURN;
-real.fibre_table: SAME; real.find_curve: LEAST_RADIUS; real.real_pieces: SIZES; real.real_samples:
-SPREAD; mechanism.bonds: NEAR, NEARER, LEAST_SIZE; mechanism.inverse_kinematics: TINY,
-LEAST_DAMPING, LEAST_SHARE; mechanism.mobility_at: LEAST_SECONDS; mechanism.moving_parts: LENGTH;
-mechanism.nearly_mobile: STEP, SHORTEST_STEP, STRAIGHT, BEND, LONGEST_SLIDE, WEIGHTS, COMPLEX_STEP,
-SMALL; mechanism.operation_modes: NEARER; kinematics.path: ARRIVED, PROMISING;
-kinematics.turning_points: NARROWER; files.json_values: AGREES; decomposition.shown: NOTHING;
-cli.bench: PATIENCE; cli.bench_decompose: PATIENCE; cli.running: INTERVAL; numerics.doubles:
-LARGEST, SMALLEST, EPS, UNIT.
+solving.start.choice: WORK; solving.start.family_monodromy: SHARP; solving.start.polyhedral: WIDTH,
+LENGTH; solving.tropical_zeros: NEAR; witness.close_points: STEEPEST; witness.cutting: FLAT, LOSS;
+witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP, BITS_PER_DIGIT, SPLITTER; witness.fibres:
+STEEPER; witness.gauss_newton: CLOSE, FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, NEARLY;
+witness.real_points: SPREAD, SHORTEST, STILL; decomposition.curve_genus: NEAR, OUTSIDE, SHRINK,
+LEAST_RADIUS; decomposition.hypersurface: NEARER; decomposition.growth: PATH, FACTOR, ENTRY, STEP;
+decomposition.superset: REGULAR; decomposition.power_sums: EQUATIONS, EVEN; decomposition.zero_sums:
+SPARE; real.arc_tracing: ARRIVED, CHORD, CORRECTION, EASY, FIRST, LARGEST, LEAST, MOVED, REACHED,
+ROUNDED, TURN; real.arcs: NEAR_END; real.critical_values: ASIDE, PARTED; real.even_points: CHORD,
+HALF_ANGLE, KEPT, TURN; real.fibre_table: SAME; real.find_curve: LEAST_RADIUS; real.real_pieces:
+SIZES; real.real_samples: SPREAD; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
+mechanism.inverse_kinematics: TINY, LEAST_DAMPING, LEAST_SHARE; mechanism.mobility_at:
+LEAST_SECONDS; mechanism.moving_parts: LENGTH; mechanism.nearly_mobile: STEP, SHORTEST_STEP,
+STRAIGHT, BEND, LONGEST_SLIDE, WEIGHTS, COMPLEX_STEP, SMALL; mechanism.operation_modes: NEARER;
+kinematics.path: ARRIVED, PROMISING; kinematics.turning_points: NARROWER; files.json_values: AGREES;
+decomposition.shown: NOTHING; cli.bench: PATIENCE; cli.bench_decompose: PATIENCE; cli.running:
+INTERVAL; numerics.doubles: LARGEST, SMALLEST, EPS, UNIT.
 """

@@ -8,6 +8,7 @@ from typing import Any
 from nag.algebra.groebner import divisor, ideal, remainder
 from nag.algebra.rational_function import FunctionField
 from nag.check.identities import Residuals, identity, labelled
+from nag.check.joints import E1
 from nag.check.loops import axis_equations
 from nag.check.rings import euler_ring, intersect_in, unit
 from nag.check.statement import Verdict, VerdictKind, decided, fails, statement
@@ -24,7 +25,6 @@ PARAMETERS = (
     (Fraction(2), Fraction(3, 4), Fraction(5, 16)),
     (Fraction(-3, 2), Fraction(-2, 5), Fraction(7, 3)),
 )
-E1 = (1, 0, 0)
 
 
 def at_parameters() -> str:

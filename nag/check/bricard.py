@@ -8,6 +8,7 @@ import flint
 
 from nag.algebra.groebner import ideal
 from nag.algebra.rational_function import FunctionField
+from nag.check.joints import E1, E2, E3
 from nag.check.loops import axis_equations, local
 from nag.check.rings import apply, contains, euler_ring, intersect_in, product, transpose, unit
 from nag.check.statement import Verdict, decided, statement
@@ -15,7 +16,6 @@ from nag.mechanism.axes import difference, dot
 from nag.mechanism.quaternion import K, K_tilde, add, norm_squared, rotate
 from nag.symbolic import bricard, revolute
 
-E1, E2, E3 = (1, 0, 0), (0, 1, 0), (0, 0, 1)
 RING, (A, B) = euler_ring("ab")
 A_INIT, B_INIT = bricard.ORIENTATIONS[:2]
 

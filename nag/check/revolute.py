@@ -7,6 +7,7 @@ from typing import Any
 
 from nag.algebra.groebner import Ideal, ideal
 from nag.check.identities import Residuals, Root, identity, labelled, matrix, surviving
+from nag.check.joints import E1, E2, E3
 from nag.check.rings import (
     apply,
     contains,
@@ -32,7 +33,6 @@ from nag.mechanism.quaternion import (
 )
 from nag.symbolic import revolute
 
-E1, E2, E3 = (1, 0, 0), (0, 1, 0), (0, 0, 1)
 P = "p0 p1 p2 p3"
 FRAME = tuple(map(Fraction, (1, 2, 3, 5)))
 RING, (U, Z) = euler_ring("uz")

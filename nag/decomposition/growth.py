@@ -25,14 +25,13 @@ from nag.tracking.evaluations import Evaluations, count_evaluations
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.tracking.settings import find_settings
 from nag.witness.cutting import Cut, find_cut
+from nag.witness.exact_points import IN_DOUBLE_DOUBLE
 from nag.witness.fibres import Fibre, move
 from nag.witness.gauss_newton import polish
 from nag.witness.points import Points
 from nag.witness.slices import random_rows, rows_through, unit_complex
-from nag.witness.witness import PathCounts, Status, WitnessSet
+from nag.witness.witness import DOUBLE, PathCounts, Status, WitnessSet
 
-# Digits of loops as long as they find points, and of what is tracked from then on.
-DOUBLE, DOUBLE_DOUBLE = 16, 32
 # Slices that the first point is carried to, at most; loops, and such in turn that find nothing; and
 # from how many of those on every other slice lies near the origin.
 MOST_SLICES, MOST_LOOPS, MOST_QUIET, QUIET = 4, 200, 24, 4
@@ -161,7 +160,7 @@ def _first_point(
         return None
     cut, z = found
     allowance.each = _evaluation_seconds(cut)
-    for digits in [DOUBLE] * MOST_SLICES + [DOUBLE_DOUBLE]:
+    for digits in [DOUBLE] * MOST_SLICES + [IN_DOUBLE_DOUBLE]:
         if allowance.seconds <= 0:
             break
         start = Fibre(cut, rows, z[None])
@@ -229,7 +228,7 @@ class _Growing:
                 return BUDGET
             found = self._run_loop(digits, some, quiet >= QUIET and quiet % 2 == 0)
             quiet = 0 if found else quiet + (some == len(self.points))
-            digits = DOUBLE if found and digits == DOUBLE else DOUBLE_DOUBLE
+            digits = DOUBLE if found and digits == DOUBLE else IN_DOUBLE_DOUBLE
         return NOT_ALL
 
     def _run_loop(self, digits: int, some: int, scaled: bool) -> bool:
@@ -249,18 +248,18 @@ class _Growing:
 
     def _has_linear_trace(self) -> bool | None:
         """Whether the trace of all points is linear; None where it cannot be afforded or said."""
-        run, everything = _in_digits(self.run, DOUBLE_DOUBLE), range(len(self.points))
+        run, everything = _in_digits(self.run, IN_DOUBLE_DOUBLE), range(len(self.points))
         trace = self.trace or Trace.of(self.points, self.evidence, self.rng)
         while True:
             rest = [i for i in everything if i not in trace.ends]
-            some = self.allowance.most(DOUBLE_DOUBLE) // 2
+            some = self.allowance.most(IN_DOUBLE_DOUBLE) // 2
             if not rest:
                 break
             if not some:
                 return None
             with count_evaluations() as spent:
                 trace, paths = trace.carry(self.points, rest[: min(some, MOST_AT_ONCE)], run)
-            self.allowance.pay(DOUBLE_DOUBLE, spent, paths)
+            self.allowance.pay(IN_DOUBLE_DOUBLE, spent, paths)
             self.trace = trace
             if trace is None:
                 return None
@@ -269,7 +268,7 @@ class _Growing:
 
     def confirmed(self) -> WitnessSet:
         """The component of the first point, whose trace is linear and that of no part of it."""
-        run = _in_digits(self.run, DOUBLE_DOUBLE)
+        run = _in_digits(self.run, IN_DOUBLE_DOUBLE)
         found = split_joined_points(self.points, self.trace, self.loops, self.rng, run)
         self.points = found.points
         own = next(each for each in found.classes if 0 in each.indices)

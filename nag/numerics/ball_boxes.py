@@ -14,13 +14,13 @@ import numpy as np
 
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import in_bits
+from nag.numerics.doubles import NEWTON_STEPS
 from nag.numerics.newton import Functions, inverse_of, newton_step, newton_to_rest
 
 # Bits of a word of the machine.
 WORD = 64
-# Bits of the balls, one after the other, and Newton steps in each.
+# Bits of the balls, one after the other.
 BITS = (128, 256, 512)
-STEPS = 12
 # Sides of boxes of balls, beside the coordinates and the largest of them: powers of two.
 FIRST_SIDE, SIDES_APART, LAST_SIDE = -16, 16, 24
 # Times that a box is replaced by its image, in which its zero lies.
@@ -88,7 +88,7 @@ def box_about(
         ladder: bits of the balls, tried one after the other.
     """
     for bits in ladder:
-        x = newton_to_rest(system, start, bits, STEPS)
+        x = newton_to_rest(system, start, bits, NEWTON_STEPS)
         box = None if x is None else ball_box(system, x, bits)
         if box is not None:
             return box

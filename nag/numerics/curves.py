@@ -25,9 +25,9 @@ from nag.numerics.digits import (
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.far_along import far_value
 from nag.numerics.implicit_function import SeriesReduction, eliminate
-from nag.numerics.newton import find_zero, inverse_of
+from nag.numerics.newton import STEPS, find_zero, inverse_of
 from nag.numerics.power_series import evaluate
-from nag.numerics.series_zeros import STEPS, ScaledSeries
+from nag.numerics.series_zeros import ScaledSeries
 from nag.numerics.sharpening import ARRIVED, ZERO, predict_along, sharpen
 
 # Binary logarithms of distances at which a smooth set of zeros is followed; the smaller ones where

@@ -28,3 +28,7 @@ MULTIPLE = 1e-7
 SLACK = 1e3
 # A coordinate that exceeds its error so many times is not zero.
 RESOLVED = 1e3
+# Newton's method from a point next to a zero must arrive within this many steps.
+NEWTON_STEPS = 12
+# Doubles hold all whole numbers up to this.
+LARGEST_WHOLE = 2**53

@@ -15,11 +15,10 @@ from nag.numerics.digits import BITS, DIGITS, log_norm, log_size
 from nag.numerics.double_ranks import NEARLY_SINGULAR, smallest_share
 from nag.numerics.doubles import ARRIVED
 from nag.numerics.exact_system import ExactSystem
-from nag.numerics.newton import move_point
+from nag.numerics.newton import STEPS, move_point
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.sharpening import ZERO
 
-STEPS = 60
 # Singular values beside the largest one that Newton's method does not divide by.
 RANK = 1e-12
 # Steps beside the point that lead nowhere.

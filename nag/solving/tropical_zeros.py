@@ -22,7 +22,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.errors import StartError
-from nag.numerics.doubles import SHARPEST
+from nag.numerics.doubles import NEWTON_STEPS, SHARPEST
 from nag.numerics.scaling import magnitude, scaled_terms
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.solving.start.mixed_cells import LARGEST_LIFT, MixedCells, mixed_cells
@@ -32,7 +32,6 @@ from nag.solving.start.polyhedral import binomial_solutions, cell_vectors
 UNITS, RANDOM = 4096, 32
 # Sizes that doubles hold, powers of them included, as powers of 2.
 LARGEST = 900
-NEWTON_STEPS = 12
 # Newton's method may lead so far from the binomials' zero, in each coordinate's size.
 NEAR = 0.5
 # Distance, relative to the largest coordinate, at which a zero is none of the known ones.

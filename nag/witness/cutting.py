@@ -18,7 +18,16 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank, pivot_rows
-from nag.numerics.doubles import ARRIVED, MULTIPLE, ROUGH, ROUNDED, SHARP, SLACK, VANISHING
+from nag.numerics.doubles import (
+    ARRIVED,
+    MULTIPLE,
+    NEWTON_STEPS,
+    ROUGH,
+    ROUNDED,
+    SHARP,
+    SLACK,
+    VANISHING,
+)
 from nag.numerics.scaling import scaled_terms, variable_scales
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.witness.isosingular import DeflatedEquations, Level
@@ -28,8 +37,6 @@ from nag.witness.slices import pad_rows
 MOST_DEFLATIONS = 4
 # Gradients below this, relative to what their degree lets them have, are not scaled up further.
 FLAT = 1e-4
-# Newton's method from the end point of a path must arrive within this many steps.
-NEWTON_STEPS = 12
 # Roundings in such a step, times the condition.
 LOSS = 1e2
 # What rounding errors of values may change a regular zero's least singular value by.

@@ -24,6 +24,7 @@ from nag.algebra.symmetric_family import SymmetricFamily
 from nag.errors import StartError
 from nag.numerics.double_ranks import NEARLY_SINGULAR, smallest_share
 from nag.numerics.doubles import ARRIVED, VANISHING
+from nag.numerics.newton import STEPS
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solution_classes import distinct_classes
 from nag.solving.start.monodromy_loops import Ends, Way, run_loop
@@ -40,8 +41,8 @@ Progress = Callable[[str, int, int], None]
 # is known; and loops in all.
 CONFIRMING, IDLE = 3, 8
 MOST_LOOPS = 120
-# Random points and Newton steps that are tried for a first solution.
-SEEDS, NEWTON_STEPS = 200, 60
+# Random points that are tried for a first solution.
+SEEDS = 200
 # A loop that loses a path finds it again later, so that nothing is tracked twice. Points that are
 # sharper than for other paths save more steps than they cost, and more paths arrive.
 SHARP = 1e-9
@@ -85,7 +86,7 @@ def first_solution(family: Family, rng: np.random.Generator) -> tuple[np.ndarray
     evaluator = Evaluator.of(family.polynomials, size)
     for _ in range(SEEDS):
         z = unit(rng, size) * (0.5 + rng.random(size))
-        for _ in range(NEWTON_STEPS):
+        for _ in range(STEPS):
             step = np.linalg.lstsq(evaluator.jacobian(z), evaluator.values(z[None])[0])[0]
             z = z - step
             if not np.linalg.norm(step) > ARRIVED * np.linalg.norm(z):

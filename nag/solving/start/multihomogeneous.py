@@ -15,6 +15,7 @@ from math import comb, factorial, prod
 import numpy as np
 
 from nag.errors import StartError
+from nag.numerics.doubles import LARGEST_WHOLE
 from nag.solving.start.target import StartSystem, Target, group_degrees, homogenize_rows, unit
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.homotopy import straight_line
@@ -26,8 +27,6 @@ MOST_TERMS = 5000
 MOST_STATES = 20_000
 # Integers below this fit into 64 bits.
 LARGEST = 1 << 62
-# Integers below this are doubles.
-EXACT = 2.0**53
 # A local search from a partition with so many times the paths of the best is not begun.
 HOPELESS = 4
 # Partitions that the search tries: some always, and one more for so many paths to be saved.
@@ -41,7 +40,7 @@ def bezout_number(degrees: np.ndarray, sizes: Sequence[int]) -> int:
     if prod(weighted) << sum(sizes) < LARGEST:
         return _bezout_number_by_exclusion(degrees, sizes)
     rows, most = degrees.tolist(), list(sizes)
-    if all(sum(row) > 0 for row in rows) and prod(map(sum, rows)) < EXACT:
+    if all(sum(row) > 0 for row in rows) and prod(map(sum, rows)) < LARGEST_WHOLE:
         return _bezout_number_of_floats(rows, most)
     counts = {tuple(most): 1}
     for row in rows:

@@ -20,6 +20,7 @@ import numpy as np
 from nag.algebra.polynomial import Exponents
 from nag.errors import StartError
 from nag.numerics.double_ranks import DEPENDENT
+from nag.numerics.doubles import LARGEST_WHOLE
 from nag.solving.start.interchange import Interchange, interchange
 from nag.solving.start.target import (
     StartSystem,
@@ -34,8 +35,6 @@ from nag.tracking.known import KnownOfPaths
 
 # Longest generic start systems.
 MOST_TERMS = 10_000
-# Largest integer such that doubles hold all up to it.
-LARGEST_WHOLE = 2**53
 # Start points are kept in memory.
 MOST_PATHS = 4_000_000
 
