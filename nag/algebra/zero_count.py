@@ -49,13 +49,20 @@ class ZeroCount(NamedTuple):
     bound: int
     exact: bool
 
-    def judge(self, zeros: int) -> Completeness:
-        """What it says of so many that were found, each counted by its multiplicity."""
-        if self.bound == zeros:
-            return Completeness.ALL
-        if self.bound < zeros:
-            return Completeness.TOO_MANY
-        return Completeness.MISSING if self.exact else Completeness.UNKNOWN
+    def difference(self, zeros: int) -> str:
+        """What is said where it is not the number of zeros that were found."""
+        return f"{zeros} zeros were found, and there are {self.bound}"
+
+
+def judge_number(zeros: int, count: ZeroCount | None) -> Completeness:
+    """What a count says of so many zeros that were found, each counted by its multiplicity."""
+    if count is None:
+        return Completeness.UNKNOWN
+    if count.bound == zeros:
+        return Completeness.ALL
+    if count.bound < zeros:
+        return Completeness.TOO_MANY
+    return Completeness.MISSING if count.exact else Completeness.UNKNOWN
 
 
 def most_zeros(

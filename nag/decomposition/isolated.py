@@ -18,7 +18,7 @@ from nag.algebra.exact_ranks import is_dependent
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.zero_count import Completeness, most_zeros
+from nag.algebra.zero_count import Completeness, judge_number, most_zeros
 from nag.decomposition.final_checks import judge_components
 from nag.decomposition.method import Task
 from nag.decomposition.orbits import group_into_orbits
@@ -164,7 +164,7 @@ def count_points(answer: Decomposition, facts: SystemFacts, scheme: bool) -> Dec
     scheme = scheme or all(c.corank == 0 for c in answer.components)
     zeros = sum((c.multiplicity if scheme else 1) * c.degree * c.orbit for c in answer.components)
     count = facts.count_zeros(zeros, not answer.complete)
-    verdict = Completeness.UNKNOWN if count is None else count.judge(zeros)
+    verdict = judge_number(zeros, count)
     if (
         count is None
         or verdict is Completeness.UNKNOWN
@@ -174,8 +174,7 @@ def count_points(answer: Decomposition, facts: SystemFacts, scheme: bool) -> Dec
     if verdict is Completeness.ALL:
         decided = all(c.status is Status.IRREDUCIBLE for c in answer.components)
         return replace(answer, complete=True, notes=()) if decided else answer
-    note = f"{zeros} zeros were found, and there are {count.bound}"
-    return replace(answer, complete=False, notes=(*answer.notes, note))
+    return replace(answer, complete=False, notes=(*answer.notes, count.difference(zeros)))
 
 
 def _components(

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
+from nag.algebra.zero_count import Completeness, ZeroCount, judge_number
 from nag.text.table import printable
 
 
@@ -122,6 +123,26 @@ def claim_of_all(
         places = [i for i, each in enumerate(standings) if each is standing]
         text = f"{text}: {name_entries(what, places)}"
     return Claim(field, text, standing, subject)
+
+
+def claim_of_number(
+    text: str, listed: int, count: ZeroCount | None, imaginary: bool = False
+) -> Claim | None:
+    """That so many zeros, by their multiplicities, are all, as a count says; None if it does not.
+
+    Args:
+        count: modulo two primes.
+        imaginary: whether the system has the imaginary unit, so that the zeros of its conjugate
+            system are counted as well.
+    """
+    sides = 1 + imaginary
+    verdict = judge_number(sides * listed, count)
+    if count is None or verdict is Completeness.UNKNOWN:
+        return None
+    text = f"{text}: {count.bound // sides} zeros are counted modulo two primes"
+    if verdict is Completeness.ALL:
+        return Claim("complete", text, Standing.EVIDENCE)
+    return Claim("complete", f"{text}, {listed} are listed", Standing.DOUBTED)
 
 
 def combine_standings(standings: Sequence[Standing]) -> Standing:

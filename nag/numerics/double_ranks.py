@@ -73,6 +73,12 @@ def smallest_share(matrix: np.ndarray) -> float:
     return float(singular[-1] / singular[0]) if singular.any() else 0.0
 
 
+def is_regular(matrix: np.ndarray) -> bool:
+    """Whether columns are independent, by more than errors of a point known roughly explain."""
+    finite = np.isfinite(matrix).all() and len(matrix) >= matrix.shape[1]
+    return bool(finite) and smallest_share(matrix) > NEARLY_SINGULAR
+
+
 def clearly_independent(columns: np.ndarray) -> bool:
     """Whether columns of complex doubles are independent over the reals, by more than rounding.
 

@@ -12,7 +12,7 @@ import numpy as np
 from nag.numerics.deflation import DeflatedPoint
 from nag.numerics.descent import Point, Round, descend
 from nag.numerics.digits import BITS, DIGITS, log_norm, log_size
-from nag.numerics.double_ranks import NEARLY_SINGULAR, smallest_share
+from nag.numerics.double_ranks import is_regular
 from nag.numerics.doubles import ARRIVED
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import STEPS, move_point
@@ -90,7 +90,7 @@ class ScaledSeries:
     def regular(self, u: np.ndarray) -> bool:
         """Whether a zero is a regular one, as far as doubles can tell."""
         _, jacobian = self._values(u)
-        return len(jacobian) >= self.m and smallest_share(jacobian) > NEARLY_SINGULAR
+        return is_regular(jacobian)
 
     def newton(
         self, u: np.ndarray, plane: np.ndarray | None = None, most: int = STEPS

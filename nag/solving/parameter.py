@@ -16,7 +16,7 @@ from nag.algebra.number import Number
 from nag.algebra.rational_map import MapError
 from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.zero_count import Completeness
+from nag.algebra.zero_count import Completeness, judge_number
 from nag.errors import StartError
 from nag.numerics.system_facts import SystemFacts
 from nag.solving.certificate import bound_of_zeros
@@ -197,7 +197,7 @@ def _compare_with_count(result: SolveResult, given: int, facts: SystemFacts) -> 
     if bound_of_zeros(result.system)[0] == found:
         return replace(result, reason=f"{result.reason}, and Bezout's bound agrees")
     count = facts.count_zeros(found, False)
-    seen = Completeness.UNKNOWN if count is None else count.judge(found)
+    seen = judge_number(found, count)
     if seen is Completeness.ALL:
         return replace(result, reason=f"{result.reason}, and a count modulo two primes agrees")
     if count is not None and seen is not Completeness.UNKNOWN:

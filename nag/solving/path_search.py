@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.zero_count import Completeness, ZeroCount
+from nag.algebra.zero_count import Completeness, ZeroCount, judge_number
 from nag.numerics.system_facts import SystemFacts
 from nag.solving.isolated_zero import IsolatedZero
 from nag.solving.path_ends import (
@@ -125,9 +125,7 @@ class PathSearch:
     @property
     def completeness(self) -> Completeness:
         """Whether all zeros were found, as far as a bound says."""
-        if self.bound is None:
-            return Completeness.UNKNOWN
-        return self.bound.count.judge(self.zeros)
+        return judge_number(self.zeros, None if self.bound is None else self.bound.count)
 
     @property
     def doubtful(self) -> np.ndarray:
@@ -154,7 +152,7 @@ class PathSearch:
         else:
             doubts = [*ends.unclear, *list_doubts(begin, self.paths), *doubts]
         if self.bound is not None and seen in (Completeness.MISSING, Completeness.TOO_MANY):
-            doubts.append(f"{self.zeros} zeros were found, and there are {self.bound.count.bound}")
+            doubts.append(self.bound.count.difference(self.zeros))
         remarks = []
         if self.problem.added and not len(ends.larger.points):
             remarks.append(

@@ -10,7 +10,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.imaginary_unit import has_unit
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.zero_count import Completeness, most_zeros
+from nag.algebra.zero_count import most_zeros
 from nag.numerics.certified_points import (
     CertifiedPoints,
     Proof,
@@ -20,6 +20,7 @@ from nag.numerics.certified_points import (
 from nag.numerics.claims import (
     Claim,
     Standing,
+    claim_of_number,
     claims_not_looked_at,
     claims_of_each,
     name_entries,
@@ -203,15 +204,9 @@ def _completeness(certificate: SolutionsCertificate) -> Claim:
     left_out = result.excluded and not result.excluded_solutions
     listed = _zeros_by_multiplicity(certificate)
     count = None if left_out or listed is None else most_zeros(result.system.polynomials, -1, False)
-    # Of a system with the imaginary unit the zeros of its conjugate system are counted as well.
-    sides = 1 + result.system.imaginary
-    verdict = Completeness.UNKNOWN if count is None else count.judge(sides * listed)
-    if count is None or verdict is Completeness.UNKNOWN:
-        return Claim("complete", text, Standing.UNSEEN)
-    text = f"{text}: {count.bound // sides} zeros are counted modulo two primes"
-    if verdict is Completeness.ALL:
-        return Claim("complete", text, Standing.EVIDENCE)
-    return Claim("complete", f"{text}, {listed} are listed", Standing.DOUBTED)
+    imaginary = result.system.imaginary
+    counted = None if listed is None else claim_of_number(text, listed, count, imaginary)
+    return counted or Claim("complete", text, Standing.UNSEEN)
 
 
 def _zeros_by_multiplicity(certificate: SolutionsCertificate) -> int | None:

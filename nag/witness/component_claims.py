@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.zero_count import Completeness, most_zeros
+from nag.algebra.zero_count import most_zeros
 from nag.numerics.certified_points import Proof
 from nag.numerics.claims import (
     Claim,
     Standing,
     claim_of_all,
+    claim_of_number,
     claims_not_looked_at,
     claims_of_each,
     combine_standings,
@@ -214,12 +215,4 @@ def _counted(certificate: DecompositionCertificate, text: str) -> Claim | None:
     if system.nonzero or certificate.same or certificate.unknown or not all(known):
         return None
     count = most_zeros(system.polynomials, -1, False)
-    # Of a system with the imaginary unit the zeros of its conjugate system are counted as well.
-    sides = 1 + system.imaginary
-    verdict = Completeness.UNKNOWN if count is None else count.judge(sides * sum(known))
-    if count is None or verdict is Completeness.UNKNOWN:
-        return None
-    text = f"{text}: {count.bound // sides} zeros are counted modulo two primes"
-    if verdict is Completeness.ALL:
-        return Claim("complete", text, Standing.EVIDENCE)
-    return Claim("complete", f"{text}, {sum(known)} are listed", Standing.DOUBTED)
+    return claim_of_number(text, sum(known), count, system.imaginary)

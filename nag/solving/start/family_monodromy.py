@@ -22,7 +22,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.family import Family
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.errors import StartError
-from nag.numerics.double_ranks import NEARLY_SINGULAR, smallest_share
+from nag.numerics.double_ranks import is_regular
 from nag.numerics.doubles import ARRIVED, VANISHING
 from nag.numerics.newton import STEPS
 from nag.solving.parameter_line import parameter_line
@@ -93,7 +93,7 @@ def first_solution(family: Family, rng: np.random.Generator) -> tuple[np.ndarray
                 break
         if not np.isfinite(z).all() or evaluator.residuals(z[None]).max() > VANISHING:
             continue
-        if smallest_share(evaluator.jacobian(z)[:, :n]) > NEARLY_SINGULAR:
+        if is_regular(evaluator.jacobian(z)[:, :n]):
             return z[n:], z[:n]
     raise StartError("parameter: no regular solution was found by Newton's method")
 
