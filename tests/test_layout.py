@@ -152,3 +152,12 @@ def test_what_docstrings_of_packages_name_inside_of_modules_is_there(file: Path)
         home, _, last = whole.rpartition(".")
         assert find_spec(home), name
         assert hasattr(import_module(home), last) or find_spec(whole), name
+
+
+def test_no_two_classes_share_a_name() -> None:
+    places: dict[str, list[str]] = {}
+    for file in sorted(NAG.rglob("*.py")):
+        for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+            if isinstance(node, ast.ClassDef):
+                places.setdefault(node.name, []).append(file.relative_to(NAG).as_posix())
+    assert {name: files for name, files in places.items() if len(files) > 1} == {}

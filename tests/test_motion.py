@@ -23,12 +23,12 @@ from nag.kinematics.walks import walks_of
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import real_assemblies
 from nag.real.curve import (
+    PictureVerdict,
     PieceKind,
     RealCurve,
     RealEdge,
     RealPiece,
     RealVertex,
-    Verdict,
     VertexKind,
 )
 
@@ -202,7 +202,7 @@ def arc(start: int | None, end: int | None, points: list[tuple[float, float]]) -
 
 def curve_of(vertices: list[tuple[float, float]], edges: list[RealEdge], *pieces) -> RealCurve:
     made = tuple(RealVertex(VertexKind.SINGULAR, np.array(v)) for v in vertices)
-    return RealCurve(("x", "y"), (), made, tuple(edges), tuple(pieces), Verdict.COMPLETE)
+    return RealCurve(("x", "y"), (), made, tuple(edges), tuple(pieces), PictureVerdict.COMPLETE)
 
 
 def lemniscate_lobe(sign: float) -> list[tuple[float, float]]:
@@ -248,7 +248,7 @@ def test_a_motion_turns_back_at_a_cusp_and_ends_where_an_arc_is_open() -> None:
         RealVertex(VertexKind.INFINITE, np.array([1.0, 0.0])),
     )
     piece = RealPiece(PieceKind.ARC_NETWORK, (0, 1), (0, 1))
-    curve = RealCurve(("x", "y"), (), vertices, tuple(branches), (piece,), Verdict.COMPLETE)
+    curve = RealCurve(("x", "y"), (), vertices, tuple(branches), (piece,), PictureVerdict.COMPLETE)
     (walk,) = walks_of(curve)
     assert not walk.closed and len(walk.chart) == 39
     assert walk.vertices == ((0, 19),)

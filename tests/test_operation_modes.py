@@ -28,7 +28,7 @@ from nag.mechanism.joint_factors import factors_of_joint
 from nag.mechanism.leg_image import COORDINATES, image_of_chain, study_quadric
 from nag.mechanism.legs import Leg, parallel_robot
 from nag.mechanism.loop_product import Element, displacement
-from nag.mechanism.modes_report import OperationModes, Reality
+from nag.mechanism.modes_report import ModeReality, OperationModes
 from nag.mechanism.motions import motion_of, screw_system
 from nag.mechanism.quaternion import rotate
 from nag.report.agreement import AgreementKind, compare
@@ -225,7 +225,7 @@ def test_conjugate_modes_are_told_from_real_ones() -> None:
     found = found_modes("3-upu-snu")
     pairs = [(i, m.conjugate) for i, m in enumerate(found.modes) if m.conjugate is not None]
     assert pairs == [(7, 8), (8, 7)]
-    assert all((m.reality is Reality.REAL) == (i < 7) for i, m in enumerate(found.modes))
+    assert all((m.reality is ModeReality.REAL) == (i < 7) for i, m in enumerate(found.modes))
     assert all(m.really_reached for m in found.modes[:7])
 
 

@@ -20,7 +20,14 @@ from nag.bench.reference import Reference, ReferenceError, compare_in_balls, com
 from nag.bench.speed_accuracy import chart_of, ratios
 from nag.bench.speed_accuracy_picture import COLOURS, MARKS, PEERS
 from nag.bench.whole_paths import WHOLE_TOLERANCES, WholePaths, tracked_in
-from nag.bench.work_precision import Curve, MeasuredCase, Point, best_form, document, read_charts
+from nag.bench.work_precision import (
+    ChartCurve,
+    MeasuredCase,
+    Point,
+    best_form,
+    document,
+    read_charts,
+)
 from nag.cli import main
 from nag.files.cases import read_case
 from nag.solving.solve import solve
@@ -270,10 +277,10 @@ def test_a_slice_meets_the_components_in_as_many_points_as_their_degrees() -> No
 
 
 def test_the_best_form_finds_most_then_to_the_accuracy_then_soonest() -> None:
-    def curve(name: str, share: float, largest: float, seconds: float) -> Curve:
-        return Curve("peer", name, (Point(name, seconds, 0, share, 0, largest, largest),))
+    def curve(name: str, share: float, largest: float, seconds: float) -> ChartCurve:
+        return ChartCurve("peer", name, (Point(name, seconds, 0, share, 0, largest, largest),))
 
-    none = Curve("peer", "none", (), "no answer")
+    none = ChartCurve("peer", "none", (), "no answer")
     some, rough = curve("some", 0.9, 1e-16, 1.0), curve("rough", 1.0, 1e-9, 1.0)
     slow, fast = curve("slow", 1.0, 1e-15, 3.0), curve("fast", 1.0, 1e-13, 2.0)
     for k, best in enumerate(order := (none, some, rough, slow, fast)):

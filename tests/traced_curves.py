@@ -8,12 +8,12 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.problem import Problem
 from nag.real.curve import (
+    PictureVerdict,
     PieceKind,
     RealCurve,
     RealEdge,
     RealPiece,
     Turn,
-    Verdict,
 )
 
 
@@ -83,5 +83,5 @@ def trace_loop(problem: Problem, start: np.ndarray, step: float = 0.02, most: in
         (),
         (edge,),
         (RealPiece(PieceKind.CLOSED_LOOP, (0,), ()),),
-        Verdict.COMPLETE,
+        PictureVerdict.COMPLETE,
     )

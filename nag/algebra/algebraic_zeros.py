@@ -111,7 +111,7 @@ class AlgebraicZero:
     def value(self, f: Polynomial) -> Any:
         """An exact polynomial at the zero, as a polynomial in the algebraic number."""
         if f not in self.known:
-            self.known[f] = _composed(ring(f.n).of(f), self.coordinates, self.minimal)
+            self.known[f] = _compose_modulo(ring(f.n).of(f), self.coordinates, self.minimal)
         return self.known[f]
 
     def vanishes(self, f: Polynomial) -> bool:
@@ -220,12 +220,12 @@ def _of_two_variables(
     found: list[AlgebraicZero] = []
     for each in families:
         at = [each.x if i == left[0] else each.y for i in range(over.n)]
-        coordinates = tuple(_composed(g, at, each.minimal) for g in images)
+        coordinates = tuple(_compose_modulo(g, at, each.minimal) for g in images)
         found += _conjugates(each.minimal, coordinates, each.multiplicity)
     return tuple(found)
 
 
-def _composed(f: Any, at: Sequence[Any], p: Any) -> Any:
+def _compose_modulo(f: Any, at: Sequence[Any], p: Any) -> Any:
     """A polynomial at coordinates that are polynomials modulo p."""
     powers: dict[tuple[int, int], Any] = {}
 

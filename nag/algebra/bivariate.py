@@ -64,7 +64,7 @@ def zero_families(f: Any, g: Any) -> tuple[ZeroFamily, ...] | None:
         resultant = first.resultant(second, 0)
         if resultant.is_zero():
             return None
-        found = _separated(resultant, first, second, k)
+        found = _separate_zeros(resultant, first, second, k)
         if found is not None:
             return found
     return None
@@ -84,7 +84,7 @@ def _monic(f: Any) -> bool:
     return top > 0 and all(e[1] == 0 for e in f.to_dict() if e[0] == top)
 
 
-def _separated(resultant: Any, f: Any, g: Any, k: int) -> tuple[ZeroFamily, ...] | None:
+def _separate_zeros(resultant: Any, f: Any, g: Any, k: int) -> tuple[ZeroFamily, ...] | None:
     """The zeros by the factors of the resultant; None if two have the same second coordinate.
 
     With a constant leading coefficient of f, the order of the resultant at a root is the sum of the
@@ -98,7 +98,7 @@ def _separated(resultant: Any, f: Any, g: Any, k: int) -> tuple[ZeroFamily, ...]
         common = [c % p for c in subresultant]
         if common[1].degree() < 0:
             common = _gcd(_coefficients(f, p), _coefficients(g, p), p)
-            common = _divided(common, _gcd(common, _derivative(common, p), p), p)
+            common = _divide_modulo(common, _gcd(common, _derivative(common, p), p), p)
         if len(common) != 2:
             return None
         x = -common[0] * _inverse(common[1], p) % p
@@ -158,10 +158,10 @@ def _determinant(rows: list[list[Any]]) -> Any:
 
 
 def _coefficients(f: Any, p: Any) -> list[Any]:
-    return _trimmed([c % p for c in _rows(f)])
+    return _trim_zeros([c % p for c in _rows(f)])
 
 
-def _trimmed(f: list[Any]) -> list[Any]:
+def _trim_zeros(f: list[Any]) -> list[Any]:
     while f and f[-1].degree() < 0:
         f = f[:-1]
     return f
@@ -178,7 +178,7 @@ def _reductions(f: list[Any], g: list[Any], p: Any) -> Iterator[tuple[int, Any, 
     while len(f) >= len(g):
         shift, c = len(f) - len(g), f[-1] * inverse % p
         f = [a - c * g[i - shift] % p if i >= shift else a for i, a in enumerate(f)]
-        f = _trimmed(f[:-1])
+        f = _trim_zeros(f[:-1])
         yield shift, c, f
 
 
@@ -191,12 +191,12 @@ def _gcd(f: list[Any], g: list[Any], p: Any) -> list[Any]:
     return f
 
 
-def _divided(f: list[Any], g: list[Any], p: Any) -> list[Any]:
+def _divide_modulo(f: list[Any], g: list[Any], p: Any) -> list[Any]:
     quotient = [flint.fmpq_poly([])] * (len(f) - len(g) + 1)
     for shift, c, _ in _reductions(f, g, p):
         quotient[shift] = c
-    return _trimmed(quotient)
+    return _trim_zeros(quotient)
 
 
 def _derivative(f: list[Any], p: Any) -> list[Any]:
-    return _trimmed([i * c % p for i, c in enumerate(f)][1:])
+    return _trim_zeros([i * c % p for i, c in enumerate(f)][1:])

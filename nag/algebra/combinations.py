@@ -61,7 +61,7 @@ def of_lowest_degrees(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ..
         tops = [{e: c for e, c in row.items() if sum(e) == degree} for _, row in of_degree]
         for k in _first_independent(tops):
             f, row = of_degree[k]
-            chosen.append(_whole(given[0].n, row) if f is None else f)
+            chosen.append(_clear_denominators(given[0].n, row) if f is None else f)
     shorter = sum(len(f.terms) for f in chosen) <= sum(len(f.terms) for f in given)
     return tuple(chosen) if shorter else given
 
@@ -116,7 +116,7 @@ def of_fewest_variables(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, 
         for inside in combinations(variables, size):
             found = [*chosen, *_combinations_in(inside, rows, monomials)]
             chosen = [found[k] for k in _first_independent(found)]
-    return tuple(_whole(given[0].n, row) for row in chosen)
+    return tuple(_clear_denominators(given[0].n, row) for row in chosen)
 
 
 def _combinations_in(
@@ -155,7 +155,7 @@ def _row(f: Polynomial) -> Row:
     return {e: to_rational(c) for e, c in f.terms.items()}
 
 
-def _whole(n: int, row: Row) -> Polynomial:
+def _clear_denominators(n: int, row: Row) -> Polynomial:
     """The multiple of a row whose leading coefficient of one becomes the common denominator."""
     common = lcm(*(int(c.q) for c in row.values()))
     return Polynomial(n, {e: Fraction(int(c.p) * (common // int(c.q))) for e, c in row.items()})

@@ -48,7 +48,7 @@ def generators(candidates: Sequence[Any]) -> list[Any]:
     chosen: list[Any] = []
     known: Ideal | None = None
     for f in sorted(candidates, key=_size):
-        if known is None or not known.contains([_whole(f, known.field)]):
+        if known is None or not known.contains([_clear_denominators(f, known.field)]):
             chosen.append(f)
             known = _ideal(chosen)
     return chosen
@@ -58,12 +58,12 @@ def _ideal(equations: Sequence[Any]) -> Ideal | None:
     names = [f"x{i}" for i in range(equations[0].context().nvars())]
     field = FunctionField(names, "degrevlex")
     try:
-        return ideal(field, [_whole(f, field) for f in equations], BOUNDS)
+        return ideal(field, [_clear_denominators(f, field) for f in equations], BOUNDS)
     except UnfinishedBasis:
         return None
 
 
-def _whole(f: Any, field: FunctionField) -> Any:
+def _clear_denominators(f: Any, field: FunctionField) -> Any:
     terms = f.to_dict()
     common = lcm(*(int(c.q) for c in terms.values()))
     return field.context.from_dict({e: int(c.p) * (common // int(c.q)) for e, c in terms.items()})

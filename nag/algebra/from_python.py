@@ -124,7 +124,7 @@ def system(
       x^2 + y^2 - 1 = 0
       x - 1/2*y = 0
     """
-    given, apart = _listed(equations, "equations"), _listed(nonzero, "nonzero")
+    given, apart = _list_equations(equations, "equations"), _list_equations(nonzero, "nonzero")
     advice = "a dict of values by name"
     check_type({} if parameters is None else parameters, Mapping, "parameters", advice)
     check_listed(groups, "groups", "a list of groups, each a list of variables")
@@ -186,7 +186,7 @@ def _is_complex(equation: Any, unit: str | None) -> bool:
     return is_sympy(equation) and equation.has(sys.modules["sympy"].I)
 
 
-def _listed(equations: Any, place: str) -> list[Any]:
+def _list_equations(equations: Any, place: str) -> list[Any]:
     """Equations as a list; a single one is a list of one."""
     matrix = getattr(equations, "is_Matrix", False)
     if isinstance(equations, str | Polynomial) or (is_sympy(equations) and not matrix):

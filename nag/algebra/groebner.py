@@ -258,8 +258,8 @@ def intersection(first: Ideal, second: Ideal) -> Ideal:
     longer = FunctionField(("t'", *first.field.names), "lex")
     ring = longer.context
     t = ring.gens()[0]
-    sums = [t * _raised(f, ring) for f in first.basis]
-    sums += [(1 - t) * _raised(f, ring) for f in second.basis]
+    sums = [t * _raise_to_ring(f, ring) for f in first.basis]
+    sums += [(1 - t) * _raise_to_ring(f, ring) for f in second.basis]
     kept = []
     for f in ideal(longer, sums).basis:
         terms = {tuple(map(int, e)): c for e, c in f.to_dict().items()}
@@ -278,7 +278,7 @@ def quotient(big: Ideal, f: Any) -> Ideal:
     return ideal(big.field, [g // f for g in multiples.basis])
 
 
-def _raised(f: Any, ring: Any) -> Any:
+def _raise_to_ring(f: Any, ring: Any) -> Any:
     return ring.from_dict({(0, *map(int, e)): c for e, c in f.to_dict().items()})
 
 

@@ -26,7 +26,7 @@ def multipliers(ideal: Ideal, f: Polynomial, degree: int, most: int) -> list[Pol
     """
     rules = _rules(ideal)
     one = (0,) * f.n
-    forms = {one: _reduced(dict(f.terms), rules)}
+    forms = {one: _reduce_terms(dict(f.terms), rules)}
     level = [one]
     for _ in range(degree):
         following = []
@@ -38,7 +38,7 @@ def multipliers(ideal: Ideal, f: Polynomial, degree: int, most: int) -> list[Pol
                 if len(forms) == most:
                     return None
                 raised = {(*g[:i], g[i] + 1, *g[i + 1 :]): c for g, c in forms[e].items()}
-                forms[above] = _reduced(raised, rules)
+                forms[above] = _reduce_terms(raised, rules)
                 following.append(above)
         level = following
     return _relations(forms, f.n)
@@ -76,7 +76,7 @@ def _rules(ideal: Ideal) -> dict[Exponents, Terms]:
     return rules
 
 
-def _reduced(terms: dict[Exponents, Fraction], rules: Mapping[Exponents, Terms]) -> Terms:
+def _reduce_terms(terms: dict[Exponents, Fraction], rules: Mapping[Exponents, Terms]) -> Terms:
     """The normal form: no monomial of it is a multiple of a leading one."""
     rest: dict[Exponents, Fraction] = {}
     while terms:

@@ -127,7 +127,7 @@ def _loops(linear: Sequence[_Linear], weight: Exact) -> list[list[complex]] | No
     left, root = list(linear), sqrt(weight)
     while left:
         first = left.pop(0)
-        found = next(((g, q) for g in left if (q := _turned(first, g, weight))), None)
+        found = next(((g, q) for g in left if (q := _find_quarter_turn(first, g, weight))), None)
         if found is None:
             return None
         other, factor = found
@@ -140,7 +140,7 @@ def _loops(linear: Sequence[_Linear], weight: Exact) -> list[list[complex]] | No
     return loops
 
 
-def _turned(first: _Linear, second: _Linear, weight: Exact) -> Exact | None:
+def _find_quarter_turn(first: _Linear, second: _Linear, weight: Exact) -> Exact | None:
     """How many times ``second`` is ``first``, turned by a right angle; None if it is not."""
     for (a, b), (c, s) in zip(first[0], second[0], strict=True):
         if a or b:

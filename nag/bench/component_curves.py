@@ -20,7 +20,7 @@ from nag.bench.sharpening import sharpening
 from nag.bench.work_precision import (
     PATIENCE,
     Chart,
-    Curve,
+    ChartCurve,
     MeasuredCase,
     Point,
     Progress,
@@ -149,7 +149,7 @@ def _linear(n: int, rng: np.random.Generator) -> Polynomial:
     return sum((int(w) * v for w, v in zip(weights, x, strict=True)), x[0] * 0 + int(constant))
 
 
-def _peer(program: str, system: PolynomialSystem, wanted: Wanted, seeds: int) -> Curve:
+def _peer(program: str, system: PolynomialSystem, wanted: Wanted, seeds: int) -> ChartCurve:
     """What a program finds over seeds; where it gives no answer to the first, nothing is."""
     curves = (
         _in_form(program, form, system, wanted, seeds, remark)
@@ -165,14 +165,14 @@ def _in_form(
     wanted: Wanted,
     seeds: int,
     remark: str,
-) -> Curve:
+) -> ChartCurve:
     seconds, found = [], []
     for seed in range(seeds):
         answer = peer_components(program, form, PATIENCE, seed)
         if answer.components is None and not seed:
-            return Curve("peer", program, (), answer.remark)
+            return ChartCurve("peer", program, (), answer.remark)
         listed = [Listed(c.points, c.rows) for c in answer.components or ()]
         seconds.append(answer.seconds)
         found.append(agreement(system, listed, wanted))
     point = Point(program, float(np.median(seconds)), 0, **asdict(join_found(found)))
-    return Curve("peer", program, (point,), remark)
+    return ChartCurve("peer", program, (point,), remark)

@@ -15,7 +15,7 @@ from nag.bench.sharpening import sharpening
 from nag.bench.work_precision import (
     PATIENCE,
     Chart,
-    Curve,
+    ChartCurve,
     MeasuredCase,
     Point,
     Progress,
@@ -106,16 +106,16 @@ def _solutions(subject: MeasuredCase, seeds: int, progress: Progress | None) -> 
     )
 
 
-def _peer(program: str, system: PolynomialSystem, reference: Reference) -> Curve:
+def _peer(program: str, system: PolynomialSystem, reference: Reference) -> ChartCurve:
     curves = []
     for remark, form in forms(system).items():
         answer = peer_points(program, form, PATIENCE)
         if answer.points is None:
-            curves.append(Curve("peer", program, (), answer.remark))
+            curves.append(ChartCurve("peer", program, (), answer.remark))
             continue
         found = compare_points(reference, answer.points)
         point = Point(program, answer.seconds, 0, **asdict(found))
-        curves.append(Curve("peer", program, (point,), remark))
+        curves.append(ChartCurve("peer", program, (point,), remark))
     return best_form(curves)
 
 
@@ -130,7 +130,7 @@ def ratios(charts: Sequence[Chart], accuracy: float = 1e-12) -> list[list[str]]:
         mine = next(p for c in chart.curves for p in c.points if p.name == "default")
         head = [chart.case, f"{mine.share:.0%}", f"{mine.largest:.1e}", f"{mine.seconds:.4f}"]
         others = [c for c in chart.curves if c.kind == "peer"]
-        for curve in others or [Curve("peer", "-", ())]:
+        for curve in others or [ChartCurve("peer", "-", ())]:
             if not curve.points:
                 lines.append([*head, curve.label, "-", "-", curve.remark or "-"])
                 continue

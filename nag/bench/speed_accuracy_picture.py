@@ -9,7 +9,7 @@ import numpy as np
 
 from nag.bench.picture_file import STYLE, save
 from nag.bench.whole_paths import ARITHMETICS, DIGITS
-from nag.bench.work_precision import ACCURATE, Chart, Curve, Point
+from nag.bench.work_precision import ACCURATE, Chart, ChartCurve, Point
 
 # Colours, from dark to light in equal steps, marks and dashes, so that greyscale will do.
 COLOURS = ("#10102e", "#7d0a22", "#2a5fb0", "#1e9684", "#e0931c", "#b4cc55")
@@ -104,13 +104,13 @@ def _number(count: int, what: str) -> str:
     return f"{count} {what.removesuffix('s') if count == 1 else what}"
 
 
-def _label(curve: Curve) -> str:
+def _label(curve: ChartCurve) -> str:
     if curve.kind == "settings":
         return "settings " + ", ".join(p.name for p in curve.points)
     return curve.label
 
 
-def _style(curve: Curve, k: int) -> dict[str, Any]:
+def _style(curve: ChartCurve, k: int) -> dict[str, Any]:
     if curve.kind == "peer":
         colour, mark = PEERS.get(curve.label, OTHER_PEER)
         return {"color": colour, "marker": mark, "markersize": 7, "linestyle": ""}
@@ -122,7 +122,7 @@ def _numbered(k: int) -> dict[str, Any]:
 
 
 def _error(
-    axes: Any, curve: Curve, style: dict[str, Any], across: str, floor: float = FLOOR
+    axes: Any, curve: ChartCurve, style: dict[str, Any], across: str, floor: float = FLOOR
 ) -> Any:
     points = [p for p in curve.points if p.share > 0]
     x = [getattr(p, across) for p in points]
@@ -134,7 +134,7 @@ def _error(
     return line
 
 
-def _share(axes: Any, curve: Curve, style: dict[str, Any], across: str) -> None:
+def _share(axes: Any, curve: ChartCurve, style: dict[str, Any], across: str) -> None:
     x = [getattr(p, across) for p in curve.points]
     axes.plot(x, [100 * p.share for p in curve.points], linewidth=0.9, **style)
 
@@ -184,7 +184,7 @@ def _of_arithmetic(name: str) -> dict[str, Any]:
     return _numbered(ARITHMETICS.index(name)) | {"markersize": 4}
 
 
-def _arithmetics(axes: Any, curves: Sequence[Curve]) -> dict[str, Any]:
+def _arithmetics(axes: Any, curves: Sequence[ChartCurve]) -> dict[str, Any]:
     """Errors of paths that were tracked wholly in one arithmetic, at several tolerances."""
     if not curves:
         axes.axis("off")

@@ -77,7 +77,7 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Curve:
+class ChartCurve:
     """Points that belong together.
 
     Attributes:
@@ -109,7 +109,7 @@ class Chart:
     what: str
     expected: int
     seeds: int
-    curves: tuple[Curve, ...]
+    curves: tuple[ChartCurve, ...]
     certified: int
     certification: float
     path_proof: float
@@ -143,7 +143,7 @@ def own_curves(
     measured: Callable[[int, Settings | str], tuple[float, int, Found]],
     seeds: int,
     progress: Progress | None,
-) -> list[Curve]:
+) -> list[ChartCurve]:
     """Those of `settings_of_curves`: seconds, evaluations and what was found are ``measured``."""
     # What is loaded, or compiled, on first use is no part of anyone's time.
     for kernel in end_run.KERNELS.values():
@@ -157,7 +157,7 @@ def own_curves(
             over_seeds(name, lambda seed, s=settings: measured(seed, s), seeds)
             for name, settings in several
         ]
-        curves.append(Curve(kind, label, tuple(points)))
+        curves.append(ChartCurve(kind, label, tuple(points)))
     return curves
 
 
@@ -166,7 +166,7 @@ def in_arithmetics(
     reference: Reference,
     seeds: int,
     progress: Progress | None,
-) -> Iterator[Curve]:
+) -> Iterator[ChartCurve]:
     """Paths tracked wholly in each arithmetic, at several tolerances."""
     each = [WholePaths.of(system, seed) for seed in range(seeds)]
     for arithmetic in ARITHMETICS:
@@ -180,16 +180,16 @@ def in_arithmetics(
             )
             for tolerance in WHOLE_TOLERANCES
         ]
-        yield Curve("arithmetic", arithmetic, tuple(points))
+        yield ChartCurve("arithmetic", arithmetic, tuple(points))
 
 
-def best_form(curves: Iterable[Curve]) -> Curve:
+def best_form(curves: Iterable[ChartCurve]) -> ChartCurve:
     """Of curves of another program, for the same equations written differently, the best.
 
     That which finds the most, then to `ACCURATE`, then the fastest.
     """
 
-    def quality(curve: Curve) -> tuple[float, bool, float]:
+    def quality(curve: ChartCurve) -> tuple[float, bool, float]:
         if not curve.points:
             return -1.0, False, 0.0
         (point,) = curve.points
@@ -260,14 +260,14 @@ def _chart(value: Any, place: str) -> Chart:
     return Chart(curves=read, sharpened=steps, **numbers, **texts)
 
 
-def _curve(value: Any, place: str) -> Curve:
+def _curve(value: Any, place: str) -> ChartCurve:
     table = as_table(value, place)
     points = as_list(entry(table, "points", place), f"{place}.points")
     read = tuple(_point(p, f"{place}.points[{i}]") for i, p in enumerate(points))
     texts = _texts(table, place, ("kind", "label", "remark"))
     if texts["kind"] == "peer" and len(read) > 1:
         raise wrong(f"{place}.points", "one point at most, of another program")
-    return Curve(points=read, **texts)
+    return ChartCurve(points=read, **texts)
 
 
 def _point(value: Any, place: str) -> Point:

@@ -194,7 +194,7 @@ class _Cover:
             raise GenusError("paths to the base point failed")
         self.sheets = with_fine(fibres)
 
-    def _carried(self, corners: Sequence[complex]) -> np.ndarray:
+    def _carry_sheets(self, corners: Sequence[complex]) -> np.ndarray:
         """Where each sheet over the base point is carried along a closed polygon from there."""
         fibres = self.sheets
         for t in [*corners, self.base]:
@@ -221,11 +221,11 @@ class _Cover:
             inwards = [v + away * shrink ** (k / legs) for k in range(1, legs)]
             turns = np.exp(2j * np.pi * np.arange(CORNERS + 1) / CORNERS)
             circle = [complex(v + away * shrink * turn) for turn in turns]
-            result.append(self._carried([*inwards, *circle, *inwards[::-1]]))
+            result.append(self._carry_sheets([*inwards, *circle, *inwards[::-1]]))
         return result
 
     def round_all(self) -> np.ndarray:
         """The permutation of the sheets round all values together."""
         away = self.base - self.centre
         turns = [np.exp(2j * np.pi * k / (2 * CORNERS)) for k in range(1, 2 * CORNERS)]
-        return self._carried([self.centre + away * turn for turn in turns])
+        return self._carry_sheets([self.centre + away * turn for turn in turns])

@@ -118,7 +118,7 @@ def find_excluded(nonzero: Sequence[Polynomial], ends: SliceEnds) -> tuple[np.nd
         twin = _twin(ends, i, doubtful, real=not len(rows))
         known = doubtful.get(twin) if twin is not None else None
         if known is None:
-            known = _beside(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
+            known = _lies_beside_excluded(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
         doubtful[i] = known
     return result, unclear + sum(doubtful.values())
 
@@ -138,7 +138,7 @@ def _twin(ends: SliceEnds, i: int, others: Iterable[int], real: bool) -> int | N
     return None
 
 
-def _beside(
+def _lies_beside_excluded(
     nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, z: np.ndarray, accuracy: float
 ) -> bool:
     """Whether an isolated zero that ``z`` may be lies beside what is excluded, and not on it.

@@ -123,7 +123,7 @@ class Examined:
 
     Attributes:
         rows: the slice, in the coordinates in which equations are solved; cut: in the original.
-        own: indices of the points among all of their dimension, shape ``(P,)``.
+        numbers: indices of the points among all of their dimension, shape ``(P,)``.
         inner: the points in the coordinates in which equations are solved.
         lifted: in the original ones.
         coranks, residuals: of the points, shape ``(P,)``.
@@ -132,7 +132,7 @@ class Examined:
     reduction: Reduction
     rows: np.ndarray
     cut: Slice
-    own: np.ndarray
+    numbers: np.ndarray
     inner: SharpPoints
     lifted: SharpPoints
     coranks: np.ndarray
@@ -140,12 +140,12 @@ class Examined:
 
     def only(self, indices: np.ndarray) -> Examined:
         """Those that have one of these indices, in an order that does not depend on them."""
-        asked = np.zeros(1 + max(self.own.max(initial=-1), indices.max(initial=-1)), dtype=bool)
+        asked = np.zeros(1 + max(self.numbers.max(initial=-1), indices.max(initial=-1)), dtype=bool)
         asked[indices] = True
-        places = self.inner.order(np.flatnonzero(asked[self.own]))
+        places = self.inner.order(np.flatnonzero(asked[self.numbers]))
         return replace(
             self,
-            own=self.own[places],
+            numbers=self.numbers[places],
             inner=self.inner.only(places),
             lifted=self.lifted.only(places),
             coranks=self.coranks[places],

@@ -49,13 +49,13 @@ def add_hull_equations(
         source = source_of_component(system, component)
         cloud = Cloud(source, AmbientVariables.itself(system), rng, run)
         known = next_degree(cloud, start(range(system.n)))
-        own = _beside(known.basis, system)
+        own = _add_equations(known.basis, system)
         if component.multiplicity == 1 and Reduction.of(own).n == Reduction.of(system).n:
             return system, component
         found = mark_simple(own, component)
         while found.multiplicity != 1 and known.degree < component.degree:
             known = next_degree(cloud, known)
-            own = _beside(known.generators, system)
+            own = _add_equations(known.generators, system)
             found = mark_simple(own, component)
     except (SourceError, InterpolationError):
         return system, component
@@ -72,5 +72,5 @@ def mark_simple(system: PolynomialSystem, component: WitnessSet) -> WitnessSet:
     return replace(component, multiplicity=1, fibres=()) if regular else component
 
 
-def _beside(found: Sequence[Polynomial], system: PolynomialSystem) -> PolynomialSystem:
+def _add_equations(found: Sequence[Polynomial], system: PolynomialSystem) -> PolynomialSystem:
     return replace(system, polynomials=tuple(dict.fromkeys((*found, *system.polynomials))))

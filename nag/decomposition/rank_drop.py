@@ -120,16 +120,16 @@ def rank_drop(
         nag.decomposition.factor.IntersectionError: if the witness points are no regular zeros.
     """
     reduction = Reduction.of(component_system(system, component), scaled=True)
-    own, frame, n = reduction.reduced, reduction.frame, reduction.n
+    reduced, frame, n = reduction.reduced, reduction.frame, reduction.n
     if component.dimension in (0, n):
         return RankDrop((), PathCounts(), (), system.n)
-    if is_regular_everywhere(own.polynomials, n - component.dimension):
+    if is_regular_everywhere(reduced.polynomials, n - component.dimension):
         return RankDrop((), PathCounts(), (), system.n, proved=True)
-    search = _RankDrops(own, _restricted(component, reduction), run)
+    search = _RankDrops(reduced, _restrict_component(component, reduction), run)
     rng = run.random()
-    search.cut(_left_null_space(own, search.rank, rng), rng)
+    search.cut(_left_null_space(reduced, search.rank, rng), rng)
     if search.regular:
-        search = search.joined(_right_null_space(own, search.rank, rng), rng)
+        search = search.joined(_right_null_space(reduced, search.rank, rng), rng)
     sets = [
         SetOfPoints(one.dimension, one.degree, frame.points(y), frame.error(y, one.error))
         for one in search.sets
@@ -154,25 +154,27 @@ def rank_drop_points(
         Complex, shape ``(P, n)``; None where there may be infinitely many, or one may be missing.
     """
     reduction = Reduction.of(component_system(system, component), scaled=True)
-    own, frame = reduction.reduced, reduction.frame
+    reduced, frame = reduction.reduced, reduction.frame
     rng = run.random()
-    conditions = _left_null_space(own, own.n - component.dimension, rng)
-    found = _isolated_pairs(own, conditions, run)
-    return frame.points(found.points[:, : own.n]) if _is_whole(found) else None
+    conditions = _left_null_space(reduced, reduced.n - component.dimension, rng)
+    found = _isolated_pairs(reduced, conditions, run)
+    return frame.points(found.points[:, : reduced.n]) if _is_whole(found) else None
 
 
-def _in_variables(own: PolynomialSystem, conditions: PolynomialSystem) -> PolynomialSystem:
+def _in_variables(reduced: PolynomialSystem, conditions: PolynomialSystem) -> PolynomialSystem:
     """A system in its own variables and the further ones of conditions."""
     lifted, nonzero = (
-        tuple(f.with_variables(conditions.n, range(own.n)) for f in polynomials)
-        for polynomials in (own.polynomials, own.nonzero)
+        tuple(f.with_variables(conditions.n, range(reduced.n)) for f in polynomials)
+        for polynomials in (reduced.polynomials, reduced.nonzero)
     )
     return PolynomialSystem(conditions.variables, lifted, nonzero)
 
 
-def _isolated_pairs(own: PolynomialSystem, conditions: PolynomialSystem, run: Run) -> SolveResult:
+def _isolated_pairs(
+    reduced: PolynomialSystem, conditions: PolynomialSystem, run: Run
+) -> SolveResult:
     """The isolated zeros of a system and conditions, in the variables of these."""
-    product = _in_variables(own, conditions)
+    product = _in_variables(reduced, conditions)
     equations = dict.fromkeys((*product.polynomials, *conditions.polynomials))
     return solve(replace(product, polynomials=tuple(equations)), run=run)
 
@@ -190,7 +192,7 @@ class _RankDrops:
         regular: whether sets of positive dimension were met where it is not.
     """
 
-    own: PolynomialSystem
+    reduced: PolynomialSystem
     component: WitnessSet
     run: Run
     sets: list[SetOfPoints] = field(default_factory=list)
@@ -201,7 +203,7 @@ class _RankDrops:
     @property
     def rank(self) -> int:
         """The usual rank: the codimension."""
-        return self.own.n - self.component.dimension
+        return self.reduced.n - self.component.dimension
 
     def cut(self, conditions: PolynomialSystem, rng: np.random.Generator) -> None:
         """Where the component's product with an affine space, of more variables, meets conditions.
@@ -209,9 +211,9 @@ class _RankDrops:
         Raises:
             nag.decomposition.factor.IntersectionError: if the witness points are no regular zeros.
         """
-        own, total = self.own, conditions.n
-        product = _in_variables(own, conditions)
-        start = _times_space(self.component, total - own.n, rng)
+        reduced, total = self.reduced, conditions.n
+        product = _in_variables(reduced, conditions)
+        start = _times_space(self.component, total - reduced.n, rng)
         found = intersect_equations(product, start, conditions, run=self.run)
         self.paths += found.paths
         if found.notes and self._solved(conditions):
@@ -227,14 +229,14 @@ class _RankDrops:
         Of a point where many come together, as of a cusp of high order, no regular equations are
         found in passing, and none are needed.
         """
-        found = _isolated_pairs(self.own, conditions, self.run)
+        found = _isolated_pairs(self.reduced, conditions, self.run)
         self.paths += PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity)
         if not _is_whole(found):
             return False
-        own, error, kept = self.own.n, ROUNDED, []
+        n, error, kept = self.reduced.n, ROUNDED, []
         for solution in found.solutions:
-            x, error = solution.point[:own], max(error, solution.accuracy)
-            answer = membership_in(self.own, self.component, x, solution.accuracy, self.run)
+            x, error = solution.point[:n], max(error, solution.accuracy)
+            answer = membership_in(self.reduced, self.component, x, solution.accuracy, self.run)
             if answer is Membership.UNDECIDED:
                 return False
             kept += [x] if answer is Membership.MEMBER else []
@@ -244,7 +246,7 @@ class _RankDrops:
 
     def joined(self, conditions: PolynomialSystem, rng: np.random.Generator) -> _RankDrops:
         """A search by conditions that leave nothing out, beside what is known of larger sets."""
-        again = _RankDrops(self.own, self.component, self.run)
+        again = _RankDrops(self.reduced, self.component, self.run)
         again.cut(conditions, rng)
         again.paths += self.paths
         if again.notes:
@@ -255,7 +257,7 @@ class _RankDrops:
 
     def _judge(self, found: Decomposition, one: WitnessSet) -> None:
         """Keep a set of pairs if the rank of all equations is not known to be the usual one."""
-        n = self.own.n
+        n = self.reduced.n
         image: WitnessSet | Projection = one
         if one.dimension:
             try:
@@ -264,16 +266,16 @@ class _RankDrops:
                 self.notes.append(f"a set of points of dimension {one.dimension} at most: {reason}")
                 return
         points = image.points[:, :n]
-        if image.dimension and len(self.own.polynomials) > self.rank:
+        if image.dimension and len(self.reduced.polynomials) > self.rank:
             accuracy = max(image.accuracy, ROUNDED)
-            local = local_dimension(self.own, points[0], accuracy=accuracy)
+            local = local_dimension(self.reduced, points[0], accuracy=accuracy)
             if local.tangent_dimension == n - self.rank:
                 self.regular = True
                 return
         self.sets.append(SetOfPoints(image.dimension, image.degree, points, image.accuracy))
 
 
-def _restricted(component: WitnessSet, reduction: Reduction) -> WitnessSet:
+def _restrict_component(component: WitnessSet, reduction: Reduction) -> WitnessSet:
     """A component in the coordinates that linear equations leave: the ranks drop where they did."""
     cut, frame = component.slice, reduction.frame
     rows = orthonormal_rows(frame.pulled_back(cut.A, cut.b))
@@ -283,42 +285,46 @@ def _restricted(component: WitnessSet, reduction: Reduction) -> WitnessSet:
     return replace(component, slice=here, points=points, radii=radii, multidegree=None, fibres=())
 
 
-def _left_null_space(own: PolynomialSystem, r: int, rng: np.random.Generator) -> PolynomialSystem:
+def _left_null_space(
+    reduced: PolynomialSystem, r: int, rng: np.random.Generator
+) -> PolynomialSystem:
     """w^T J = 0 for r equations, or as many random combinations, in the variables x and w."""
-    n, m = own.n, len(own.polynomials)
+    n, m = reduced.n, len(reduced.polynomials)
     total = n + r - 1
-    jacobian = _jacobian(own, total)
+    jacobian = _jacobian(reduced, total)
     if m > r:
         columns = list(zip(*jacobian, strict=True))
         jacobian = [[product(column, row) for column in columns] for row in _random(rng, r, m)]
     ones = [Polynomial.constant(total, 1), *Polynomial.variables(total)[n:]]
     w = [product(ones, row) for row in _random(rng, r, r)]
-    return _conditions(own, [product(w, column) for column in zip(*jacobian, strict=True)])
+    return _conditions(reduced, [product(w, column) for column in zip(*jacobian, strict=True)])
 
 
-def _right_null_space(own: PolynomialSystem, r: int, rng: np.random.Generator) -> PolynomialSystem:
+def _right_null_space(
+    reduced: PolynomialSystem, r: int, rng: np.random.Generator
+) -> PolynomialSystem:
     """J N = 0 for all equations, in the variables x and those of N: n - r + 1 independent columns.
 
     In random coordinates the first rows of N are those of the unit matrix.
     """
-    n, wide = own.n, own.n - r + 1
+    n, wide = reduced.n, reduced.n - r + 1
     total = n + (r - 1) * wide
     free = Polynomial.variables(total)[n:]
-    jacobian, turn = _jacobian(own, total), _random(rng, n, n)
+    jacobian, turn = _jacobian(reduced, total), _random(rng, n, n)
     conditions = []
     for j in range(wide):
         column = [Polynomial.constant(total, int(i == j)) for i in range(wide)]
         column = [product([*column, *free[j::wide]], row) for row in turn]
         conditions += [product(row, column) for row in jacobian]
-    return _conditions(own, conditions)
+    return _conditions(reduced, conditions)
 
 
-def _jacobian(own: PolynomialSystem, total: int) -> list[list[Polynomial]]:
-    return [[g.with_variables(total, range(own.n)) for g in row] for row in own.jacobian]
+def _jacobian(reduced: PolynomialSystem, total: int) -> list[list[Polynomial]]:
+    return [[g.with_variables(total, range(reduced.n)) for g in row] for row in reduced.jacobian]
 
 
-def _conditions(own: PolynomialSystem, polynomials: Sequence[Polynomial]) -> PolynomialSystem:
-    names = (*own.variables, *new_names(own.variables, polynomials[0].n - own.n))
+def _conditions(reduced: PolynomialSystem, polynomials: Sequence[Polynomial]) -> PolynomialSystem:
+    names = (*reduced.variables, *new_names(reduced.variables, polynomials[0].n - reduced.n))
     return PolynomialSystem(names, tuple(f for f in dict.fromkeys(polynomials) if f))
 
 

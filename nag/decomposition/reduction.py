@@ -96,7 +96,7 @@ class Reduction:
             n, total = self.system.n, self.system.n + cut.aux
             place = [*self.kept, *range(n, total)]
             powers = np.round(np.log2(self.scales)).astype(int)
-            rows = [_unscaled(f, powers).with_variables(total, place) for f in cut.polynomials]
+            rows = [_undo_scales(f, powers).with_variables(total, place) for f in cut.polynomials]
             for i, image in enumerate(self.images):
                 if i not in self.kept:
                     x = Polynomial.variable(total, i)
@@ -130,7 +130,7 @@ class Reduction:
         return Evaluator.of(self.system.polynomials, self.system.n)
 
 
-def _unscaled(f: Polynomial, powers: Sequence[int]) -> Polynomial:
+def _undo_scales(f: Polynomial, powers: Sequence[int]) -> Polynomial:
     """``f(x / 2^powers)``; further variables are left as they are."""
     if not any(powers):
         return f

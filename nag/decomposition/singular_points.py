@@ -159,11 +159,11 @@ class _SingularSearch:
     """Points where something may be singular, and what was left open on the way to them.
 
     Attributes:
-        own: each component with the equations that say most of it.
+        with_equations: each component with the equations that say most of it.
     """
 
     whole: Decomposition
-    own: Sequence[tuple[PolynomialSystem, WitnessSet]]
+    with_equations: Sequence[tuple[PolynomialSystem, WitnessSet]]
     run: Run
     candidates: list[SetOfPoints] = field(default_factory=list)
     examined: list[int] = field(default_factory=list)
@@ -174,7 +174,7 @@ class _SingularSearch:
 
     def on_component(self, i: int) -> None:
         """Points of a component where the rank of its own equations drops."""
-        (system, component), name = self.own[i], f"component {i + 1}"
+        (system, component), name = self.with_equations[i], f"component {i + 1}"
         if component.multiplicity != 1:
             self.notes.append(f"{name} is not reduced; its own singular points are not known")
             return
@@ -218,7 +218,7 @@ class _SingularSearch:
     def _factor(self, i: int) -> Operand:
         """A component as one of several that are intersected with each other."""
         if i not in self._factors:
-            self._factors[i] = Operand.in_branch(*self.own[i])
+            self._factors[i] = Operand.in_branch(*self.with_equations[i])
         return self._factors[i]
 
     def of_pairs(self, chosen: Sequence[int]) -> None:
@@ -235,7 +235,7 @@ class _SingularSearch:
 
     def unseen(self, i: int, j: int) -> bool:
         """Whether a pair's intersection may hold points where neither rank drops."""
-        (system, first), (other, second) = self.own[i], self.own[j]
+        (system, first), (other, second) = self.with_equations[i], self.with_equations[j]
         if first.dimension == 0 or second.dimension == 0:
             return False
         return not (
@@ -384,14 +384,14 @@ def _judge_candidate(
             x, error = local.point, ROUNDED
     multiplicities = {}
     for i, component in enumerate(whole.components):
-        if _outside_hull(search.own[i][0], x, error):
+        if _outside_hull(search.with_equations[i][0], x, error):
             continue
         # Doubles may take a point that is close to a component for one of it.
-        equations = search.own[i][0].polynomials
+        equations = search.with_equations[i][0].polynomials
         if found.precise is not None and all_vanish(equations, found.precise) is False:
             continue
         # A multiple component is simple in equations of its own.
-        own = search.own[i] if component.multiplicity != 1 else (whole.system, component)
+        own = search.with_equations[i] if component.multiplicity != 1 else (whole.system, component)
         m = _multiplicity(*own, x, error, rng, run)
         if m is None:
             search.notes.append(f"the multiplicity of component {i + 1} at a point is not known")

@@ -158,7 +158,7 @@ class _Stage:
         more = [g for g, vanishes in zip(self.after, later, strict=True) if vanishes]
         return Equations((*so_far.polynomials, *more), so_far.n) if more else so_far
 
-    def own(
+    def keep_on_no_other(
         self, fibre: Fibre, kept: Mapping[int, Sequence[Fibre]]
     ) -> tuple[Fibre, list[str], PathCounts]:
         """The points of a deflated fibre that lie on no other set.
@@ -180,7 +180,7 @@ class _Stage:
             mask[i] = answer is Membership.FOREIGN
         return fibre.only(mask), notes, counts
 
-    def beside(
+    def add_nearby_zeros(
         self,
         cluster: Cluster,
         so_far: Equations,
@@ -215,7 +215,7 @@ class _Stage:
             for other, error in cluster[1:]:
                 admit_end(other, error, simple, so_far, rows, rng, deflate=False)
             if not are_new_alone(kept[d], simple, so_far):
-                doubts, found = self.beside(cluster, so_far, kept[d], rows)
+                doubts, found = self.add_nearby_zeros(cluster, so_far, kept[d], rows)
                 if found.decided and found.zeros and not doubts:
                     return _not_all_found(cluster, found, so_far, d), PathCounts()
             kept[d][:] = simple
@@ -224,7 +224,7 @@ class _Stage:
         if answer is not Membership.FOREIGN:
             # Singular ends mostly lie on the set that they seem to lie on, however hard to judge.
             patience = IN_PASSING if answer is Membership.MEMBER else 1.0
-            doubts, found = self.beside(cluster, so_far, kept[d], rows, patience)
+            doubts, found = self.add_nearby_zeros(cluster, so_far, kept[d], rows, patience)
             if found.decided:
                 return doubts, counts
             if answer is Membership.MEMBER:
@@ -250,7 +250,7 @@ class _Stage:
             kept[d][:] = own
             return [], counts
         # Zeros so close together that doubles can neither tell nor cut them.
-        doubts, found = self.beside(cluster, so_far, kept[d], rows)
+        doubts, found = self.add_nearby_zeros(cluster, so_far, kept[d], rows)
         if found.decided and found.zeros and not doubts:
             return _not_all_found(cluster, found, so_far, d), counts
         return [f"a singular point of dimension {d} could not be made regular"], counts
@@ -270,7 +270,7 @@ class _Stage:
         """
         recovered = 0
         for cluster, near in lost:
-            doubts, found = self.beside(cluster, so_far, own, rows, whole=True)
+            doubts, found = self.add_nearby_zeros(cluster, so_far, own, rows, whole=True)
             if found.decided and found.zeros and not doubts:
                 total = sum(zero.multiplicity for zero in found.zeros)
                 recovered += len(cluster) if total >= near else 0
@@ -295,7 +295,7 @@ class _Stage:
                 notes.append(f"{candidates.unclear} points may be such as are excluded")
             for fibre in candidates.fibres:
                 if fibre.cut.deflated:
-                    fibre, doubts, used = self.own(fibre, kept)
+                    fibre, doubts, used = self.keep_on_no_other(fibre, kept)
                     counts += used
                     notes += doubts
                 kept.setdefault(d, []).append(fibre)

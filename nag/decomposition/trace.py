@@ -108,12 +108,12 @@ class Trace:
             return self, counts
         for fibre, own in points.fibres(new):
             target = self._slices(fibre)
-            starts = _numbered(fibre, (1.0, -1.0), pad_rows(points.rows, target.shape[1]))
+            starts = _number_points(fibre, (1.0, -1.0), pad_rows(points.rows, target.shape[1]))
             (there,) = move([starts], target, self.gamma, run, sizes=points.sizes)
             counts += there.counts.judged_elsewhere
             if not there.regular.all():
                 return None, counts
-            middle = _numbered(fibre, (0.0,), target)
+            middle = _number_points(fibre, (0.0,), target)
             for k, i in enumerate(own.tolist()):
                 sides = there.fibre([2 * k, 2 * k + 1])
                 ends[i] = join_fibres([middle.only([k]), sides])
@@ -297,7 +297,7 @@ def linear_trace(
         return None
 
 
-def _numbered(fibre: Fibre, numbers: Sequence[float], rows: np.ndarray) -> Fibre:
+def _number_points(fibre: Fibre, numbers: Sequence[float], rows: np.ndarray) -> Fibre:
     """Each point of a fibre once for each number, with that as a further unknown of ``rows``."""
     several, m = np.repeat(fibre.points, len(numbers), axis=0), len(numbers)
     points = np.column_stack([several, np.tile(numbers, len(fibre))])

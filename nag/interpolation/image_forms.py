@@ -150,7 +150,7 @@ def _vanishing(
             raise InterpolationError("forms are not the same modulo two primes")
         residues = _chinese(residues, modulus, basis, field.modulus) if modulus > 1 else basis
         modulus *= field.modulus
-        forms = _recognised(residues, modulus, candidates)
+        forms = _recognise_forms(residues, modulus, candidates)
         if forms is not None and _hold(forms, found, degree, other, rng):
             return forms
     raise InterpolationError(
@@ -202,7 +202,7 @@ def _chinese(
     ]
 
 
-def _recognised(
+def _recognise_forms(
     residues: Sequence[Sequence[int]], modulus: int, monomials: Sequence[Exponents]
 ) -> list[dict[Exponents, Fraction]] | None:
     """The forms of these coefficients; None if one is no residue of a short fraction."""

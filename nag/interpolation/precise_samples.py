@@ -148,10 +148,10 @@ class Sample:
         with in_bits(bits_of(digits + SPARE)):
             radius = flint.arb(10) ** -digits
             x = [z + to_ball(b) for z, b in zip(zero.point, self.natural.origin, strict=False)]
-            return [_widened(z, radius * (1 + abs(z).mid())) for z in x]
+            return [_widen_ball(z, radius * (1 + abs(z).mid())) for z in x]
 
 
-def _widened(z: flint.acb, radius: flint.arb) -> flint.acb:
+def _widen_ball(z: flint.acb, radius: flint.arb) -> flint.acb:
     part = flint.arb(0, radius.mid())
     return flint.acb(z.real + part, z.imag + part)
 

@@ -16,7 +16,7 @@ from nag.kinematics.path import Curve, Path, sample_path, singular_places
 from nag.kinematics.poses import Poses, pose_distances
 from nag.kinematics.scene import Scene, scene_of
 from nag.kinematics.turning_points import TurningPoint, Values, values_along
-from nag.kinematics.walks import Walk, points_of, walks_of
+from nag.kinematics.walks import CurveWalk, points_of, walks_of
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.real.curve import RealCurve
@@ -388,7 +388,7 @@ def _no_motion(curves: Sequence[RealCurve]) -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class _Found:
+class _FoundCircuit:
     """A circuit, what it was made of, and how far along that it ends."""
 
     circuit: Circuit
@@ -398,7 +398,7 @@ class _Found:
 
 def _circuits(
     problem: Problem, scene: Scene, curves: Sequence[RealCurve], which: Which, samples: int
-) -> list[_Found]:
+) -> list[_FoundCircuit]:
     """All circuits, or those through the reference configuration, each motion once."""
     reference = None
     if scene.from_reference and problem.reference is not None:
@@ -411,7 +411,7 @@ def _circuits(
             candidates.append((number, curve, begun or walk, begun is not None))
     if which == "reference":
         candidates = [c for c in candidates if c[3]]
-    found: list[_Found] = []
+    found: list[_FoundCircuit] = []
     for number, curve, walk, on in candidates:
         made = _sample(len(found) + 1, number, curve, walk, on, samples)
         if not any(_is_same_motion(scene, made, other) for other in found):
@@ -419,7 +419,7 @@ def _circuits(
     return found
 
 
-def _begin_at(curve: Curve, walk: Walk, reference: np.ndarray) -> Walk | None:
+def _begin_at(curve: Curve, walk: CurveWalk, reference: np.ndarray) -> CurveWalk | None:
     """A walk with a point of the curve on it, begun there if it is closed; None if it is not."""
     real = curve.real
     at, turns = reference.copy(), [t.variable for t in real.turns]
@@ -448,8 +448,8 @@ def _begin_at(curve: Curve, walk: Walk, reference: np.ndarray) -> Walk | None:
 
 
 def _sample(
-    number: int, component: int, curve: Curve, walk: Walk, on_reference: bool, samples: int
-) -> _Found:
+    number: int, component: int, curve: Curve, walk: CurveWalk, on_reference: bool, samples: int
+) -> _FoundCircuit:
     walk, unbounded = _within_reach(curve, walk)
     path = sample_path(curve, walk, 2 * samples + 1)
     values = values_along(path)
@@ -462,7 +462,7 @@ def _sample(
     poses = path.poses.at(step)
     if twice:
         poses = _return_to_start(poses)
-    return _Found(
+    return _FoundCircuit(
         Circuit(
             number,
             component,
@@ -481,7 +481,7 @@ def _sample(
     )
 
 
-def _within_reach(curve: Curve, walk: Walk) -> tuple[Walk, bool]:
+def _within_reach(curve: Curve, walk: CurveWalk) -> tuple[CurveWalk, bool]:
     """An open walk as far as bodies stay near, and whether that is not all of it."""
     if walk.closed:
         return walk, False
@@ -494,7 +494,7 @@ def _within_reach(curve: Curve, walk: Walk) -> tuple[Walk, bool]:
     if (first == 0 and last == len(walk.chart) - 1) or last - first < 1:
         return walk, False
     vertices = tuple((v, i - first) for v, i in walk.vertices if first <= i <= last)
-    return Walk(walk.piece, False, walk.chart[first : last + 1], vertices), True
+    return CurveWalk(walk.piece, False, walk.chart[first : last + 1], vertices), True
 
 
 def _return_to_start(poses: Poses) -> Poses:
@@ -528,7 +528,7 @@ def _part(values: Values, step: slice, end: float) -> Values:
     return Values(values.coordinates, own, tuple(turning), ranges, turns, values.still)
 
 
-def _is_same_motion(scene: Scene, one: _Found, other: _Found) -> bool:
+def _is_same_motion(scene: Scene, one: _FoundCircuit, other: _FoundCircuit) -> bool:
     """Whether two circuits run through the same configurations."""
     a, b = one.path, other.path
     spacing = b.length / (len(b.poses) - 1)
@@ -552,13 +552,13 @@ def _is_same_motion(scene: Scene, one: _Found, other: _Found) -> bool:
 class _Passage:
     """A circuit at a singular configuration: how far along, the point and the bodies there."""
 
-    made: _Found
+    made: _FoundCircuit
     arc: float
     point: np.ndarray
     pose: Poses
 
 
-def _passages(made: _Found) -> list[_Passage]:
+def _passages(made: _FoundCircuit) -> list[_Passage]:
     """The vertices of the real curve on a path, and where else its equations lose rank."""
     path = made.path
     step = float(path.arc[1] - path.arc[0])
@@ -582,7 +582,7 @@ def _passages(made: _Found) -> list[_Passage]:
 
 
 def _with_crossings(
-    found: Sequence[_Found], everything: Decomposition, own: Sequence[WitnessSet], run: Run
+    found: Sequence[_FoundCircuit], everything: Decomposition, own: Sequence[WitnessSet], run: Run
 ) -> list[Circuit]:
     """The circuits with the singular configurations on their way."""
     passages = [passage for made in found for passage in _passages(made)]

@@ -15,7 +15,7 @@ from nag.algebra.evaluation import Evaluator, PlacedDerivatives
 from nag.algebra.system import PolynomialSystem
 from nag.kinematics.poses import Poses, pose_steps
 from nag.kinematics.scene import Scene
-from nag.kinematics.walks import Walk, points_of
+from nag.kinematics.walks import CurveWalk, points_of
 from nag.real.curve import RealCurve
 
 # Singular values of the equations on a curve, beside the largest, that are zero.
@@ -130,7 +130,7 @@ class Path:
     """
 
     curve: Curve
-    walk: Walk
+    walk: CurveWalk
     arc: np.ndarray
     chart: np.ndarray
     poses: Poses
@@ -190,7 +190,7 @@ def _second_least(curve: Curve, chart: np.ndarray) -> np.ndarray:
     return np.linalg.svd(rows, compute_uv=False)[:, n - 2]
 
 
-def sample_path(curve: Curve, walk: Walk, count: int) -> Path:
+def sample_path(curve: Curve, walk: CurveWalk, count: int) -> Path:
     """``count`` samples at even distances, the walk's first and last point among them."""
     dense, arc, places = _measure(curve, walk, count)
     wanted = np.linspace(0.0, arc[-1], count)
@@ -202,7 +202,9 @@ def sample_path(curve: Curve, walk: Walk, count: int) -> Path:
     return Path(curve, walk, wanted, chart, poses, vertices)
 
 
-def _measure(curve: Curve, walk: Walk, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _measure(
+    curve: Curve, walk: CurveWalk, count: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Points along a walk, more of them where bodies move fast, and how far each is.
 
     Also at which of them the given ones are.

@@ -18,7 +18,7 @@ End = tuple[int, bool]
 
 
 @dataclass(frozen=True, eq=False)
-class Walk:
+class CurveWalk:
     """One motion along a real curve.
 
     Attributes:
@@ -35,7 +35,7 @@ class Walk:
     chart: np.ndarray
     vertices: tuple[tuple[int, int], ...]
 
-    def begin_at(self, index: int) -> Walk:
+    def begin_at(self, index: int) -> CurveWalk:
         """A closed walk, begun at another point."""
         if index == 0 or not self.closed:
             return self
@@ -43,13 +43,13 @@ class Walk:
         shift = self.chart[-1] - self.chart[0]
         chart = np.concatenate([self.chart[index:], self.chart[1 : index + 1] + shift])
         turned = {(v, (i - index) % last) for v, i in self.vertices}
-        return Walk(self.piece, True, chart, tuple(sorted(turned, key=lambda p: p[1])))
+        return CurveWalk(self.piece, True, chart, tuple(sorted(turned, key=lambda p: p[1])))
 
-    def insert(self, segment: int, point: np.ndarray) -> Walk:
+    def insert(self, segment: int, point: np.ndarray) -> CurveWalk:
         """The same with one point more, after that of index ``segment``."""
         chart = np.insert(self.chart, segment + 1, point, axis=0)
         vertices = tuple((v, i + (i > segment)) for v, i in self.vertices)
-        return Walk(self.piece, self.closed, chart, vertices)
+        return CurveWalk(self.piece, self.closed, chart, vertices)
 
 
 def points_of(curve: RealCurve, chart: np.ndarray) -> np.ndarray:
@@ -60,7 +60,7 @@ def points_of(curve: RealCurve, chart: np.ndarray) -> np.ndarray:
     return points
 
 
-def walks_of(curve: RealCurve) -> tuple[Walk, ...]:
+def walks_of(curve: RealCurve) -> tuple[CurveWalk, ...]:
     """All motions along a real curve, each edge in one of them; isolated points are none."""
     partner = _pair_ends(curve)
     walks = []
@@ -134,7 +134,7 @@ def _follow(curve: RealCurve, partner: dict[End, End], start: int) -> list[tuple
 
 def _join(
     curve: RealCurve, piece: int, way: list[tuple[int, bool]], partner: dict[End, End]
-) -> Walk:
+) -> CurveWalk:
     """The chart along edges, made continuous from one to the next."""
     parts: list[np.ndarray] = []
     vertices: list[tuple[int, int]] = []
@@ -161,7 +161,7 @@ def _join(
     if closed and vertices:
         # What ends where it began is there once.
         vertices = [(v, i) for v, i in vertices if i < length - 1]
-    return Walk(piece, closed, np.concatenate(parts), tuple(vertices))
+    return CurveWalk(piece, closed, np.concatenate(parts), tuple(vertices))
 
 
 def _is_finite(curve: RealCurve, vertex: int | None) -> bool:

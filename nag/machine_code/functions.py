@@ -54,7 +54,7 @@ class Module:
         try:
             kinds += [record(hints[name]) for name in names if name in hints]
         except TypeError as error:
-            raise _refused(function, str(error)) from None
+            raise _refuse_function(function, str(error)) from None
         _Body(self, function, tuple(kinds), ENTRY)
 
     def translated(self, function: FunctionType, kinds: tuple[Type, ...]) -> _Body:
@@ -70,7 +70,7 @@ class Module:
         return known
 
 
-def _refused(function: FunctionType, message: str) -> LocatedError:
+def _refuse_function(function: FunctionType, message: str) -> LocatedError:
     code = function.__code__
     return LocatedError(f"{code.co_filename}:{code.co_firstlineno}: {message}")
 
@@ -81,17 +81,17 @@ def _syntax(function: FunctionType) -> ast.FunctionDef:
     try:
         tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
     except (OSError, SyntaxError, IndexError):
-        raise _refused(function, f"{name} has no source of its own") from None
+        raise _refuse_function(function, f"{name} has no source of its own") from None
     if not isinstance(tree, ast.FunctionDef):
-        raise _refused(function, f"{name} is no function made by def")
+        raise _refuse_function(function, f"{name} is no function made by def")
     if tree.decorator_list or hasattr(function, "__wrapped__"):
-        raise _refused(function, f"{name} is decorated")
+        raise _refuse_function(function, f"{name} is decorated")
     if function.__closure__:
         names = ", ".join(function.__code__.co_freevars)
-        raise _refused(function, f"{name} needs {names} of the function round it")
+        raise _refuse_function(function, f"{name} needs {names} of the function round it")
     given = tree.args
     if given.posonlyargs or given.kwonlyargs or given.vararg or given.kwarg or given.defaults:
-        raise _refused(function, f"{name} has arguments other than plain ones")
+        raise _refuse_function(function, f"{name} has arguments other than plain ones")
     return tree
 
 
@@ -106,7 +106,7 @@ class _Body(Expressions):
         if len(names) != len(kinds):
             what = "arguments with types" if name == ENTRY else "arguments"
             message = f"{function.__name__} takes {len(names)} {what}, not {len(kinds)}"
-            raise _refused(function, message)
+            raise _refuse_function(function, message)
         nodes = list(ast.walk(tree))
         results = any(isinstance(n, ast.Return) and n.value for n in nodes)
         self.returns = results and name != ENTRY

@@ -110,7 +110,7 @@ def _multiply_add(builder: ir.IRBuilder, a: Any, b: Any, c: Any) -> Any:
     return operators.intrinsic(builder, f"llvm.fmuladd.v{WIDTH}f64", a, b, c)
 
 
-def _fused(builder: ir.IRBuilder, a: Any, b: Any, c: Any) -> Any:
+def _multiply_and_add(builder: ir.IRBuilder, a: Any, b: Any, c: Any) -> Any:
     return operators.intrinsic(builder, f"llvm.fma.v{WIDTH}f64", a, b, c)
 
 
@@ -138,7 +138,7 @@ OPERATIONS: dict[Any, tuple[int | None, Emit]] = {
     lanes.any_less: (2, _any_less),
     lanes.fma: (3, _on_lanes(_multiply_add)),
     lanes.fnma: (3, _on_lanes(lambda b, x, y, z: _multiply_add(b, b.fneg(x), y, z))),
-    lanes.fused: (3, _on_lanes(_fused)),
+    lanes.fused: (3, _on_lanes(_multiply_and_add)),
     lanes.load: (2, _load),
     lanes.select_less: (4, _on_lanes(_less)),
     lanes.splat: (1, _splat),

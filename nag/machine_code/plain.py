@@ -46,7 +46,7 @@ class Memory:
         self._flat[place] = value
 
 
-def _checked(record: Any) -> Any:
+def _check_record(record: Any) -> Any:
     """A record with arrays that check, and doubles that may be divided by zero."""
     kind = type(record).__name__
     fields = {}
@@ -71,4 +71,4 @@ def run(function: FunctionType, *records: Any, constants: tuple[Any, ...] = ()) 
         ZeroDivisionError: if it divides a whole number by zero.
     """
     with np.errstate(all="ignore"):
-        function(*constants, *map(_checked, records))
+        function(*constants, *map(_check_record, records))

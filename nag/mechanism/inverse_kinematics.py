@@ -126,7 +126,7 @@ def find_joints(
         found = _approach(generators, targets, np.zeros(STARTS, dtype=int), best, rng, real)
         if found is not None:
             for _ in range(LAST_STEPS):
-                _, rest, slopes = _beside(generators, found, targets)
+                _, rest, slopes = _across_poses(generators, found, targets)
                 found = _step(found, rest, slopes)
             return [w[0] for w in found]
     return None
@@ -153,7 +153,7 @@ def _approach(
     targets = poses[places]
     weights = [_unit(_random(rng, (len(targets), len(g)), real)) for g in generators]
     for _ in range(STEPS):
-        residuals, rest, slopes = _beside(generators, weights, targets)
+        residuals, rest, slopes = _across_poses(generators, weights, targets)
         inside = _are_displacements(generators, weights)
         np.minimum.at(best, places[inside], residuals[inside])
         left = best[places] >= REACHED
@@ -165,7 +165,7 @@ def _approach(
     return None
 
 
-def _beside(
+def _across_poses(
     generators: Sequence[np.ndarray], weights: Sequence[np.ndarray], targets: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """What stands across the poses, divided by what stands along them.

@@ -12,7 +12,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.mechanism.inverse_kinematics import REACHED
 from nag.mechanism.leg_image import COORDINATES
-from nag.mechanism.motions import Motion, ScrewSystem
+from nag.mechanism.motions import MotionType, ScrewSystem
 from nag.mechanism.platform import LegEquations, PlatformModel
 from nag.text.table import (
     Row,
@@ -34,7 +34,7 @@ NOT_SEEN = (
 )
 
 
-class Reality(StrEnum):
+class ModeReality(StrEnum):
     """Whether a mode has real poses, as many as it has dimensions."""
 
     REAL = "real"
@@ -70,10 +70,10 @@ class OperationMode:
     linear: tuple[Polynomial, ...]
     quadratic: tuple[Polynomial, ...]
     note: str
-    reality: Reality
+    reality: ModeReality
     conjugate: int | None
     real_pose: np.ndarray | None
-    motion: Motion | None
+    motion: MotionType | None
     screws: ScrewSystem | None
     through_reference: bool | None
     residuals: tuple[float, ...]
@@ -249,7 +249,7 @@ class OperationModes:
         elif kinds:
             text += f", {'each ' * (len(self.moving) > 1)}{kinds[0][1]}"
         if self.isolated:
-            real = sum(m.reality is Reality.REAL for m in self.isolated)
+            real = sum(m.reality is ModeReality.REAL for m in self.isolated)
             text += f"; and {count_text(len(self.isolated), 'single pose')}, {real} of them real"
         return text
 

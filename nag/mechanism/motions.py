@@ -50,7 +50,7 @@ class ScrewSystem:
 
 
 @dataclass(frozen=True)
-class Motion:
+class MotionType:
     """What the poses of a set have in common.
 
     Attributes:
@@ -101,7 +101,7 @@ def _rank(rows: np.ndarray) -> int:
     return 0 if size < NO_PITCH else rows.shape[1] - matrix_corank(rows / size, NEARLY_SINGULAR)
 
 
-def motion_of(poses: np.ndarray, systems: Sequence[np.ndarray], length: float) -> Motion:
+def motion_of(poses: np.ndarray, systems: Sequence[np.ndarray], length: float) -> MotionType:
     """What poses have in common, by some general ones and their twists.
 
     Args:
@@ -112,11 +112,13 @@ def motion_of(poses: np.ndarray, systems: Sequence[np.ndarray], length: float) -
     rank = len(systems[0])
     turning = _rank(systems[0][:, :3])
     if _rank(np.vstack(systems)) > rank:
-        return Motion(rank, turning, "")
+        return MotionType(rank, turning, "")
     return _motion_of_group(systems[0], turning, poses[0], length)
 
 
-def _motion_of_group(twists: np.ndarray, turning: int, pose: np.ndarray, length: float) -> Motion:
+def _motion_of_group(
+    twists: np.ndarray, turning: int, pose: np.ndarray, length: float
+) -> MotionType:
     """The group whose twists these are, and how it lies."""
     rank = len(twists)
     slides = _translations(twists, turning)
@@ -126,28 +128,28 @@ def _motion_of_group(twists: np.ndarray, turning: int, pose: np.ndarray, length:
         place = _vector_text(slides[0]) if rank == 1 else ""
         if rank == 2:
             place = f"normal to {_vector_text(np.cross(*slides))}"
-        return Motion(rank, turning, names[rank], place, _start_text(turn))
+        return MotionType(rank, turning, names[rank], place, _start_text(turn))
     axis = _turns(twists, turning)[0][:3]
     along = _vector_text(axis)
     still = np.linalg.norm(np.cross(axis, slides), axis=1) if len(slides) else np.zeros(0)
     moment = _turns(twists, turning)[0][3:]
     if (turning, rank) == (1, 1) and abs(np.sum(axis * moment)) < NO_PITCH:
-        return Motion(rank, turning, "rotation", f"about a line along {along}")
+        return MotionType(rank, turning, "rotation", f"about a line along {along}")
     if (turning, rank) == (1, 2) and still.max() < NO_PITCH:
-        return Motion(rank, turning, "rotation and translation", f"about and along {along}")
+        return MotionType(rank, turning, "rotation and translation", f"about and along {along}")
     if (turning, rank) == (1, 3) and np.abs(slides @ axis).max() < NO_PITCH:
         place = f"normal to {along}"
-        return Motion(rank, turning, "planar motion", place, _over_text(turn, axis))
+        return MotionType(rank, turning, "planar motion", place, _over_text(turn, axis))
     if (turning, rank) == (1, 4):
         group = "translation and rotation (Schoenflies)"
-        return Motion(rank, turning, group, f"about {along}", _over_text(turn, axis))
+        return MotionType(rank, turning, group, f"about {along}", _over_text(turn, axis))
     if (turning, rank) == (3, 3):
         # The velocity of the origin of a turn w about the centre c is c x w.
         found = np.linalg.lstsq(_cross_rows(twists[:, :3]), twists[:, 3:].ravel(), rcond=None)[0]
         centre = found.real * length
         place = f"about the point {_point_text(centre)}"
-        return Motion(rank, turning, "spherical motion", place)
-    return Motion(rank, turning, "all displacements" if rank == 6 else "")
+        return MotionType(rank, turning, "spherical motion", place)
+    return MotionType(rank, turning, "all displacements" if rank == 6 else "")
 
 
 def _cross_rows(axes: np.ndarray) -> np.ndarray:

@@ -598,7 +598,7 @@ class Walk:
         own = slice(first, last + 1)
         return Walk(self.positions[own], self.tangents[own], self.ends)
 
-    def beside(self, chains: Chains) -> Walk:
+    def close_on(self, chains: Chains) -> Walk:
         """The positions of other chains next to these."""
         pairs = zip(self.positions, self.tangents, strict=True)
         found = [close_across(chains, q, tangent) for q, tangent in pairs]
@@ -728,7 +728,7 @@ def _fit_repeatedly(
         moves = closed.whole and max(left_open) <= ROUNDING
         if moves:
             # Beside a linkage that moves, its motion is the better guide.
-            guess = beside = closed.beside(chains)
+            guess = beside = closed.close_on(chains)
         found.append(_Mobile(fitted, moves, left_open, beside))
         if not moves:
             break

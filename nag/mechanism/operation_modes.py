@@ -40,9 +40,9 @@ from nag.mechanism.inverse_kinematics import REACHED, reach_poses
 from nag.mechanism.leg_image import COORDINATES, MOST_DEGREE, norm_form, study_quadric
 from nag.mechanism.legs import parallel_robot
 from nag.mechanism.modes_report import (
+    ModeReality,
     OperationMode,
     OperationModes,
-    Reality,
     SpuriousComponent,
     Transition,
 )
@@ -258,7 +258,7 @@ def _describe(
         linear=(),
         quadratic=(),
         note="",
-        reality=Reality.UNKNOWN,
+        reality=ModeReality.UNKNOWN,
         conjugate=None if mirrored == index else mirrored,
         real_pose=None,
         motion=None,
@@ -269,33 +269,33 @@ def _describe(
     )
     if not component.dimension:
         if mirrored != index:
-            return replace(mode, reality=Reality.CONJUGATE)
+            return replace(mode, reality=ModeReality.CONJUGATE)
         pose = model.study(component.points)[0].real
-        return replace(mode, reality=Reality.REAL, real_pose=_shortened(pose))
+        return replace(mode, reality=ModeReality.REAL, real_pose=_normalise_real_parts(pose))
     mode = _with_equations(model, mode, length, run)
     if mode.is_linear:
         mode = replace(mode, conjugate=None)
     elif mirrored is None or mirrored != index:
-        reality = Reality.UNKNOWN if mirrored is None else Reality.CONJUGATE
+        reality = ModeReality.UNKNOWN if mirrored is None else ModeReality.CONJUGATE
         return replace(mode, reality=reality)
     points = np.array(list(_real_points(model, mode, run)))
     if not len(points):
         return mode
-    poses = _shortened(model.study(points).real)
+    poses = _normalise_real_parts(model.study(points).real)
     residuals = _residuals(model, poses, length, run.random(43), real=True)
     # The pose that most legs reach, the first of several.
     best = int(np.argmin((residuals >= REACHED).sum(axis=1)))
     twists = _twists(model, points[best], _real_tangents(model, mode, points[best]), length)
     return replace(
         mode,
-        reality=Reality.REAL,
+        reality=ModeReality.REAL,
         real_pose=poses[best],
         screws=screw_system(twists.real, length),
         real_residuals=tuple(residuals[best].tolist()),
     )
 
 
-def _shortened(poses: np.ndarray) -> np.ndarray:
+def _normalise_real_parts(poses: np.ndarray) -> np.ndarray:
     """Real poses whose real parts have norm one."""
     return poses / np.linalg.norm(poses[..., :4], axis=-1, keepdims=True)
 
@@ -317,7 +317,7 @@ def _with_equations(
         motion = motion_of(poses, [_twists(model, *each, length) for each in found], length)
         mode = replace(mode, motion=motion)
         linear = tuple(forms_of_degree(cloud, range(8), 1, ()))
-        study = _reduced(study_quadric(), linear)
+        study = _reduce_form(study_quadric(), linear)
         known = (*linear, *([primitive(study)] if study else []))
         quadratic = tuple(forms_of_degree(cloud, range(8), 2, known))
         return replace(mode, linear=linear, quadratic=quadratic)
@@ -343,7 +343,7 @@ def _cloud(model: PlatformModel, component: WitnessSet, run: Run) -> Cloud:
     return Cloud(source_of_component(system, component), ambient, run.random(44), run)
 
 
-def _reduced(form: Polynomial, linear: Sequence[Polynomial]) -> Polynomial:
+def _reduce_form(form: Polynomial, linear: Sequence[Polynomial]) -> Polynomial:
     """A form without the leading variables of reduced linear forms."""
     images = list(Polynomial.variables(8))
     for f in linear:

@@ -23,13 +23,13 @@ def multiply(a: Sequence[Any], b: Sequence[Any]) -> Quaternion:
     """The product ab, so that R(ab) = R(a) R(b)."""
     if all(type(x) is Fraction for x in (*a, *b)):
         # Products of whole numbers need no common divisors until they are added up.
-        (whole, below), (others, factor) = _whole(a), _whole(b)
+        (whole, below), (others, factor) = _clear_denominators(a), _clear_denominators(b)
         below *= factor
         return tuple(Fraction(c, below) for c in _product(whole, others))
     return _product(a, b)
 
 
-def _whole(a: Sequence[Fraction]) -> tuple[list[int], int]:
+def _clear_denominators(a: Sequence[Fraction]) -> tuple[list[int], int]:
     """Whole numbers and what they are to be divided by."""
     below = lcm(*(x.denominator for x in a))
     return [x.numerator * (below // x.denominator) for x in a], below

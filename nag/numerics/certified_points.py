@@ -292,7 +292,7 @@ def _regular(
     boxes, points = found.boxes, found.points
     count, n = len(equations) + len(slices), points.shape[1]
     if count > n:
-        return _overdetermined(equations, slices, found, proofs, tested, reach)
+        return _prove_overdetermined(equations, slices, found, proofs, tested, reach)
     if count == n:
         _enter(boxes, tested, prove_boxes(equations, slices, points[tested], reach[tested]))
         for i in tested[boxes.proved[tested]].tolist():
@@ -334,7 +334,7 @@ def _close_together(
             proofs[i] = Proof.SIMPLE
 
 
-def _overdetermined(
+def _prove_overdetermined(
     equations: Sequence[Polynomial],
     slices: np.ndarray,
     found: CertifiedPoints,
@@ -369,7 +369,7 @@ def _overdetermined(
         own = partial(is_chosen, rows, left)
         _enter(boxes, left, prove_boxes(square, slices, points[left], reach[left], own))
         for i in left[boxes.proved[left]].tolist():
-            vanishing, exact = _others(square, others, slices, points[i])
+            vanishing, exact = _vanish_at_others(square, others, slices, points[i])
             found.digits[i] = np.inf if exact else vanishing
             if not vanishing:
                 refuted.add(i)
@@ -429,7 +429,7 @@ def independent_equations(
     return sorted(pivot_rows(jacobian, len(point) - len(slices))[0])
 
 
-def _others(
+def _vanish_at_others(
     square: Sequence[Polynomial],
     others: Sequence[Polynomial],
     slices: np.ndarray,

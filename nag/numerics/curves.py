@@ -89,7 +89,7 @@ def order_of_contact(
             as much nearer to the point.
     """
     for k in _near(inverse):
-        beside = _beside(system, point, rounds, k)
+        beside = _find_beside(system, point, rounds, k)
         if beside is None:
             continue
         first = system.log_residual(beside, DIGITS)
@@ -97,12 +97,12 @@ def order_of_contact(
             if digits_at(system, k) <= DIGITS:
                 return 0.0
             digits = DIGITS + int(_length(system) / VANISHING)
-            begin = (beside, *_reduced(system, beside, rounds, inverse))
+            begin = (beside, *_join_rounds(system, beside, rounds, inverse))
             far = far_value(system, *begin, digits)
             if far is None:
                 return inf
             return 0.0 if far < -VANISHING * digits else max(2.0, -first / ((k + 2) * LOG10_2))
-        nearby = _beside(system, point, rounds, k + STEP)
+        nearby = _find_beside(system, point, rounds, k + STEP)
         if nearby is not None:
             second = system.log_residual(nearby, DIGITS)
             return max(2.0, (first - second) / (STEP * LOG10_2) - 1)
@@ -117,11 +117,13 @@ def _near(inverse: float) -> list[int]:
 
 def point_beside(system: ExactSystem, found: DeflatedPoint) -> Point | None:
     """A point of the smooth set of zeros through a zero, a little off it; None if not found."""
-    tries = (_beside(system, found.point, found.rounds, k) for k in _near(found.inverse))
+    tries = (_find_beside(system, found.point, found.rounds, k) for k in _near(found.inverse))
     return next((point for point in tries if point is not None), None)
 
 
-def _beside(system: ExactSystem, point: Point, rounds: Sequence[Round], k: int) -> Point | None:
+def _find_beside(
+    system: ExactSystem, point: Point, rounds: Sequence[Round], k: int
+) -> Point | None:
     """A point of the smooth set at distance 2^-k; None if not found."""
     left = len(point) - sum(len(r.columns) for r in rounds)
     along = [flint.acb((1 + (i + 1) * 1j) * 2.0**-k / (i + 2)) for i in range(left)]
@@ -133,7 +135,7 @@ def _beside(system: ExactSystem, point: Point, rounds: Sequence[Round], k: int) 
     return found[0] if abs(moved + k * LOG10_2) < 1.5 else None
 
 
-def _reduced(
+def _join_rounds(
     system: ExactSystem, point: Point, rounds: Sequence[Round], inverse: float
 ) -> tuple[Sequence[Round], float]:
     """One round for the set that several leave, and its inverse, if one does at a general point."""
@@ -175,18 +177,18 @@ def curve_through(
         values, rows = system.values_at(DIGITS), system.at(DIGITS)
         series = eliminate(rows, found.point, block.rows, block.columns, order, at_points=values)
         assert series is not None
-        nearest = _trusted(series)
+        nearest = _first_trusted(series)
         for attempt in range(attempts):
             begin = DISTANCES[min(nearest + attempt % 3, len(DISTANCES) - 2)]
             plane = np.rint(64 * rng.normal(size=(2, found.corank))) / 64
             plane = plane[0] + 1j * plane[1]
-            dimension = _followed(system, found, series, begin, plane, rng, steps)
+            dimension = _follow_set(system, found, series, begin, plane, rng, steps)
             if dimension:
                 return dimension
     return 0
 
 
-def _trusted(series: SeriesReduction) -> int:
+def _first_trusted(series: SeriesReduction) -> int:
     """The first of the distances where the last terms of series are small beside the first ones."""
     ring = series.ring
     norms = [-inf] * (ring.order + 1)
@@ -197,7 +199,7 @@ def _trusted(series: SeriesReduction) -> int:
     return next((i for i, k in enumerate(DISTANCES) if growth < k * LOG10_2), len(DISTANCES) - 1)
 
 
-def _followed(
+def _follow_set(
     system: ExactSystem,
     found: DeflatedPoint,
     series: SeriesReduction,

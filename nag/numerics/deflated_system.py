@@ -73,12 +73,12 @@ def deflated_zero(
             entries = system.jacobian(point, BITS[-1]).tolist()
             chosen = regular_block(entries, len(point)).rows
             if len(chosen) == len(point):
-                return _proved(system, point, chosen, rounds, of_real)
+                return _prove_zero(system, point, chosen, rounds, of_real)
             parts = rng.integers(-(2**WEIGHT), 2**WEIGHT, (2, len(point) - len(chosen), len(point)))
             # Without slices the deflated equations are real, and so is the zero in a box that
             # holds its conjugate.
             conditions = (parts[0] + (0j if of_real else 1j * parts[1])) * 2.0**-WEIGHT
-            found = _deflated(equations, rows, entries, point, chosen, conditions)
+            found = _deflate_equations(equations, rows, entries, point, chosen, conditions)
             if found is None:
                 return None
             equations, rows, point = found
@@ -86,7 +86,7 @@ def deflated_zero(
     return None
 
 
-def _deflated(
+def _deflate_equations(
     equations: Sequence[Polynomial],
     slices: np.ndarray,
     jacobian: list[list[flint.acb]],
@@ -123,7 +123,7 @@ def _deflated(
     return [f for f in lifted if f], np.vstack(rows), point + kernel
 
 
-def _proved(
+def _prove_zero(
     system: BallPolynomials,
     point: list[flint.acb],
     chosen: Sequence[int],

@@ -33,11 +33,13 @@ class Round:
 
     def joined(self, other: Round) -> Round:
         """One round for this one and another one of the equations that it leaves as they are."""
-        rows = (*self.rows, *_others(self.rows, other.rows))
-        return Round(rows, (*self.columns, *_others(self.columns, other.columns)), other.order)
+        rows = (*self.rows, *_untaken_numbers(self.rows, other.rows))
+        return Round(
+            rows, (*self.columns, *_untaken_numbers(self.columns, other.columns)), other.order
+        )
 
 
-def _others(taken: Sequence[int], places: Sequence[int]) -> list[int]:
+def _untaken_numbers(taken: Sequence[int], places: Sequence[int]) -> list[int]:
     """The numbers at these places among those that are not taken."""
     left = [i for i in range(len(taken) + max(places, default=-1) + 1) if i not in taken]
     return [left[k] for k in places]

@@ -167,7 +167,7 @@ def _at_zero(zero: LocatedZero, hypersurface: bool, rng: np.random.Generator) ->
         try:
             space = _dual_space(zero, images, lower, search.succeeds, rng)
         except (UnclearRank, _SeriesTooLong) as reason:
-            return _undecided(answer, zero, images, lower, rng, str(reason))
+            return _bound_undecided(answer, zero, images, lower, rng, str(reason))
         coranks = tuple(accumulate(space.hilbert))
         answer = replace(answer, hyperplanes=lower, coranks=coranks, arithmetic=arithmetic)
         if space.finite:
@@ -178,7 +178,7 @@ def _at_zero(zero: LocatedZero, hypersurface: bool, rng: np.random.Generator) ->
             )
         if not search.dimension:
             reason = "its dual space grows on, but no set of zeros through it was found"
-            return _undecided(answer, zero, images, lower, rng, reason)
+            return _bound_undecided(answer, zero, images, lower, rng, reason)
         lower += search.dimension
         why = f"a set of dimension {lower} was followed to the point"
         answer = replace(answer, lower=lower, reason=f"the tangent dimension; {why}")
@@ -192,7 +192,7 @@ def _on(k: int) -> str:
     return f"on {k} random hyperplane{'' if k == 1 else 's'} by a finite dual space"
 
 
-def _undecided(
+def _bound_undecided(
     answer: LocalDimension,
     zero: LocatedZero,
     images: list[_LocalEquations],
@@ -291,11 +291,11 @@ def _in_image(
 def _sliced_curve(
     zero: LocatedZero, hyperplanes: int, rng: np.random.Generator, attempts: int
 ) -> int:
-    sliced = _sliced(zero, hyperplanes, rng)
+    sliced = _slice_zero(zero, hyperplanes, rng)
     return 0 if sliced is None else curve_through(*sliced, rng, attempts)
 
 
-def _sliced(
+def _slice_zero(
     zero: LocatedZero, k: int, rng: np.random.Generator
 ) -> tuple[ExactSystem, DeflatedPoint] | None:
     """The zero on ``k`` random hyperplanes through it, as exact as the searches beside it need."""

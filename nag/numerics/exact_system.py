@@ -54,10 +54,10 @@ class ExactSystem:
         if units is None:
             units = np.maximum(np.abs(np.asarray(x, dtype=complex)), 1.0)
         scales = tuple(int(k) for k in np.ceil(np.log2(units)))
-        rows = [_scaled(f.terms.items(), scales) for f in polynomials if f]
+        rows = [_scale_terms(f.terms.items(), scales) for f in polynomials if f]
         units = [tuple(int(i == j) for j in range(n)) for i in range(n)]
         for a in np.zeros((0, 1 + n)) if slices is None else slices:
-            rows.append(_scaled(zip([(0,) * n, *units], map(complex, a), strict=True), scales))
+            rows.append(_scale_terms(zip([(0,) * n, *units], map(complex, a), strict=True), scales))
         return cls(n, tuple(rows), scales)
 
     def with_row(self, row: Sequence[tuple[tuple[int, ...], Any]]) -> ExactSystem:
@@ -190,7 +190,7 @@ def _log2(c: Number | complex) -> float:
     return float(np.log2(abs(complex(c) if isinstance(c, complex) else float(c))))
 
 
-def _scaled(
+def _scale_terms(
     terms: Any, scales: tuple[int, ...]
 ) -> tuple[tuple[tuple[int, ...], Number | complex], ...]:
     """Terms in the scaled variables, over a power of two next to the largest.

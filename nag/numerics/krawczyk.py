@@ -105,12 +105,12 @@ def boxes_in_doubles(
     for first in range(0, P, size):
         block = slice(first, first + size)
         with np.errstate(all="ignore"):
-            outer, inner, proved = _tested(system, points[block])
+            outer, inner, proved = _test_boxes(system, points[block])
         boxes.outer[block], boxes.inner[block], boxes.proved[block] = outer, inner, proved
     return boxes
 
 
-def _tested(
+def _test_boxes(
     system: DiscPolynomials, points: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Outer and inner radii about points, and for which of them they are proved."""

@@ -86,7 +86,7 @@ def judge_zero(
         precise = to_point(x)
         rounded = doubles(precise)
         if not np.isfinite(rounded).all():
-            return _undecided(rounded, np.inf, "the point is not finite")
+            return _leave_undecided(rounded, np.inf, "the point is not finite")
         if isinstance(accuracy, np.ndarray):
             accuracy, units = _units(rounded, accuracy)
         system = ExactSystem.of(polynomials, rounded, slices, units)
@@ -95,7 +95,7 @@ def judge_zero(
             spread = LOG10_2 * (max(system.scales, default=0) - min(system.scales, default=0))
         y = [times_power_of_two(c, -k) for c, k in zip(precise, system.scales, strict=True)]
         reach = log10(max(accuracy, 1e-300))
-        return _judged(system, y, max(reach, ROUNDING - DIGITS), rng, effort, spread or 0.0)
+        return _judge_point(system, y, max(reach, ROUNDING - DIGITS), rng, effort, spread or 0.0)
 
 
 def _units(x: np.ndarray, radii: np.ndarray) -> tuple[float, np.ndarray]:
@@ -114,7 +114,7 @@ def _units(x: np.ndarray, radii: np.ndarray) -> tuple[float, np.ndarray]:
     return error, units
 
 
-def _judged(
+def _judge_point(
     system: ExactSystem,
     y: Sequence[flint.acb],
     claimed: float,
@@ -141,13 +141,13 @@ def _judged(
         reasons.append(f"what should vanish there is of size 1e{found.defect:.0f}")
         if found.free or depth == DEEPEST:
             continue
-        nearby = _resolved(system, found, reach, rng, effort, spread, depth)
+        nearby = _resolve_cluster(system, found, reach, rng, effort, spread, depth)
         if len(nearby) == 1 and (found.corank > 1 or nearby[0].place is Place.ON_COMPONENT):
             return nearby[0]
         if nearby:
             return _cluster(system, found, nearby)
-    here = doubles(_unscaled(system, y))
-    return _undecided(here, 10**claimed, reasons[0] if reasons else "")
+    here = doubles(_undo_scales(system, y))
+    return _leave_undecided(here, 10**claimed, reasons[0] if reasons else "")
 
 
 def _at_zero(
@@ -265,7 +265,7 @@ def _dual_space(
     return dual_space(field, found.corank, series, HIGHEST, stop)
 
 
-def _resolved(
+def _resolve_cluster(
     system: ExactSystem,
     found: DeflatedPoint,
     reach: float,
@@ -284,7 +284,7 @@ def _resolved(
     for start, size, regular in find_zeros_of_cluster(system, found, reach, rng):
         if component is not None and not regular:
             break
-        end = _judged(system, start, size - 4.0, rng, effort, spread, depth + 1)
+        end = _judge_point(system, start, size - 4.0, rng, effort, spread, depth + 1)
         if end.dimension:
             component = end
         for one in end.nearby or (end,):
@@ -323,13 +323,13 @@ def _cluster(
 
 def _precise(system: ExactSystem, found: DeflatedPoint, y: Sequence[flint.acb]) -> PrecisePoint:
     """A zero as well as the conditions of one beside it let it be known."""
-    x = _unscaled(system, y)
+    x = _undo_scales(system, y)
     error = max(ERROR, 10.0 ** max(found.inverse, 0.0) * ROUNDED)
     radii = error * np.exp2(system.scales) + 10.0 ** (1 - POINT_DIGITS) * np.abs(doubles(x))
     return PrecisePoint(tuple(x), np.maximum(radii, 1e-300))
 
 
-def _unscaled(system: ExactSystem, y: Sequence[flint.acb]) -> list[flint.acb]:
+def _undo_scales(system: ExactSystem, y: Sequence[flint.acb]) -> list[flint.acb]:
     return [times_power_of_two(c, k) for c, k in zip(y, system.scales, strict=True)]
 
 
@@ -362,5 +362,5 @@ def known_digits(a: flint.arb) -> str:
     return "0" if a.contains(0) else a.str(POINT_DIGITS, radius=False)
 
 
-def _undecided(x: np.ndarray, accuracy: float, reason: str) -> SingularEnd:
+def _leave_undecided(x: np.ndarray, accuracy: float, reason: str) -> SingularEnd:
     return SingularEnd(x, Place.UNDECIDED, 0, accuracy, np.inf, reason)

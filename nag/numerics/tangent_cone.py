@@ -126,14 +126,14 @@ def tangent_cone(
             return None
         free = tuple(i for i in range(n) if i not in block.columns)
         # The units of the scaled variables are put back.
-        forms = _independent([_scaled(part, [factors[i] for i in free]) for part in parts])
+        forms = _independent([_scale_part(part, [factors[i] for i in free]) for part in parts])
         linear = []
         for i in sorted(block.columns):
             slopes = _part(found.ring, found.images[i], 1)
             slopes = {free[e.index(1)]: factors[i] * c for e, c in slopes.items()}
             line = {_unit(n, j): -c / factors[j] for j, c in slopes.items()}
             linear.append({_unit(n, i): flint.acb(1), **line})
-        inner = _recognised(forms)
+        inner = _recognise_forms(forms)
     dimension = None
     if all(isinstance(c, Fraction) for form in inner for c in form.values()):
         forms_of_tangent_space = tuple(Polynomial(len(free), form) for form in inner)
@@ -141,7 +141,7 @@ def tangent_cone(
         cone = PolynomialSystem(names, forms_of_tangent_space)
         dimension = local_dimension(cone, [0] * len(free), seed=seed).dimension
     outer = tuple({_within(n, free, e): c for e, c in form.items()} for form in inner)
-    return TangentCone(free, order, outer, tuple(_recognised(linear)), dimension)
+    return TangentCone(free, order, outer, tuple(_recognise_forms(linear)), dimension)
 
 
 def _unit(n: int, i: int) -> tuple[int, ...]:
@@ -161,7 +161,7 @@ def _part(ring: SeriesRing, series: Series, order: int) -> dict[tuple[int, ...],
     }
 
 
-def _scaled(
+def _scale_part(
     part: dict[tuple[int, ...], flint.acb], factors: Sequence[Any]
 ) -> dict[tuple[int, ...], flint.acb]:
     found = {}
@@ -182,15 +182,15 @@ def _independent(
     return [{e: c for e, c in row if log_size(c) > ZERO} for row in nonzero]
 
 
-def _recognised(forms: Sequence[dict[tuple[int, ...], flint.acb]]) -> list[Form]:
+def _recognise_forms(forms: Sequence[dict[tuple[int, ...], flint.acb]]) -> list[Form]:
     """The forms with coprime integers, or all of them with complex doubles."""
     numbers = [{e: rational(c, DIGITS - 30) for e, c in form.items()} for form in forms]
     if any(q is None for q in chain.from_iterable(form.values() for form in numbers)):
-        return [{e: _rounded(complex(c)) for e, c in form.items()} for form in forms]
+        return [{e: _round_number(complex(c)) for e, c in form.items()} for form in forms]
     return [_primitive({e: q for e, q in form.items() if q}) for form in numbers]
 
 
-def _rounded(z: complex) -> complex:
+def _round_number(z: complex) -> complex:
     real, imag = (x if abs(x) > 10.0**ZERO else 0.0 for x in (z.real, z.imag))
     return complex(real, imag)
 

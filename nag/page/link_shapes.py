@@ -31,7 +31,7 @@ ARC = 24
 
 
 @dataclass(frozen=True)
-class Shape:
+class BodyShape:
     """One piece of a body.
 
     Attributes:
@@ -58,7 +58,7 @@ class Shapes:
         front: how far before the plane of motion the foremost layer ends.
     """
 
-    bodies: tuple[tuple[Shape, ...], ...]
+    bodies: tuple[tuple[BodyShape, ...], ...]
     hubs: tuple[tuple[float, ...], ...]
     link: float
     front: float = 0.0
@@ -126,14 +126,14 @@ def _has_line(joint: SceneJoint) -> bool:
     return JOINT_TYPES[joint.type].factors in (("turn",), ("turn", "slide"))
 
 
-def _shape(kind: str, at: Sequence[np.ndarray], sizes: Sequence[float] = ()) -> Shape:
-    return Shape(kind, tuple(tuple(map(float, p)) for p in at), tuple(map(float, sizes)))
+def _shape(kind: str, at: Sequence[np.ndarray], sizes: Sequence[float] = ()) -> BodyShape:
+    return BodyShape(kind, tuple(tuple(map(float, p)) for p in at), tuple(map(float, sizes)))
 
 
 def _spatial_shapes(scene: Scene, slides: dict[str, tuple[float, float]], link: float) -> Shapes:
     feet = _feet(scene, link)
     hubs = _hubs(scene, feet, link)
-    bodies: list[list[Shape]] = [[] for _ in scene.bodies]
+    bodies: list[list[BodyShape]] = [[] for _ in scene.bodies]
     for body, shapes in enumerate(bodies):
         shapes += _link(scene, body, feet, hubs, link)
     for k, joint in enumerate(scene.joints):
@@ -209,7 +209,7 @@ def _link(
     feet: dict[tuple[int, int], tuple[float, float]],
     hubs: Sequence[float],
     link: float,
-) -> list[Shape]:
+) -> list[BodyShape]:
     """What joins a body's joints."""
     own = [k for k, j in enumerate(scene.joints) if body in j.bodies]
     ends = [_hub(scene, scene.joints[k], scene.joints[k].bodies.index(body), hubs[k]) for k in own]
@@ -259,7 +259,7 @@ def _arc(centre: np.ndarray, first: np.ndarray, second: np.ndarray) -> list[np.n
 
 
 def _add_joint(
-    bodies: list[list[Shape]],
+    bodies: list[list[BodyShape]],
     joint: SceneJoint,
     along: float,
     slide: tuple[float, float],
@@ -335,7 +335,7 @@ def _planar_shapes(scene: Scene, slides: dict[str, tuple[float, float]], link: f
     assert scene.planar is not None
     layers = _layers(scene)
     radius, thick = SLAB * link, THICKNESS * link
-    bodies: list[list[Shape]] = [[] for _ in scene.bodies]
+    bodies: list[list[BodyShape]] = [[] for _ in scene.bodies]
     hubs = []
     for body, shapes in enumerate(bodies):
         normal = _normal_in(scene, body)
@@ -377,7 +377,7 @@ def _planar_shapes(scene: Scene, slides: dict[str, tuple[float, float]], link: f
 
 
 def _add_planar_slide(
-    bodies: list[list[Shape]],
+    bodies: list[list[BodyShape]],
     scene: Scene,
     joint: SceneJoint,
     rail: int,

@@ -16,7 +16,7 @@ from nag.errors import NagError
 from nag.kinematics.motion import Circuit, Crossing, Motion
 from nag.kinematics.poses import turn_back, turn_vectors
 from nag.kinematics.shown import crossing_text, range_text, turning_text
-from nag.page.link_shapes import Shape, Shapes, link_shapes
+from nag.page.link_shapes import BodyShape, Shapes, link_shapes
 from nag.text.table import count_text
 
 # Bytes that the numbers of all circuits may take, in base64: with the bundle a page stays under a
@@ -198,7 +198,7 @@ def _rounded(point: Sequence[float] | np.ndarray, link: float) -> list[float]:
     return [round(float(x) / scale, DECIMALS) * scale for x in point]
 
 
-def _shape_data(shape: Shape, link: float) -> dict[str, Any]:
+def _shape_data(shape: BodyShape, link: float) -> dict[str, Any]:
     return {
         "kind": shape.kind,
         "at": [_rounded(p, link) for p in shape.at],

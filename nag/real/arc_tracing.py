@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.errors import ComponentError
-from nag.real.closure import Closure
+from nag.real.closure import ProjectiveClosure
 
 # First step in the angle and the largest one, and the least in arc length beside the first.
 FIRST, LARGEST, LEAST = 0.02, 0.2, 1e-8
@@ -78,7 +78,7 @@ class Intervals:
 
 
 def trace_arcs(
-    closure: Closure,
+    closure: ProjectiveClosure,
     intervals: Intervals,
     starts: np.ndarray,
     begin: np.ndarray,
@@ -146,7 +146,9 @@ def trace_arcs(
     return [(np.array(a), np.array(p)) for a, p in zip(angles, points, strict=True)]
 
 
-def _matrices(closure: Closure, x: np.ndarray, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _matrices(
+    closure: ProjectiveClosure, x: np.ndarray, normal: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Slopes and values of the equations, of a hyperplane through each point and of patches."""
     slopes, values = closure.jacobians(x)[:, :-2], closure.values(x)[:, :-2]
     patches = np.zeros((len(x), len(closure.groups), closure.size))
@@ -171,7 +173,7 @@ def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
 
 @np.errstate(all="ignore")
 def bring_to_curve(
-    closure: Closure, x: np.ndarray, tangent: np.ndarray, step: np.ndarray
+    closure: ProjectiveClosure, x: np.ndarray, tangent: np.ndarray, step: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Points of the curve across tangents from guesses, first corrections, and success."""
     x, rounding = closure.normalised(x), np.maximum(ROUNDED, MOVED * step)
@@ -199,7 +201,7 @@ def bring_to_curve(
 
 
 @np.errstate(all="ignore")
-def tangents_at(closure: Closure, x: np.ndarray, near: np.ndarray) -> np.ndarray:
+def tangents_at(closure: ProjectiveClosure, x: np.ndarray, near: np.ndarray) -> np.ndarray:
     """Unit tangents in the sense of others."""
     matrix, right = _matrices(closure, x, near)
     right[:] = 0
@@ -210,7 +212,7 @@ def tangents_at(closure: Closure, x: np.ndarray, near: np.ndarray) -> np.ndarray
 
 @np.errstate(all="ignore")
 def _crossing(
-    closure: Closure,
+    closure: ProjectiveClosure,
     intervals: Intervals,
     angles: np.ndarray,
     x: np.ndarray,
@@ -225,7 +227,7 @@ def _crossing(
 
 @np.errstate(all="ignore")
 def _speeds(
-    closure: Closure, intervals: Intervals, angles: np.ndarray, x: np.ndarray
+    closure: ProjectiveClosure, intervals: Intervals, angles: np.ndarray, x: np.ndarray
 ) -> np.ndarray:
     """Derivatives of points by the angle."""
     matrix, right, _ = _over(closure, intervals.at(angles), x)
@@ -236,7 +238,9 @@ def _speeds(
 
 
 @np.errstate(all="ignore")
-def _land(closure: Closure, intervals: Intervals, angles: np.ndarray, x: np.ndarray) -> np.ndarray:
+def _land(
+    closure: ProjectiveClosure, intervals: Intervals, angles: np.ndarray, x: np.ndarray
+) -> np.ndarray:
     """Points over angles, from such as are next to them."""
     for _ in range(3):
         matrix, right, values = _over(closure, intervals.at(angles), x)
@@ -247,7 +251,7 @@ def _land(closure: Closure, intervals: Intervals, angles: np.ndarray, x: np.ndar
 
 
 def _over(
-    closure: Closure, pencil: np.ndarray, x: np.ndarray
+    closure: ProjectiveClosure, pencil: np.ndarray, x: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """As `_matrices`, with the pencil's hyperplane; and its values."""
     slopes, values = closure.jacobians(x), closure.values(x)

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from nag.real.arc_tracing import Intervals, TracingError, trace_arcs
-from nag.real.closure import AT_INFINITY, Closure
+from nag.real.closure import AT_INFINITY, ProjectiveClosure
 from nag.real.curve import (
     PieceKind,
     RealEdge,
@@ -61,7 +61,7 @@ def intervals_between(
 
 
 def find_arcs(
-    table: FibreTable, closure: Closure, specials: Sequence[SpecialFibre], radius: float
+    table: FibreTable, closure: ProjectiveClosure, specials: Sequence[SpecialFibre], radius: float
 ) -> list[Arc]:
     """All arcs between special fibres, of which the last is that over infinity.
 
@@ -131,7 +131,7 @@ class _Stop:
     real: np.ndarray
     vertices: np.ndarray
 
-    def vertices_of(self, closure: Closure, ends: np.ndarray) -> list[int]:
+    def vertices_of(self, closure: ProjectiveClosure, ends: np.ndarray) -> list[int]:
         """To which vertices traced arcs go, by their last points."""
         own = np.flatnonzero(self.real)
         distances = closure.distances(ends, self.points[own])
@@ -145,7 +145,11 @@ class _Stop:
 
 
 def _end_of_interval(
-    table: FibreTable, closure: Closure, interval: Intervals, special: SpecialFibre, sense: int
+    table: FibreTable,
+    closure: ProjectiveClosure,
+    interval: Intervals,
+    special: SpecialFibre,
+    sense: int,
 ) -> _Stop:
     for near in NEAR_END:
         angle = np.pi - near if sense else near
@@ -161,7 +165,7 @@ def _end_of_interval(
     raise TracingError("it is not clear at which vertices arcs end")
 
 
-def _real_points(closure: Closure, points: np.ndarray) -> np.ndarray:
+def _real_points(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray:
     """Real homogeneous points, from such whose groups have any complex factors."""
     # Affine points over finite values are real, and so are those that are divided by their length.
     return closure.normalised(points.real)
@@ -178,7 +182,7 @@ class Skeleton:
 
 
 def join_arcs(
-    closure: Closure,
+    closure: ProjectiveClosure,
     specials: Sequence[SpecialFibre],
     arcs: Sequence[Arc],
     turns: Sequence[Turn],
@@ -224,7 +228,7 @@ def join_arcs(
     return Skeleton(vertices, edges, _pieces(vertices, edges), doubt)
 
 
-def _place(closure: Closure, point: np.ndarray, kind: VertexKind) -> np.ndarray:
+def _place(closure: ProjectiveClosure, point: np.ndarray, kind: VertexKind) -> np.ndarray:
     if kind is not VertexKind.INFINITE:
         return closure.affine(point[None])[0]
     far = point[len(closure.groups) :].copy()
@@ -272,7 +276,7 @@ def _chains(
 
 
 def _edge(
-    closure: Closure,
+    closure: ProjectiveClosure,
     arcs: Sequence[Arc],
     chain: Chain,
     places: dict[tuple[int, int], np.ndarray],
@@ -303,7 +307,7 @@ def _edge(
     return RealEdge(index.get(begin), index.get(end), affine, chart_of(affine, turns))
 
 
-def _begun_afar(closure: Closure, points: np.ndarray) -> np.ndarray:
+def _begun_afar(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray:
     """A loop that begins as far from infinity as it may."""
     count = len(closure.groups)
     first = int(np.abs(points[:-1, :count]).min(axis=1).argmax())

@@ -27,7 +27,7 @@ AT_INFINITY, NO_NORM = 1e-9, 1e-7
 
 
 @dataclass(frozen=True, eq=False)
-class Closure:
+class ProjectiveClosure:
     """A curve's equations, homogeneous in each group.
 
     Attributes:
@@ -47,7 +47,7 @@ class Closure:
     @classmethod
     def of(
         cls, polynomials: Sequence[Polynomial], system: PolynomialSystem, form: np.ndarray
-    ) -> Closure:
+    ) -> ProjectiveClosure:
         """The closure of a curve on which the polynomials vanish."""
         n = system.n
         groups = system.groups or (tuple(range(n)),)

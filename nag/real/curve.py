@@ -42,7 +42,7 @@ class PieceKind(StrEnum):
     POINT = "isolated point"
 
 
-class Verdict(StrEnum):
+class PictureVerdict(StrEnum):
     """Whether the picture is complete."""
 
     COMPLETE = "complete"
@@ -159,7 +159,7 @@ class RealCurve:
     vertices: tuple[RealVertex, ...]
     edges: tuple[RealEdge, ...]
     pieces: tuple[RealPiece, ...]
-    verdict: Verdict
+    verdict: PictureVerdict
     reason: str = ""
     critical_values: tuple[float, ...] = ()
     residual: float = field(default=0.0, compare=False)
@@ -167,12 +167,12 @@ class RealCurve:
     __eq__ = equal_values
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "verdict", Verdict(self.verdict))
+        object.__setattr__(self, "verdict", PictureVerdict(self.verdict))
 
     @property
     def complete(self) -> bool:
         """Whether the picture is complete."""
-        return self.verdict is Verdict.COMPLETE
+        return self.verdict is PictureVerdict.COMPLETE
 
     @cached_property
     def graph(self) -> networkx.MultiGraph:

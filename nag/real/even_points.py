@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from nag.real.arc_tracing import CORRECTION, bring_to_curve, tangents_at
-from nag.real.closure import Closure
+from nag.real.closure import ProjectiveClosure
 from nag.real.curve import Turn, chart_of
 
 # Chord of normalised points, turn of the tangent and change of a half-angle between two points.
@@ -21,7 +21,9 @@ CHORD, TURN, HALF_ANGLE = 0.05, 0.1, 0.1
 FEWEST, KEPT = 24, 0.2
 
 
-def even_points(closure: Closure, points: np.ndarray, turns: Sequence[Turn]) -> np.ndarray:
+def even_points(
+    closure: ProjectiveClosure, points: np.ndarray, turns: Sequence[Turn]
+) -> np.ndarray:
     """Normalised points along an arc, its ends kept; the same where they are not found.
 
     Args:
@@ -66,7 +68,7 @@ def _thinned(points: np.ndarray, least: float) -> list[int]:
     return [*kept, len(points) - 1]
 
 
-def _tangents(closure: Closure, points: np.ndarray, chords: np.ndarray) -> np.ndarray:
+def _tangents(closure: ProjectiveClosure, points: np.ndarray, chords: np.ndarray) -> np.ndarray:
     """Unit tangents; at the ends, where the curve may be singular, those of a parabola."""
     if len(points) == 2:
         return np.vstack([chords, chords])

@@ -27,7 +27,7 @@ from nag.errors import ComponentError, NagError
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.real.arc_tracing import TracingError
 from nag.real.arcs import Skeleton, connect, find_arcs, join_arcs
-from nag.real.closure import Closure, turns_of
+from nag.real.closure import ProjectiveClosure, turns_of
 from nag.real.critical_values import (
     UnclearDigitsError,
     determinant_degree,
@@ -35,7 +35,7 @@ from nag.real.critical_values import (
     discriminant_values,
     real_zeros,
 )
-from nag.real.curve import RealCurve, RealEdge, Turn, Verdict, chart_of
+from nag.real.curve import PictureVerdict, RealCurve, RealEdge, Turn, chart_of
 from nag.real.fibre_table import (
     MORE_SAMPLES,
     CircleOfFibres,
@@ -111,7 +111,7 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
             reason, level = reason or str(error), level + 1
             if level == len(DIGITS):
                 break
-    return RealCurve(given.variables, turns_of(given), (), (), (), Verdict.UNDECIDED, reason)
+    return RealCurve(given.variables, turns_of(given), (), (), (), PictureVerdict.UNDECIDED, reason)
 
 
 def _equations(
@@ -143,7 +143,7 @@ def _find(
     radius = float(np.ldexp(1.0, int(np.ceil(np.log2(max(LEAST_RADIUS, sizes.max()))))))
     circle, degrees = _sample(system, component, fibres, form, radius, digits, rng, run)
     table = fibre_table(circle, rng)
-    closure = Closure.of(equations, system, form)
+    closure = ProjectiveClosure.of(equations, system, form)
     alike = 1 if component.multidegree is None else int(component.multidegree.max(initial=1))
     specials = _special_fibres(circle, degrees, table, closure, alike, rng)
     arcs = find_arcs(table, closure, specials, radius)
@@ -156,7 +156,7 @@ def _find(
         skeleton.vertices,
         skeleton.edges,
         skeleton.pieces,
-        Verdict.UNDECIDED if doubt else Verdict.COMPLETE,
+        PictureVerdict.UNDECIDED if doubt else PictureVerdict.COMPLETE,
         doubt,
         tuple(float(s.pencil[0]) for s in specials[:-1]),
         residual,
@@ -209,7 +209,7 @@ def _special_fibres(
     circle: CircleOfFibres,
     degrees: tuple[int, int | None],
     table: FibreTable,
-    closure: Closure,
+    closure: ProjectiveClosure,
     alike: int,
     rng: np.random.Generator,
 ) -> list[SpecialFibre]:
@@ -243,7 +243,7 @@ def _singular_fibres(
     values: Sequence[flint.acb],
     top: int,
     table: FibreTable,
-    closure: Closure,
+    closure: ProjectiveClosure,
 ) -> list[SpecialFibre]:
     zeros = real_zeros(circle, values, top)
     fibres = [special_fibre(table, closure, zero.value) for zero in zeros]
@@ -253,7 +253,7 @@ def _singular_fibres(
 def _over_infinity(
     circle: CircleOfFibres,
     table: FibreTable,
-    closure: Closure,
+    closure: ProjectiveClosure,
     alike: int,
     specials: Sequence[SpecialFibre],
 ) -> SpecialFibre:

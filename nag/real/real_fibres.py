@@ -13,7 +13,7 @@ import flint
 import numpy as np
 
 from nag.numerics.digits import bits_of, doubles, in_bits
-from nag.real.closure import Closure
+from nag.real.closure import ProjectiveClosure
 from nag.real.critical_values import UnclearDigitsError
 from nag.real.fibre_table import SPARE, FibreTable, Point
 
@@ -53,7 +53,7 @@ class SpecialFibre:
         return bool((self.real & (self.sheets > 1)).any())
 
 
-def special_fibre(table: FibreTable, closure: Closure, value: flint.arb) -> SpecialFibre:
+def special_fibre(table: FibreTable, closure: ProjectiveClosure, value: flint.arb) -> SpecialFibre:
     """The points over a value, in radii.
 
     Raises:
@@ -76,7 +76,7 @@ def special_fibre(table: FibreTable, closure: Closure, value: flint.arb) -> Spec
     return _of_middles(closure, pencil, middles, clusters, ROUNDING, NOT_REAL)
 
 
-def infinite_fibre(table: FibreTable, closure: Closure, alike: int) -> SpecialFibre:
+def infinite_fibre(table: FibreTable, closure: ProjectiveClosure, alike: int) -> SpecialFibre:
     """The points over infinity.
 
     Args:
@@ -99,7 +99,7 @@ def infinite_fibre(table: FibreTable, closure: Closure, alike: int) -> SpecialFi
 
 
 def _of_middles(
-    closure: Closure,
+    closure: ProjectiveClosure,
     pencil: np.ndarray,
     middles: Sequence[np.ndarray],
     clusters: Sequence[Sequence[int]],
@@ -116,12 +116,12 @@ def _of_middles(
     return SpecialFibre(pencil, points, sheets, off <= rounding)
 
 
-def homogeneous_points(closure: Closure, fibre: Sequence[Point]) -> np.ndarray:
+def homogeneous_points(closure: ProjectiveClosure, fibre: Sequence[Point]) -> np.ndarray:
     """Points in many digits as normalised ones in doubles."""
     return closure.homogeneous(np.array([doubles(x) for x in fibre]))
 
 
-def _turned_real(closure: Closure, point: np.ndarray) -> np.ndarray:
+def _turned_real(closure: ProjectiveClosure, point: np.ndarray) -> np.ndarray:
     """A point times factors that make the largest coordinate of each group real."""
     result = point.astype(complex).copy()
     for g in range(len(closure.groups)):
@@ -131,7 +131,7 @@ def _turned_real(closure: Closure, point: np.ndarray) -> np.ndarray:
     return result
 
 
-def _aligned(closure: Closure, points: np.ndarray) -> np.ndarray:
+def _aligned(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray:
     """Points times factors that make them near to the first."""
     result = points.copy()
     for g in range(len(closure.groups)):
@@ -160,7 +160,7 @@ def _clusters(distances: np.ndarray, together: float, apart: float) -> list[list
 
 
 def real_fibre(
-    table: FibreTable, closure: Closure, pencil: np.ndarray
+    table: FibreTable, closure: ProjectiveClosure, pencil: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Normalised points over a finite value of the pencil, and which of them are real.
 

@@ -96,7 +96,7 @@ class _Found(GenericPoint):
 
     def in_digits(self) -> PointWithError:
         if self.tracked is not None and len(self._zeros) != 1:
-            return _known(self.solution)
+            return _point_and_error(self.solution)
         # Zeros of other branches may be close to it.
         y = self._zeros[0].precise.centre if self.tracked is not None else ()
         images = BallPolynomials.of(self.branch.elimination.images)
@@ -136,13 +136,13 @@ class _Found(GenericPoint):
         if self.tracked is None:
             return ()
         equations = self.branch.elimination.system.polynomials
-        y, error = _known(self.tracked)
+        y, error = _point_and_error(self.tracked)
         zeros = possible_zeros(equations, y, error, np.random.default_rng(0))
         zeros = tuple(z for z in zeros if z.multiplicity == self.tracked.multiplicity)
         return choose_alike(zeros, y) if len(zeros) > 1 else zeros
 
 
-def _known(solution: Solution) -> tuple[np.ndarray, float | np.ndarray]:
+def _point_and_error(solution: Solution) -> tuple[np.ndarray, float | np.ndarray]:
     """The point, and its error: of each coordinate where these are known.
 
     That tells simple zeros from others; in what units a multiple one is seen best, it does not say.

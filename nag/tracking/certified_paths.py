@@ -106,7 +106,7 @@ def prove_zeros_near(
     left = np.arange(len(points))
     with np.errstate(all="ignore"):
         times_ = np.full(len(points), t)
-        x, _ = _corrected(system, points, times_)
+        x, _ = _correct_points(system, points, times_)
         sizes = np.abs(x).max(axis=1, initial=0.0)
         left = left[np.abs(x - points).max(axis=1, initial=0.0) <= reach * sizes]
         for exponent in range(SIDES):
@@ -161,19 +161,21 @@ def certified_paths(
     state = _PathStates(x, rates, t, FIRST_STEP * t, sides, at)
     active, steps, trials = np.flatnonzero(starts.proved & (t > 0)), 0, 0
     with np.errstate(all="ignore"):
-        state.x[active], state.rates[active] = _corrected(system, x[active], t[active])
+        state.x[active], state.rates[active] = _correct_points(system, x[active], t[active])
         for _ in range(most_trials):
             if not len(active):
                 break
             trials += len(active)
             for first in range(0, len(active), BLOCK):
-                steps += int(_tried(system, state, active[first : first + BLOCK]).sum())
+                steps += int(_try_step(system, state, active[first : first + BLOCK]).sum())
             going = (t[active] > endgame) & (state.step[active] > SHORTEST * t[active])
             active = active[going]
     return CertifiedPaths(t, at, steps, trials)
 
 
-def _corrected(system: MovingSystem, x: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _correct_points(
+    system: MovingSystem, x: np.ndarray, t: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Points that Newton's method leads to, and the paths' derivatives by t there."""
     for _ in range(CORRECTIONS):
         values, slopes, _ = system.at(x, t)
@@ -182,13 +184,13 @@ def _corrected(system: MovingSystem, x: np.ndarray, t: np.ndarray) -> tuple[np.n
     return x, -(invert_matrices(slopes) @ rates[..., None])[..., 0]
 
 
-def _tried(system: MovingSystem, state: _PathStates, active: np.ndarray) -> np.ndarray:
+def _try_step(system: MovingSystem, state: _PathStates, active: np.ndarray) -> np.ndarray:
     """Try one step of the active paths; which of them were proved."""
     t, x, rates = state.t[active], state.x[active], state.rates[active]
     end = t - state.step[active]
     end = np.where(end < 0.1 * state.step[active], 0.0, end)
     way = (end - t)[:, None]
-    guess, far_rates = _corrected(system, x + way * rates, end)
+    guess, far_rates = _correct_points(system, x + way * rates, end)
     curve = _hermite(x, guess, rates * way / 2, far_rates * way / 2)
     radii = state.sides[active]
     tube = _tube(system, curve, t, end, radii)
@@ -198,11 +200,11 @@ def _tried(system: MovingSystem, state: _PathStates, active: np.ndarray) -> np.n
     state.x[done], state.rates[done], state.t[done] = guess[proved], far_rates[proved], end[proved]
     state.at.centres[done], state.at.inner[done] = last.centres[proved], last.inner[proved]
     state.at.outer[done] = last.outer[proved]
-    _controlled(state, active, tube, proved)
+    _control_steps(state, active, tube, proved)
     return proved
 
 
-def _controlled(state: _PathStates, active: np.ndarray, tube: _Tube, proved: np.ndarray) -> None:
+def _control_steps(state: _PathStates, active: np.ndarray, tube: _Tube, proved: np.ndarray) -> None:
     """Sides and steps of the next trial."""
     side = np.clip(ACROSS / tube.across, LEAST_FACTOR, MOST_FACTOR)
     side = np.where(np.isfinite(side), side, LEAST_FACTOR)
@@ -265,9 +267,9 @@ def _tube(
     inverse = invert_matrices(slopes.mid[0])
     moving = -inverse @ slopes.mid[1] @ inverse
     column = Discs(values.mid[..., None], values.rad[..., None])
-    off, rounding = (part[..., 0] for part in _applied(inverse, moving, column, 0.0))
+    off, rounding = (part[..., 0] for part in _bound_product(inverse, moving, column, 0.0))
     step = (off + rounding) * UP
-    bent, wide = _applied(inverse, moving, slopes, np.eye(n))
+    bent, wide = _bound_product(inverse, moving, slopes, np.eye(n))
     rest = (bent + wide) * UP
     inner = radii
     for k in range(3):
@@ -288,7 +290,7 @@ def _tube(
     )
 
 
-def _applied(
+def _bound_product(
     inverse: np.ndarray, moving: np.ndarray, series: Discs, identity: np.ndarray | float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Bounds of ``(inverse + s moving) series(s) - identity``: of midpoints, and of the rest."""

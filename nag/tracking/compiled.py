@@ -91,7 +91,10 @@ class CompiledRows:
     def in_doubles(self) -> list[list[list[tuple[Exponents, complex]]]]:
         """For each part of each row its terms in the tape's order, coefficients rounded."""
         return [
-            [[(e, _rounded(terms[e])) for e in sorted(terms, reverse=True)] for _, terms in row]
+            [
+                [(e, _round_number(terms[e])) for e in sorted(terms, reverse=True)]
+                for _, terms in row
+            ]
             for row in self.parts
         ]
 
@@ -179,7 +182,7 @@ def blend(first: CompiledRows, second: CompiledRows) -> CompiledRows:
     return CompiledRows(first.N, rows, first.groups, first.infinity, first.degrees)
 
 
-def _rounded(c: Number | complex) -> complex:
+def _round_number(c: Number | complex) -> complex:
     # Twice as fast as a fraction's own way to a complex number.
     return complex(c.numerator / c.denominator) if type(c) is Fraction else complex(c)
 

@@ -57,17 +57,17 @@ def series_sum(a: Discs, b: Discs) -> Discs:
 
 def values_along(system: DiscPolynomials, x: Discs) -> Discs:
     """Values on series of boxes, shape ``(length, P, n)``: shape ``(length, P, rows)``."""
-    return _weighted(system.values, _monomials(system, x))
+    return _weigh_monomials(system.values, _monomials(system, x))
 
 
 def slopes_along(system: DiscPolynomials, x: Discs) -> Discs:
     """Jacobian matrices on series of boxes: shape ``(length, P, rows, n)``."""
-    found = _weighted(system.slopes, _monomials(system, x))
+    found = _weigh_monomials(system.slopes, _monomials(system, x))
     shape = (*x.mid.shape[:2], system.rows, system.n)
     return Discs(found.mid.reshape(shape), found.rad.reshape(shape))
 
 
-def _weighted(weights: Weights, monomials: Discs) -> Discs:
+def _weigh_monomials(weights: Weights, monomials: Discs) -> Discs:
     """Sums of monomials, shape ``(length, M, P)``, to shape ``(length, P, rows)``."""
     length, count, P = monomials.mid.shape
     flat = [c.transpose(1, 0, 2).reshape(count, -1) for c in monomials]

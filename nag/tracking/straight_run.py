@@ -233,7 +233,7 @@ def _estimate_noise(z, s, w, b):
         store(w.noise, 0, stuck * _length(z, s, w))
 
 
-def _judged(w, lane, b):
+def _judge_corrections(w, lane, b):
     """Whether the corrections of a lane let it be accepted; sizes for the next step."""
     state = w.state[lane]
     first = math.sqrt(w.norms[lane])
@@ -269,7 +269,7 @@ def _judged(w, lane, b):
     return UNFINISHED if w.rounds[lane] < 5 else REJECTED
 
 
-def _accepted(w, lane, b):
+def _accept_step(w, lane, b):
     """Go on from the point that was accepted."""
     power = 1.0 / (b.order + 1)
     w.growth[lane] = 0.0
@@ -282,7 +282,7 @@ def _accepted(w, lane, b):
     w.state[lane] = STEPPING
 
 
-def _failed(w, lane, b, verdict):
+def _reject_step(w, lane, b, verdict):
     """Try a shorter step; the reason why there is none, or 0."""
     first = math.sqrt(w.norms[lane])
     finite = first < OVERFLOW
@@ -338,12 +338,12 @@ def _advance(s, w, b):
             continue
         w.taken[lane] += 1
         reason = ARRIVED
-        verdict = _judged(w, lane, b)
+        verdict = _judge_corrections(w, lane, b)
         if verdict == ACCEPTED:
             w.accepted[lane] = 1.0
-            _accepted(w, lane, b)
+            _accept_step(w, lane, b)
         elif verdict <= REJECTED:
-            reason = _failed(w, lane, b, verdict)
+            reason = _reject_step(w, lane, b, verdict)
         elif w.state[lane] == STEPPING:
             w.state[lane] = CORRECTING
         if w.goal[lane] == 0.0 and b.radius > 0.0:

@@ -154,7 +154,7 @@ def _attempt(
     if orbits is not None:
         starts = starts[orbits.chosen]
     raw = run_in_doubles(homotopy, starts, settings, threads, endgame)
-    paths, regular = _judged(homotopy, raw)
+    paths, regular = _judge_ends(homotopy, raw)
     doubtful = paths.where(PathStatus.FAILED)
     if len(doubtful) and settings.digits >= 32:
         every = paths if orbits is None else orbits.expand(paths, homotopy.groups)
@@ -166,7 +166,7 @@ def _attempt(
                 paths = paths.track_again(infinite, ends)
                 doubtful = paths.where(PathStatus.FAILED)
             if len(doubtful):
-                more = _followed(homotopy, starts, raw, regular, doubtful, settings, threads)
+                more = _follow_doubtful(homotopy, starts, raw, regular, doubtful, settings, threads)
                 if not endgame:
                     more = more.mark_failed(more.where(PathStatus.SINGULAR))
                 paths = paths.track_again(doubtful, more)
@@ -181,7 +181,7 @@ def _infinite(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> tuple[np.
     return chosen[found], ends
 
 
-def _followed(
+def _follow_doubtful(
     homotopy: Homotopy,
     starts: np.ndarray,
     raw: StraightRun,
@@ -276,7 +276,7 @@ def run_in_doubles(
     return raw
 
 
-def _judged(homotopy: Homotopy, raw: StraightRun) -> tuple[Paths, np.ndarray]:
+def _judge_ends(homotopy: Homotopy, raw: StraightRun) -> tuple[Paths, np.ndarray]:
     """Finite ends that Newton's method proves regular; the others have failed.
 
     Also which ends are regular ones of the homogenised system, shape ``(P,)``: whether those that

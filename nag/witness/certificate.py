@@ -221,7 +221,7 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
     if len(equations) == 1 and surfaces is not None:
         most = surfaces
     return DecompositionCertificate(
-        decomposition, tuple(certificates), *_repeated(certificates), bounds, most, surfaces
+        decomposition, tuple(certificates), *_find_repeated(certificates), bounds, most, surfaces
     )
 
 
@@ -307,7 +307,7 @@ def _without_excluded(
     return replace(points, proofs=tuple(proofs))
 
 
-def _repeated(
+def _find_repeated(
     certificates: Sequence[ComponentCertificate],
 ) -> tuple[tuple[tuple[int, int], ...], ...]:
     """Pairs of components with a zero in common on one slice, and perhaps with one."""

@@ -203,10 +203,10 @@ def _completeness(certificate: DecompositionCertificate) -> Claim:
     if listed < surfaces:
         text += f": in dimension {d} their degrees add up to {surfaces}, not to {listed}"
         return Claim("complete", text, Standing.REFUTED)
-    return _counted(certificate, text) or Claim("complete", text, Standing.UNSEEN)
+    return _claim_number(certificate, text) or Claim("complete", text, Standing.UNSEEN)
 
 
-def _counted(certificate: DecompositionCertificate, text: str) -> Claim | None:
+def _claim_number(certificate: DecompositionCertificate, text: str) -> Claim | None:
     """The same where there are finitely many zeros, by their number."""
     if any(c.component.dimension or c.component.orbit > 1 for c in certificate.components):
         return None

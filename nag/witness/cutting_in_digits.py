@@ -81,7 +81,7 @@ def admit_zero(
         for i, fibre in enumerate(fibres):
             if fibre.cut.deflated != (zero.multiplicity != 1):
                 continue
-            z = _lifted(fibre.cut, x)
+            z = _lift_point(fibre.cut, x)
             if z is not None and _is_regular_zero(fibre.cut, rows, z):
                 fine = with_newton_constant(fibre.cut.polynomials, rows, fine_of_balls(z, 1.0))
                 points = np.vstack([fibre.points, fine.rounded])
@@ -139,7 +139,7 @@ def _curvature_in_doubles(cut: Cut, rows: np.ndarray, z: np.ndarray) -> float:
     return most
 
 
-def _lifted(cut: Cut, x: list[flint.acb]) -> list[flint.acb] | None:
+def _lift_point(cut: Cut, x: list[flint.acb]) -> list[flint.acb] | None:
     """A point with the unknowns that deflation added; None where they are not determined."""
     for level in cut.levels:
         unknowns = _unknowns(level.polynomials, level.q1, level.q2, x)

@@ -85,7 +85,7 @@ def join_points(parts: Sequence[ExactPoints]) -> ExactPoints:
 def of_balls(points: Sequence[Sequence[Any]]) -> ExactPoints:
     """Points from balls (FLINT's ``acb``) that hold their coordinates, in the fewest digits."""
     bits = unit_of(FEWEST)
-    values = np.array([_whole(point, bits) for point in points], dtype=object)
+    values = np.array([_to_integers(point, bits) for point in points], dtype=object)
     radii = [max((float(z.rad()) for z in point), default=0.0) for point in points]
     return ExactPoints(
         values, bits, np.array(radii) + 2.0 ** (1 - bits), np.ones(len(points), dtype=bool)
@@ -114,7 +114,7 @@ def exact_points(fibre: Fibre, digits: int) -> ExactPoints:
     for i in np.flatnonzero(balls).tolist():
         found = zero_in_digits(fibre, i, digits, spare=1)
         if found is not None:
-            values[i] = _whole(found.centre[:n], bits)
+            values[i] = _to_integers(found.centre[:n], bits)
             radii[i] = float(found.radii.max(initial=0.0)) + 2.0**-bits
     return ExactPoints(values, bits, radii, balls)
 
@@ -183,7 +183,7 @@ def fixed_point_numbers(z: np.ndarray, bits: int) -> np.ndarray:
     return result
 
 
-def _whole(point: Sequence[flint.acb], bits: int) -> np.ndarray:
+def _to_integers(point: Sequence[flint.acb], bits: int) -> np.ndarray:
     """Coordinates as integers of the unit ``2 ** -bits``, real and then imaginary parts."""
     parts = [x.real for x in point] + [x.imag for x in point]
     ratios = [(int(m), int(e) + bits) for m, e in (x.mid().man_exp() for x in parts)]
@@ -274,14 +274,14 @@ def _sharpen(fibre: Fibre, known: ExactPoints | None) -> tuple[Fibre, np.ndarray
     for i, z in enumerate(points):
         if good[i] and i in fibre.fine:
             points[i] = fibre.fine[i].rounded
-            points[i, : fibre.cut.n] = _rounded(exact, i)
+            points[i, : fibre.cut.n] = _round_point(exact, i)
         elif good[i] and not fibre.cut.aux:
-            points[i] = _rounded(exact, i)
+            points[i] = _round_point(exact, i)
         else:
             ends = sharpen(fibre.cut.evaluator, fibre.rows, z)
             points[i], steps[i] = ends.z, ends.step if ends.converged else np.inf
             if good[i]:
-                points[i, : fibre.cut.n] = _rounded(exact, i)
+                points[i, : fibre.cut.n] = _round_point(exact, i)
     fibre = replace(fibre, points=points)
     radii, digits = _radii(fibre, exact)
     rough = CORRECTION * np.maximum(steps, EPS) * (1 + np.linalg.norm(points, axis=1))
@@ -364,7 +364,7 @@ def _radii(fibre: Fibre, exact: ExactPoints) -> tuple[np.ndarray, np.ndarray]:
     return radii, np.where(np.isfinite(exact.radii), balls, DOUBLE)
 
 
-def _rounded(exact: ExactPoints, i: int) -> np.ndarray:
+def _round_point(exact: ExactPoints, i: int) -> np.ndarray:
     """The doubles nearest to a point's coordinates."""
     unit = 1 << exact.bits
     parts = np.array([value / unit for value in exact.values[i]], dtype=float)

@@ -46,7 +46,7 @@ class IterationEnd:
     converged: bool
 
 
-def _balanced(evaluator: Evaluator, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _balance_rows(evaluator: Evaluator, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Values and Jacobian, each row divided by the size that its degree lets it have."""
     size = max(1.0, float(np.abs(x).max(initial=1.0)))
     weights = size ** -(evaluator.degrees - 1.0)
@@ -60,7 +60,7 @@ def descend(evaluator: Evaluator, x: np.ndarray, close: float = CLOSE) -> np.nda
     Real starting points lead to real points.
     """
     damping = FIRST_DAMPING
-    values, jacobian = _balanced(evaluator, x)
+    values, jacobian = _balance_rows(evaluator, x)
     for _ in range(MOST_STEPS):
         size = float(np.linalg.norm(values))
         if size < close * (1 + float(np.linalg.norm(x))):
@@ -70,7 +70,7 @@ def descend(evaluator: Evaluator, x: np.ndarray, close: float = CLOSE) -> np.nda
         while damping < MOST_DAMPING:
             step = vh.conj().T @ (s / (s**2 + damping * size**2) * right)
             trial = x - step
-            new_values, new_jacobian = _balanced(evaluator, trial)
+            new_values, new_jacobian = _balance_rows(evaluator, trial)
             gain = size - float(np.linalg.norm(new_values))
             if np.isfinite(gain) and gain > GAIN * size * min(1.0, 1 / (1 + damping)):
                 x, values, jacobian = trial, new_values, new_jacobian
@@ -87,7 +87,7 @@ def polish(evaluator: Evaluator, x: np.ndarray, corank: int | None = None) -> It
     step, n = np.inf, len(x)
     known = corank
     for _ in range(30):
-        values, jacobian = _balanced(evaluator, x)
+        values, jacobian = _balance_rows(evaluator, x)
         u, s, vh = np.linalg.svd(jacobian, full_matrices=False)
         corank = numerical_corank(s, n, SMALL) if known is None else known
         rank = min(n - corank, len(s))

@@ -285,7 +285,7 @@ def _at_end(
     if gap > reach:
         return Membership.FOREIGN
     apart = (1 + float(np.linalg.norm(point))) / end.curvature
-    beside = _beside(cut, point) if bounded else np.inf
+    beside = _distance_of_set(cut, point) if bounded else np.inf
     if max(gap, beside) < BASIN * apart:
         # The sheet on which the end is is the one beside the point.
         return Membership.MEMBER if beside <= SPREAD * error else Membership.FOREIGN
@@ -303,7 +303,7 @@ def _at_end(
     return None if beside_end else Membership.UNDECIDED
 
 
-def _beside(cut: Cut, point: np.ndarray) -> float:
+def _distance_of_set(cut: Cut, point: np.ndarray) -> float:
     """How far the set beside a point is, by Newton's method; infinite if that is unknown."""
     if cut.aux or not cut.polynomials:
         return np.inf

@@ -301,13 +301,13 @@ def real_points_text(found: RealPoints) -> str:
     rows = [("points", _first_point(found.points))]
     if len(found):
         stationary = int(found.stationary.sum())
-        rows.append(("distances", f"{_listed(found.distances)}; {stationary} stationary"))
+        rows.append(("distances", f"{_list_numbers(found.distances)}; {stationary} stationary"))
     rows.append(("rests on", f"residual {magnitude(found.residual)}"))
     open_ = _left_open(found)
     return lines_of(_real_points_title(found), [*rows, *([("open", open_)] if open_ else [])])
 
 
-def _listed(numbers: np.ndarray) -> str:
+def _list_numbers(numbers: np.ndarray) -> str:
     most = 6
     shown = [f"{x:.6g}" for x in numbers[:most]]
     return ", ".join([*shown, *(["..."] if len(numbers) > most else [])])

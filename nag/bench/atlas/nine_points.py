@@ -36,7 +36,7 @@ Point = tuple[Fraction, Fraction]
 
 
 @dataclass(frozen=True)
-class Motion:
+class Similarity:
     """The plane mirrored, if so, in its first axis, and then multiplied by a complex number.
 
     Attributes:
@@ -48,7 +48,7 @@ class Motion:
     order: tuple[int, ...]
 
     @classmethod
-    def random(cls, count: int, rng: np.random.Generator) -> Motion:
+    def random(cls, count: int, rng: np.random.Generator) -> Similarity:
         """A turn by an angle with rational cosine and sine, and a size between 1/4 and 4."""
         t, size = small(rng), Fraction(2) ** int(rng.integers(-2, 3))
         turn = size * (1 - t * t) / (1 + t * t), size * 2 * t / (1 + t * t)
@@ -58,10 +58,10 @@ class Motion:
     def displacements(self, given: Sequence[Point]) -> list[Point]:
         """Those of the moved points from the first of them, for those of the points."""
         whole = [(Fraction(0), Fraction(0)), *given]
-        placed = [self._moved(whole[i]) for i in self.order]
+        placed = [self._move_point(whole[i]) for i in self.order]
         return [(x - placed[0][0], y - placed[0][1]) for x, y in placed[1:]]
 
-    def _moved(self, point: Point) -> Point:
+    def _move_point(self, point: Point) -> Point:
         (a, b), (x, y) = self.factor, point
         y = -y if self.mirrored else y
         return a * x - b * y, a * y + b * x
@@ -105,7 +105,7 @@ class NinePoints:
     """
 
     case: FamilyMember
-    motion: Motion
+    motion: Similarity
     family: SymmetricFamily
     order: tuple[int, ...]
     factors: tuple[Fraction, ...]
@@ -117,7 +117,7 @@ class NinePoints:
         count = symmetric.original.n // 2
         order = tuple(rng.permutation(count).tolist())
         factors = tuple(small(rng) for _ in order)
-        motion = Motion.random(1 + len(symmetric.original.parameters) // 2, rng)
+        motion = Similarity.random(1 + len(symmetric.original.parameters) // 2, rng)
         changed = _changed(symmetric, order, factors, rng)
         return cls(case, motion, changed, order, factors)
 

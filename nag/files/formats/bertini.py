@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from nag.algebra.tokens import names_in, quote
-from nag.files.formats.source import GivenSystem, Source, Statement, check_names
+from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
 _COMMENT = re.compile(r"%[^\n]*")
 _SECTION = re.compile(r"^[ \t]*(CONFIG|INPUT|END)[ \t]*;?[ \t]*$", re.MULTILINE)
@@ -33,7 +33,7 @@ def recognise(text: str) -> bool:
     return _RECOGNISED.search(_COMMENT.sub("", text)) is not None
 
 
-def read(source: Source) -> GivenSystem:
+def read(source: SourceFile) -> GivenSystem:
     """The system of an input file of Bertini.
 
     A ``hom_variable_group`` gets an affine patch, a linear form of the group that is 1.
@@ -42,8 +42,8 @@ def read(source: Source) -> GivenSystem:
         CaseError: if something is declared twice, never or of a kind that is not read.
     """
     source = source.without(_COMMENT)
-    declared: dict[str, list[list[Statement]]] = {kind: [] for kind in _DECLARED}
-    assigned: dict[str, Statement] = {}
+    declared: dict[str, list[list[Passage]]] = {kind: [] for kind in _DECLARED}
+    assigned: dict[str, Passage] = {}
     for statement in source.statements(_input_section(source)):
         kind = (_WORD.match(statement.text) or [""])[0].strip()
         if kind in _REFUSED:
@@ -59,23 +59,23 @@ def read(source: Source) -> GivenSystem:
     return _given(source, declared, assigned)
 
 
-def _input_section(source: Source) -> Statement:
+def _input_section(source: SourceFile) -> Passage:
     marks = list(_SECTION.finditer(source.text))
     begins = [m.end() for m in marks if m[1] == "INPUT"]
     if not begins:
         config = [m for m in marks if m[1] == "CONFIG"]
         if config:
             source.fail(config[0].start(), "CONFIG without INPUT; write the line INPUT after it")
-        return Statement(source.text, 0)
+        return Passage(source.text, 0)
     end = next((m.start() for m in marks if m[1] == "END" and m.start() > begins[0]), None)
-    return Statement(source.text[begins[0] : end], begins[0])
+    return Passage(source.text[begins[0] : end], begins[0])
 
 
 def _read_parameter(
-    source: Source,
-    statement: Statement,
-    declared: dict[str, list[list[Statement]]],
-    assigned: dict[str, Statement],
+    source: SourceFile,
+    statement: Passage,
+    declared: dict[str, list[list[Passage]]],
+    assigned: dict[str, Passage],
 ) -> None:
     """``parameter a = 3`` (a number), and ``parameter a`` with its value in a later statement."""
     listed = statement.part(len("parameter"), len(statement.text))
@@ -86,7 +86,7 @@ def _read_parameter(
         declared["constant"].append([name])
 
 
-def _assign(source: Source, statement: Statement, assigned: dict[str, Statement]) -> Statement:
+def _assign(source: SourceFile, statement: Passage, assigned: dict[str, Passage]) -> Passage:
     match = _ASSIGNED.match(statement.text)
     if match is None:
         known = "variable_group, function, constant, or a name, '=' and an expression"
@@ -99,7 +99,7 @@ def _assign(source: Source, statement: Statement, assigned: dict[str, Statement]
 
 
 def _given(
-    source: Source, declared: dict[str, list[list[Statement]]], assigned: dict[str, Statement]
+    source: SourceFile, declared: dict[str, list[list[Passage]]], assigned: dict[str, Passage]
 ) -> GivenSystem:
     groups = [*declared["variable_group"], *declared["variable"]]
     projective = declared["hom_variable_group"]
@@ -130,7 +130,7 @@ def _given(
     )
 
 
-def _real_constants(names: list[str], assigned: dict[str, Statement]) -> set[str]:
+def _real_constants(names: list[str], assigned: dict[str, Passage]) -> set[str]:
     """The constants whose values are real numbers: no imaginary unit is behind them."""
     kept = set(names)
     while True:

@@ -7,7 +7,7 @@ import re
 
 from nag.algebra.tokens import quote
 from nag.files.case_table import MAX_ENTRIES
-from nag.files.formats.source import GivenSystem, Source, Statement, check_names
+from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
 _COMMENT = re.compile(r"--[^\n]*|-\*.*?\*-", re.DOTALL)
 _RING = re.compile(r"\b(QQ|ZZ|RR|CC)(?:_\w+)?[ \t]*\[")
@@ -25,7 +25,7 @@ def recognise(text: str) -> bool:
     return bool(_RING.search(plain) or _FINITE.search(plain))
 
 
-def read(source: Source) -> GivenSystem:
+def read(source: SourceFile) -> GivenSystem:
     """The system of the ring and the one ideal or list in a text for Macaulay2.
 
     Raises:
@@ -34,7 +34,7 @@ def read(source: Source) -> GivenSystem:
     source = source.without(_COMMENT)
     # The same length, so that columns stay.
     subscripts = _SUBSCRIPT.sub(lambda m: f"{m[1]}_{{{m[2]}}}", source.text)
-    source = Source(source.file, subscripts)
+    source = SourceFile(source.file, subscripts)
     ring = _RING.search(source.text)
     finite = _FINITE.search(source.text)
     if finite:
@@ -42,7 +42,7 @@ def read(source: Source) -> GivenSystem:
     if ring is None:
         source.fail(0, "there is no ring; write R = QQ[x, y]")
     end = _closing(source, ring.end() - 1)
-    listed = Statement(source.text[ring.end() : end], ring.end())
+    listed = Passage(source.text[ring.end() : end], ring.end())
     names = [n for item in source.statements(listed, ",") for n in _ring_names(source, item)]
     variables = check_names(source, names)
     definitions, ideals = {}, []
@@ -61,7 +61,7 @@ def read(source: Source) -> GivenSystem:
     return GivenSystem(variables, ideals[0][1], {}, definitions, imaginary=("ii",))
 
 
-def _closing(source: Source, opening: int) -> int:
+def _closing(source: SourceFile, opening: int) -> int:
     """Where the bracket at ``opening`` is closed."""
     depth = 0
     for i in range(opening, len(source.text)):
@@ -71,7 +71,7 @@ def _closing(source: Source, opening: int) -> int:
     source.fail(opening, f"{source.text[opening]!r} is never closed; close it")
 
 
-def _ring_names(source: Source, item: Statement) -> list[Statement]:
+def _ring_names(source: SourceFile, item: Passage) -> list[Passage]:
     if "=>" in item.text:
         return []
     ends = _RANGE.fullmatch(item.text)
@@ -80,7 +80,7 @@ def _ring_names(source: Source, item: Statement) -> list[Statement]:
     first, last = ends[1].strip(), ends[2].strip()
     if len(first) == len(last) == 1 and first.isalpha() and first <= last:
         letters = (chr(k) for k in range(ord(first), ord(last) + 1))
-        return [Statement(letter, item.offset) for letter in letters]
+        return [Passage(letter, item.offset) for letter in letters]
     low, high = _INDEXED.fullmatch(first), _INDEXED.fullmatch(last)
     if low is None or high is None or low[1] != high[1]:
         source.fail(item.offset, f"the range {quote(item.text)} is not understood; list the names")
@@ -96,18 +96,18 @@ def _ring_names(source: Source, item: Statement) -> list[Statement]:
     ranges = [range(a, b + 1) for a, b in zip(starts, stops, strict=True)]
     pattern = "{0}_{1}" if low[2] else "{0}_{{{1}}}"
     return [
-        Statement(pattern.format(low[1], ",".join(map(str, index))), item.offset)
+        Passage(pattern.format(low[1], ",".join(map(str, index))), item.offset)
         for index in itertools.product(*ranges)
     ]
 
 
-def _statements(source: Source, start: int) -> list[Statement]:
+def _statements(source: SourceFile, start: int) -> list[Passage]:
     """Statements from ``start``: to a semicolon, or to a line's end outside of brackets."""
-    rest = Statement(source.text[start:], start)
+    rest = Passage(source.text[start:], start)
     return source.statements(rest, ";\n")
 
 
-def _polynomials(source: Source, text: Statement) -> tuple[Statement, ...] | None:
+def _polynomials(source: SourceFile, text: Passage) -> tuple[Passage, ...] | None:
     """The entries of ``ideal(...)``, ``ideal {...}`` or ``{...}``, or None."""
     match = _LISTED.match(text.text)
     if match is None or (match.group(0) == "(" and not text.text.startswith("{")):
@@ -116,7 +116,7 @@ def _polynomials(source: Source, text: Statement) -> tuple[Statement, ...] | Non
     end = _closing(source, opening)
     if source.text[end + 1 : text.offset + len(text.text)].strip():
         return None
-    inside = Statement(source.text[opening + 1 : end], opening + 1).stripped()
+    inside = Passage(source.text[opening + 1 : end], opening + 1).stripped()
     if inside.text.startswith("{") and inside.text.endswith("}"):
         return _polynomials(source, inside)
     return tuple(source.statements(inside, ","))

@@ -11,7 +11,7 @@ import re
 
 from nag.algebra.tokens import RESERVED, ExpressionError, tokenize
 from nag.files.case_table import MAX_ENTRIES
-from nag.files.formats.source import GivenSystem, Source, Statement, check_names
+from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
 _HEAD = re.compile(r"\s*([0-9]{1,9})(?:[ \t]+([0-9]{1,9}))?[^\n;]*\n")
 IMAGINARY = ("i", "I")
@@ -22,7 +22,7 @@ def recognise(text: str) -> bool:
     return _HEAD.match(text + "\n") is not None and ";" in text
 
 
-def read(source: Source) -> GivenSystem:
+def read(source: SourceFile) -> GivenSystem:
     """The system of a file of PHCpack.
 
     Raises:
@@ -40,7 +40,7 @@ def read(source: Source) -> GivenSystem:
         if end < 0:
             message = f"{k} of {count} polynomials end with ';'; write all of them"
             source.fail(len(source.text.rstrip()), message)
-        equations.append(Statement(source.text[start:end], start).stripped())
+        equations.append(Passage(source.text[start:end], start).stripped())
         start = end + 1
     names = _names_in_order(source, equations)
     unknowns = int(head[2]) if head[2] else None
@@ -53,8 +53,8 @@ def read(source: Source) -> GivenSystem:
     return GivenSystem(names, tuple(equations), imaginary=IMAGINARY)
 
 
-def _names_in_order(source: Source, equations: list[Statement]) -> tuple[str, ...]:
-    found: dict[str, Statement] = {}
+def _names_in_order(source: SourceFile, equations: list[Passage]) -> tuple[str, ...]:
+    found: dict[str, Passage] = {}
     for equation in equations:
         try:
             tokens = tokenize(equation.text)
@@ -63,5 +63,5 @@ def _names_in_order(source: Source, equations: list[Statement]) -> tuple[str, ..
         for token in tokens:
             if token.kind == "name" and token.text not in RESERVED | {*IMAGINARY}:
                 at = equation.offset + token.column - 1
-                found.setdefault(token.text, Statement(token.text, at))
+                found.setdefault(token.text, Passage(token.text, at))
     return check_names(source, found.values())

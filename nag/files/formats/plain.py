@@ -13,14 +13,14 @@ from nag.algebra.tokens import (
     natural_order,
     tokenize,
 )
-from nag.files.formats.source import GivenSystem, Source, Statement, check_names
+from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
 _COMMENT = re.compile(r"(?:#|//|%|--)[^\n]*")
 _HEAD = re.compile(r"(variables?|imaginary)\s*:?\s+", re.IGNORECASE)
 _END = re.compile(r"[\s,;]+$")
 
 
-def read(source: Source) -> GivenSystem:
+def read(source: SourceFile) -> GivenSystem:
     """A system, one polynomial or equation a line; lines may end with a comma or a semicolon.
 
     A first line ``variables x, y`` gives their order, else it is alphabetical (x2 before x10); a
@@ -34,7 +34,7 @@ def read(source: Source) -> GivenSystem:
     source = source.without(_COMMENT)
     lines, offset = [], 0
     for line in source.text.split("\n"):
-        lines.append(Statement(_END.sub("", line), offset).stripped())
+        lines.append(Passage(_END.sub("", line), offset).stripped())
         offset += len(line) + 1
     lines = [line for line in lines if line.text]
     names: tuple[str, ...] | None = None
@@ -56,7 +56,7 @@ def read(source: Source) -> GivenSystem:
     return GivenSystem(names, tuple(lines), imaginary=units or ())
 
 
-def _occurring(source: Source, lines: list[Statement], units: tuple[str, ...]) -> set[str]:
+def _occurring(source: SourceFile, lines: list[Passage], units: tuple[str, ...]) -> set[str]:
     names: set[str] = set()
     for line in lines:
         try:

@@ -7,9 +7,9 @@ from collections.abc import Callable, Mapping, Sequence
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.files.formats import bertini, macaulay2, phcpack, plain, singular
-from nag.files.formats.source import GivenSystem, Source, free_parameters, read_given
+from nag.files.formats.source import GivenSystem, SourceFile, free_parameters, read_given
 
-READERS: Mapping[str, Callable[[Source], GivenSystem]] = {
+READERS: Mapping[str, Callable[[SourceFile], GivenSystem]] = {
     "bertini": bertini.read,
     "phc": phcpack.read,
     "m2": macaulay2.read,
@@ -46,7 +46,7 @@ def read_system_text(
     Raises:
         CaseError: if it cannot be read; one line says where, and what would be right.
     """
-    source = Source(file, text.replace("\r\n", "\n").replace("\r", "\n"))
+    source = SourceFile(file, text.replace("\r\n", "\n").replace("\r", "\n"))
     given = READERS[format](source)
     if freed:
         given = free_parameters(source, given, freed)

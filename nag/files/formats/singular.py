@@ -7,7 +7,7 @@ import re
 
 from nag.algebra.tokens import quote
 from nag.files.case_table import MAX_ENTRIES
-from nag.files.formats.source import GivenSystem, Source, Statement, check_names
+from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _RING = re.compile(r"\s*ring\s+\w+\s*=\s*")
@@ -26,7 +26,7 @@ def recognise(text: str) -> bool:
     return _RECOGNISED.search(_COMMENT.sub("", text)) is not None
 
 
-def read(source: Source) -> GivenSystem:
+def read(source: SourceFile) -> GivenSystem:
     """The system of the ring and the one ideal in a text for Singular.
 
     Raises:
@@ -69,7 +69,7 @@ def read(source: Source) -> GivenSystem:
 
 
 def _read_ring(
-    source: Source, ring: Statement
+    source: SourceFile, ring: Passage
 ) -> tuple[tuple[str, ...], frozenset[str], tuple[str, ...]]:
     """The variables of a ring, the names before their indices, and the imaginary unit."""
     parts = source.statements(ring, ",")
@@ -96,13 +96,13 @@ def _read_ring(
             if count > MAX_ENTRIES:
                 source.fail(item.offset, f"more than {MAX_ENTRIES} variables; at most that many")
         for index in itertools.product(*(range(low, high + 1) for low, high in bounds)):
-            names.append(Statement(match[1] + "".join(f"[{k}]" for k in index), item.offset))
+            names.append(Passage(match[1] + "".join(f"[{k}]" for k in index), item.offset))
     units = (field.rstrip(")").split(",")[-1].strip(),) if "," in field else ("i",)
     is_complex = field.lstrip("(").startswith("complex")
     return check_names(source, names), frozenset(bases), units if is_complex else ()
 
 
-def _names_indexed(text: Statement, bases: frozenset[str]) -> Statement:
+def _names_indexed(text: Passage, bases: frozenset[str]) -> Passage:
     """The same with ``x[1]`` for ``x(1)``, of the same length, so that columns stay."""
 
     def indexed(match: re.Match[str]) -> str:
@@ -110,10 +110,10 @@ def _names_indexed(text: Statement, bases: frozenset[str]) -> Statement:
             return match[0]
         return match[1] + match[2].replace("(", "[").replace(")", "]")
 
-    return Statement(_INDEXED.sub(indexed, text.text), text.offset)
+    return Passage(_INDEXED.sub(indexed, text.text), text.offset)
 
 
-def _write_out(text: Statement, names: tuple[str, ...]) -> Statement:
+def _write_out(text: Passage, names: tuple[str, ...]) -> Passage:
     """The same with all products and powers written, where all variables are letters."""
 
     def product(match: re.Match[str]) -> str:
@@ -123,4 +123,4 @@ def _write_out(text: Statement, names: tuple[str, ...]) -> Statement:
         factors = [f"{letter}^{power}" if power else letter for letter, power in letters]
         return "*".join([match[1], *factors] if match[1] else factors)
 
-    return Statement(_SHORT.sub(product, text.text), text.offset)
+    return Passage(_SHORT.sub(product, text.text), text.offset)

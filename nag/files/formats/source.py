@@ -20,24 +20,24 @@ _BRACKETS = {"(": ")", "[": "]", "{": "}"}
 
 
 @dataclass(frozen=True)
-class Statement:
+class Passage:
     """A part of a file: its text, and where it begins."""
 
     text: str
     offset: int
 
-    def stripped(self) -> Statement:
+    def stripped(self) -> Passage:
         """Without the blanks around it."""
         start = len(self.text) - len(self.text.lstrip())
-        return Statement(self.text.strip(), self.offset + start)
+        return Passage(self.text.strip(), self.offset + start)
 
-    def part(self, start: int, end: int) -> Statement:
+    def part(self, start: int, end: int) -> Passage:
         """The characters from ``start`` to ``end``."""
-        return Statement(self.text[start:end], self.offset + start).stripped()
+        return Passage(self.text[start:end], self.offset + start).stripped()
 
 
 @dataclass(frozen=True)
-class Source:
+class SourceFile:
     """A file's path and text."""
 
     file: str
@@ -54,17 +54,17 @@ class Source:
         line = self.text.count("\n", 0, offset) + 1
         raise CaseError(line_of(self.file, f"line {line}", message))
 
-    def without(self, comment: re.Pattern[str]) -> Source:
+    def without(self, comment: re.Pattern[str]) -> SourceFile:
         """The same with comments blanked out, so that columns stay."""
         return replace(self, text=comment.sub(_blank, self.text))
 
-    def statements(self, whole: Statement | None = None, separator: str = ";") -> list[Statement]:
+    def statements(self, whole: Passage | None = None, separator: str = ";") -> list[Passage]:
         """The parts between separators outside of brackets, without empty ones.
 
         Raises:
             CaseError: if brackets do not match.
         """
-        whole = whole or Statement(self.text, 0)
+        whole = whole or Passage(self.text, 0)
         parts, open_at, start = [], [], 0
         for i, c in enumerate(whole.text):
             if c in _BRACKETS:
@@ -107,15 +107,15 @@ class GivenSystem:
     """
 
     variables: tuple[str, ...]
-    equations: tuple[Statement, ...]
-    parameters: Mapping[str, Statement] = field(default_factory=dict)
-    definitions: Mapping[str, Statement] = field(default_factory=dict)
+    equations: tuple[Passage, ...]
+    parameters: Mapping[str, Passage] = field(default_factory=dict)
+    definitions: Mapping[str, Passage] = field(default_factory=dict)
     groups: tuple[tuple[str, ...], ...] = ()
     patches: tuple[tuple[str, ...], ...] = ()
     imaginary: tuple[str, ...] = ()
 
 
-def check_names(source: Source, names: Iterable[Statement]) -> tuple[str, ...]:
+def check_names(source: SourceFile, names: Iterable[Passage]) -> tuple[str, ...]:
     """The names, if each is one and none is there twice.
 
     Raises:
@@ -134,7 +134,7 @@ def check_names(source: Source, names: Iterable[Statement]) -> tuple[str, ...]:
 
 
 def read_given(
-    source: Source, given: GivenSystem, values: Mapping[str, str | Number] | None = None
+    source: SourceFile, given: GivenSystem, values: Mapping[str, str | Number] | None = None
 ) -> tuple[PolynomialSystem, dict[str, Number]]:
     """The exact system that a file gives, and the values of its parameters.
 
@@ -190,7 +190,7 @@ def _unit_name(given: GivenSystem) -> str | None:
     return name_unit((*given.variables, *given.parameters, *given.definitions))
 
 
-def free_parameters(source: Source, given: GivenSystem, names: Sequence[str]) -> GivenSystem:
+def free_parameters(source: SourceFile, given: GivenSystem, names: Sequence[str]) -> GivenSystem:
     """The same with parameters as its last variables.
 
     Raises:
@@ -209,7 +209,9 @@ def free_parameters(source: Source, given: GivenSystem, names: Sequence[str]) ->
     return replace(given, variables=variables, parameters=kept, groups=())
 
 
-def _number(source: Source, text: Statement, known: Mapping[str, Number], budget: Budget) -> Number:
+def _number(
+    source: SourceFile, text: Passage, known: Mapping[str, Number], budget: Budget
+) -> Number:
     try:
         return parse_number(text.text, known, budget)
     except ExpressionError as error:
@@ -220,12 +222,12 @@ def _number(source: Source, text: Statement, known: Mapping[str, Number], budget
 class _Reading:
     """Reads polynomials on one budget, with the names that are known so far."""
 
-    source: Source
+    source: SourceFile
     names: tuple[str, ...]
     known: dict[str, Value]
     budget: Budget
 
-    def polynomial(self, text: Statement) -> Polynomial:
+    def polynomial(self, text: Passage) -> Polynomial:
         """The polynomial of a statement."""
         try:
             return parse_polynomial(text.text, self.names, self.known, self.budget)

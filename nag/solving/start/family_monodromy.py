@@ -128,7 +128,7 @@ def family_monodromy(
     while tally.loops < MOST_LOOPS:
         if progress:
             progress("monodromy", len(here.points), count or 0)
-        move = partial(tally.moved, family, threads)
+        move = partial(tally.move_points, family, threads)
         ways = _ways(family, values, further, weights, idle > 0, move, rng)
         gained = run_loop(here, there, *ways)
         tally.loops += 1
@@ -182,7 +182,7 @@ class _Tally:
     steps: int = 0
     lost: int = 0
 
-    def moved(
+    def move_points(
         self,
         family: Family,
         threads: int,

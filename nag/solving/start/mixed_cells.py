@@ -161,7 +161,7 @@ def _dual(s, w):
     return True
 
 
-def _widened(s, w):
+def _widen_points(s, w):
     """Put the points eight by eight; where there are fewer, others that never enter."""
     size = s.n + 2
     number = 0
@@ -242,7 +242,7 @@ def follow_cells(s: Lifted, w: Followed) -> None:
     cell = w.cell
     numbers = w.numbers
     steps = 0
-    _widened(s, w)
+    _widen_points(s, w)
     for start in range(s.cells):
         _copy(w.stack, 0, s.begin, 2 * n * start, 2 * n)
         w.times[0] = -np.inf

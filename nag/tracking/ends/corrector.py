@@ -94,7 +94,7 @@ def correct(z, s, r, b):
         busy = 0
         for lane in range(8):
             if r.settled[lane] < 0.5:
-                r.settled[lane] = _judged(z, r, lane, k)
+                r.settled[lane] = _judge_correction(z, r, lane, k)
                 if r.settled[lane] < 0.5:
                     busy += 1
         if busy == 0:
@@ -110,7 +110,7 @@ def correct(z, s, r, b):
             r.settled[lane] = 2.0
 
 
-def _judged(z, r, lane, k):
+def _judge_correction(z, r, lane, k):
     """0 if a lane needs another correction, 1 if it has settled, 2 if it failed."""
     eta = r.measures[lane]
     excess = r.measures[8 + lane]

@@ -178,7 +178,7 @@ def _close(z, s, r, lane, b, outcome, data):
     r.mode[lane] = IDLE
 
 
-def _rejected(z, s, r, lane, b):
+def _reject_step(z, s, r, lane, b):
     """A step or a finish that failed: a shorter step, or none if there is none."""
     if r.mode[lane] == FINISH:
         if r.based[lane] < 0.5:
@@ -325,13 +325,13 @@ def follow_batch(z: ComplexNumbers, s: KernelEquations, r: Room, b: EndBatch) ->
             r.taken[lane] += 1
             contracted = r.contraction[lane] <= b.contraction
             if r.settled[lane] > 1.5 or not contracted:
-                _rejected(z, s, r, lane, b)
+                _reject_step(z, s, r, lane, b)
             elif mode == FINISH:
                 curvature = max(r.curvature[lane], 1.0)
                 if r.known[lane] * curvature <= LOSING:
                     _close(z, s, r, lane, b, REGULAR, r.slots)
                 else:
-                    _rejected(z, s, r, lane, b)
+                    _reject_step(z, s, r, lane, b)
             else:
                 r.accepted[lane] = 1.0
                 stepping += 1

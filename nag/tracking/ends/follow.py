@@ -264,7 +264,7 @@ def _follow_in(
                     hopeful = verdict == end_run.OPEN and may_go_on
                     (again if hopeful else later).append(path)
             elif outcome == end_run.REGULAR:
-                if not _confirmed(states, path, terms):
+                if not _confirm_end(states, path, terms):
                     # Newton's method converged, but not to a regular zero: go on without it.
                     states.straight[path] = 0
                     states.outcome[path] = end_run.LIMIT if at_limit else end_run.LOST
@@ -282,7 +282,7 @@ def _follow_in(
     return np.array(sorted(later), dtype=np.int64)
 
 
-def _confirmed(states: States, path: int, terms: Terms) -> bool:
+def _confirm_end(states: States, path: int, terms: Terms) -> bool:
     """Whether a path's end is a regular zero: as it is known to be, or by a proof, in a box."""
     if states.regular[path] and states.steps[path] == 1:
         return True

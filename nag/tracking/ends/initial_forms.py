@@ -108,14 +108,14 @@ class InitialForms:
                 for form, size in zip(forms, sizes, strict=True)
             ]
             inverse = _inverse(forms, first, _terms(forms, x), len(x))
-            here = _left(forms, inverse, x)
+            here = _sizes_left(forms, inverse, x)
             rest = here > ZERO
             if not rest.any():
                 return True
             phases = np.exp(2j * np.pi * np.random.default_rng(0).random(len(there)))
             shift = max(error * BEYOND, CLOSE)
             moved = [z * flint.acb(complex(1 + shift * u)) for z, u in zip(x, phases, strict=True)]
-            return bool((_left(forms, inverse, moved)[rest] > here[rest] + GROWN).all())
+            return bool((_sizes_left(forms, inverse, moved)[rest] > here[rest] + GROWN).all())
 
 
 def _terms(forms: Sequence[Form], x: Sequence[Any]) -> list[list[Any]]:
@@ -154,7 +154,7 @@ def _inverse(
     return np.linalg.pinv(jacobian, rcond=INDEPENDENT)[:, : len(forms)]
 
 
-def _left(forms: Sequence[Form], inverse: np.ndarray, x: Sequence[Any]) -> np.ndarray:
+def _sizes_left(forms: Sequence[Form], inverse: np.ndarray, x: Sequence[Any]) -> np.ndarray:
     """What is left of each form where those that can be solved for vanish; decimal logarithms."""
     last = inf
     for _ in range(STEPS):

@@ -120,7 +120,7 @@ def _shifts(z, s, r, m):
         z.number.write(r.change, i, weight)
 
 
-def _shifted(z, r, data, first, stride, m):
+def _shift_coefficient(z, r, data, first, stride, m):
     """Coefficient of order ``m`` of ``t (exp(h) - 1)`` times a series, minus it."""
     total = z.exact(splat(0.0), splat(0.0))
     for i in range(1, m + 1):
@@ -140,9 +140,9 @@ def right_side(z, s, r, m):
         total = z.negative(z.read(r.sums, m * s.value_blocks + b))
         if s.moving[part] != 0:
             total = z.weigh(total, z.read(r.factor, part))
-            moved = _shifted(z, r, r.sums, b, s.value_blocks, m)
+            moved = _shift_coefficient(z, r, r.sums, b, s.value_blocks, m)
             total = z.add_product(total, slope_of_factor(z, s, part), moved)
         k = s.value_place[b]
         z.write(r.right, k, z.add(z.read(r.right, k), total))
     for k in range(s.linear):
-        z.write(r.right, s.rows + k, _shifted(z, r, r.lines, k, s.linear, m))
+        z.write(r.right, s.rows + k, _shift_coefficient(z, r, r.lines, k, s.linear, m))

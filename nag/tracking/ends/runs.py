@@ -229,14 +229,14 @@ def scale_equations(equations: Table, homotopy: Homotopy, powers: np.ndarray) ->
     lines = (powers - largest.max(axis=1, initial=np.iinfo(int).min)[:, None])[:, :, None]
     return replaced(
         equations,
-        value=_shifted(known.value, values),
-        jacobian=_shifted(known.jacobian, [k for _, _, own in blocks for k in own]),
+        value=_shift_numbers(known.value, values),
+        jacobian=_shift_numbers(known.jacobian, [k for _, _, own in blocks for k in own]),
         A0=np.ldexp(A0, np.minimum(lines, 0)).ravel(),
         A1=np.ldexp(A1, np.minimum(lines, 0)).ravel(),
     )
 
 
-def _shifted(numbers: np.ndarray, shifts: list[int]) -> np.ndarray:
+def _shift_numbers(numbers: np.ndarray, shifts: list[int]) -> np.ndarray:
     """Numbers, several words each, times powers of two."""
     if not shifts:
         return numbers
