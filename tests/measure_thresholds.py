@@ -176,7 +176,7 @@ def watched(measured: Measured) -> ExitStack:
     for owner, name, note in [
         (tracking, "refine", refined),
         (tracking, "_attempt", judged),
-        (follow.States, "known", known),
+        (follow.States, "known_coordinates", known),
         (limits.Limits, "of", initial_forms),
         (limits, "_denominator", denominator),
         (path_ends, "_residuals", values),

@@ -130,7 +130,7 @@ class BoundedArithmetic:
             if len(base.terms) == 1:
                 ((e, c),) = base.terms.items()
                 return Polynomial(self.n, {tuple(k * i for i in e): self.power(c, exponent)})
-            return self._repeated(base, k, Polynomial.constant(self.n, 1))
+            return self._multiply_repeatedly(base, k, Polynomial.constant(self.n, 1))
         if k < 0 and is_zero(base):
             raise ExpressionError("division by zero: zero has no negative power")
         if isinstance(base, Fraction) and abs(base) in (0, 1):
@@ -142,9 +142,9 @@ class BoundedArithmetic:
             )
         if isinstance(base, Fraction):
             return base**k
-        return self._repeated(base if k > 0 else 1 / base, abs(k), Fraction(1))
+        return self._multiply_repeatedly(base if k > 0 else 1 / base, abs(k), Fraction(1))
 
-    def _repeated(self, base: Value, exponent: int, power: Value) -> Value:
+    def _multiply_repeatedly(self, base: Value, exponent: int, power: Value) -> Value:
         # One factor at a time: the cost of a step is known, that of a square of sums is not.
         for _ in range(exponent):
             power = self.multiply(power, base)

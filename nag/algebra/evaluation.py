@@ -96,13 +96,15 @@ class Evaluator:
     def _far_residuals(self, point: np.ndarray) -> np.ndarray:
         """Residuals where powers of the coordinates may leave the range of doubles."""
         size = float(np.abs(point).max())
-        weights = self.coefficients * self._lowered(size, self.exponents.sum(axis=1), self.degrees)
+        weights = self.coefficients * self._lower_powers(
+            size, self.exponents.sum(axis=1), self.degrees
+        )
         values = weights @ self._monomials(point[None] / size)[0]
         floored = np.maximum(np.abs(point), 1.0) / size
         sizes = np.abs(weights) @ self._monomials(floored[None])[0]
         return np.abs(values) / np.where(sizes == 0, 1.0, sizes)
 
-    def _lowered(self, size: float, degrees: np.ndarray, tops: np.ndarray) -> np.ndarray:
+    def _lower_powers(self, size: float, degrees: np.ndarray, tops: np.ndarray) -> np.ndarray:
         """Powers ``size ** (degrees - tops)``, shape ``(tops, degrees)``; they may be 0."""
         return np.exp2(np.minimum(np.log2(size) * (degrees[None] - tops[:, None]), 0.0))
 
@@ -195,7 +197,8 @@ class Evaluator:
             scaled = Evaluator(
                 self.n,
                 self.exponents,
-                self.coefficients * self._lowered(size, self.exponents.sum(axis=1), self.degrees),
+                self.coefficients
+                * self._lower_powers(size, self.exponents.sum(axis=1), self.degrees),
             )
             return scaled.jacobian(np.asarray(point) / size)
         return self.jacobian(point) / size ** (self.degrees - 1)[:, None]

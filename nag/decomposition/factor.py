@@ -80,7 +80,7 @@ class Operand:
             IntersectionError: if no cut is found for a point.
         """
         rows = self.rows
-        kept = [self._reduced(fibre, rows) for fibre in self.component.fibres]
+        kept = [self._reduce_fibre(fibre, rows) for fibre in self.component.fibres]
         if kept and all(len(f.cut.polynomials) == self.n + f.cut.aux - f.dimension for f in kept):
             return [self._with_fine(fibre, fibre.fine) for fibre in kept]
         deflate = self.component.multiplicity != 1
@@ -110,7 +110,7 @@ class Operand:
         steep = {i: each for i, each in found.items() if each.curvature * CLOSE > 1}
         return replace(fibre, fine=steep)
 
-    def _reduced(self, fibre: Fibre, rows: np.ndarray) -> Fibre:
+    def _reduce_fibre(self, fibre: Fibre, rows: np.ndarray) -> Fibre:
         """A fibre in the coordinates that are left, its linear equations solved."""
         aux = fibre.cut.aux
         unknowns = range(self.n, self.n + aux)

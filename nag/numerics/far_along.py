@@ -107,7 +107,9 @@ class RoundsInDoubles:
         if not len(self.solved):
             jacobian = self.evaluator.jacobian(x)
             right = jacobian[:, self.free] @ direction
-            return self._placed(direction, -np.linalg.solve(jacobian[:, self.columns], right))
+            return self._place_variables(
+                direction, -np.linalg.solve(jacobian[:, self.columns], right)
+            )
         frame = self._frame(x)
         along = frame.tangents[:, self.left] @ direction
         bent = np.linalg.solve(self._bending(x, frame), self._second(x, frame, along))
@@ -125,14 +127,14 @@ class RoundsInDoubles:
         """What Newton's method takes from a point, in the variables that are not left."""
         if not len(self.solved):
             jacobian, values = self.evaluator.jacobian(x), self.evaluator.values(x[None])[0]
-            return self._placed(0.0, np.linalg.solve(jacobian[:, self.columns], values))
+            return self._place_variables(0.0, np.linalg.solve(jacobian[:, self.columns], values))
         frame = self._frame(x)
         here = self._chosen(frame, frame.slopes) - self._second(x, frame, frame.step)
         return frame.step + frame.tangents[:, self.solved] @ np.linalg.solve(
             self._bending(x, frame), here
         )
 
-    def _placed(self, free: np.ndarray | float, columns: np.ndarray) -> np.ndarray:
+    def _place_variables(self, free: np.ndarray | float, columns: np.ndarray) -> np.ndarray:
         """A vector of all variables, from the free ones and those of the first block."""
         result = np.empty(self.evaluator.n, dtype=complex)
         result[self.free], result[self.columns] = free, columns

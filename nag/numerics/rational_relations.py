@@ -80,7 +80,7 @@ class Echelon:
             return self._add(column)
 
     def _add(self, column: Sequence[flint.arb]) -> list[Fraction] | None:
-        tops, rest = self._reduced(column)
+        tops, rest = self._reduce_column(column)
         if self._depends(column, rest.values()):
             return self._coefficients(tops)
         self._keep(tops, rest, max(rest, key=lambda i: rest[i].abs_lower()))
@@ -96,10 +96,12 @@ class Echelon:
             return self._relation(column)
 
     def _relation(self, column: Sequence[flint.arb]) -> list[Fraction] | None:
-        tops, rest = self._reduced(column)
+        tops, rest = self._reduce_column(column)
         return self._coefficients(tops) if self._depends(column, rest.values()) else None
 
-    def _reduced(self, column: Sequence[flint.arb]) -> tuple[list[flint.arb], dict[int, flint.arb]]:
+    def _reduce_column(
+        self, column: Sequence[flint.arb]
+    ) -> tuple[list[flint.arb], dict[int, flint.arb]]:
         """A column's part of the upper matrix, and what is left of it in the other rows."""
         known = [column[i] for i in self._pivots]
         padded = [*known, *[0] * (self._rows - len(known))]

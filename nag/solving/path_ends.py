@@ -74,7 +74,7 @@ class _Zeros:
     residual: np.ndarray
     regular: np.ndarray
 
-    def alone(self) -> np.ndarray:
+    def regular_indices(self) -> np.ndarray:
         """Indices of the regular ends, which are distinct, as the tracker has seen."""
         return np.flatnonzero(self.regular)
 
@@ -132,8 +132,8 @@ def sort_ends(
     sets: list[tuple[np.ndarray, bool | None]] = []
     close: list[int] = []
     each = problem.added or problem.squared
-    isolated = [] if each else _list_regular(begin, zeros, zeros.alone(), paths)
-    groups = [*zeros.alone()[:, None], *zeros.groups()] if each else zeros.groups()
+    isolated = [] if each else _list_regular(begin, zeros, zeros.regular_indices(), paths)
+    groups = [*zeros.regular_indices()[:, None], *zeros.groups()] if each else zeros.groups()
     judge = partial(_judge_end, problem, begin, zeros, paths, evaluator, rng)
     whole = begin.complete and not problem.squared
     for group in groups:
@@ -255,7 +255,9 @@ def _judge_end(
         end = analyse(problem.equations, point, accuracy * np.abs(point), rng)
     members = [end]
     if end.place is Place.CLUSTER:
-        met = coincident(zeros.points[zeros.alone()], end.point, max(accuracy, end.accuracy))
+        met = coincident(
+            zeros.points[zeros.regular_indices()], end.point, max(accuracy, end.accuracy)
+        )
         if end.dimension and met.sum() == sum(z.multiplicity for z in end.nearby):
             # All that is isolated there are ends of other paths.
             return _EndPlace(Place.ON_COMPONENT, excluded=_is_excluded(problem, end))
@@ -352,7 +354,7 @@ def _solutions(
     paired = bool(conjugates_present(points, accuracy, multiplicity, real))
     answers: list[bool | None] = [False] * len(isolated)
     if problem.nonzero:
-        answers = [problem.excluded(s) for s in isolated]
+        answers = [problem.is_excluded(s) for s in isolated]
     original = np.array(problem.target.original(points), dtype=np.complex128)
     original.setflags(write=False)
     for i, (x, zero) in enumerate(zip(original, isolated, strict=True)):

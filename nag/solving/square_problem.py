@@ -101,7 +101,7 @@ class SquareProblem:
         """Whether a polynomial that must not vanish seems to do so at a point."""
         return bool((self._nonzero.residuals(x[None]) <= NONZERO).any()) if self.nonzero else False
 
-    def excluded(self, found: IsolatedZero) -> bool | None:
+    def is_excluded(self, found: IsolatedZero) -> bool | None:
         """Whether a polynomial that must not vanish does at a zero; None if that is not known."""
         x = found.point
         values = self._nonzero.residuals(x[None])[0]

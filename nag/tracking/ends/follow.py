@@ -142,7 +142,7 @@ class States:
         """
         return bool(self.safe_t[path, 0] > self.t[path, 0])
 
-    def known(self, path: int) -> np.ndarray:
+    def known_coordinates(self, path: int) -> np.ndarray:
         """Which coordinates exceed their rounding errors."""
         return np.abs(self.point(path)) > RESOLVED * self.errors[path]
 
@@ -295,7 +295,7 @@ def _confirm_end(states: States, path: int, terms: Terms) -> bool:
 
 def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float, terms: Terms) -> bool:
     """Whether a regular end is at infinity to fewer digits than are needed, or only seems to be."""
-    far = [j for j in homotopy.infinity if not states.known(path)[j]]
+    far = [j for j in homotopy.infinity if not states.known_coordinates(path)[j]]
     if not far or float(RESOLVED * states.errors[path][far].max()) > need:
         return bool(far)
     return not at_infinity(terms, states.found[path], far)
@@ -307,7 +307,7 @@ def _affine_error(homotopy: Homotopy, states: States, path: int) -> float:
     A finite end that is far out may be known well as a point of projective space only.
     """
     infinite = list(homotopy.infinity)
-    if not states.known(path)[infinite].all():
+    if not states.known_coordinates(path)[infinite].all():
         return 0.0
     sizes = np.abs(states.point(path)[infinite])
     return float((states.errors[path][infinite] / sizes).max(initial=0.0))
@@ -319,7 +319,7 @@ def _limit(
     """`LIMIT` if the equations agree, `OPEN` if further in they may, `LOST` in more digits."""
     from nag.tracking.ends import end_run
 
-    known, t, w = states.known(path), states.t[path, 0], int(states.winding[path])
+    known, t, w = states.known_coordinates(path), states.t[path, 0], int(states.winding[path])
     limit = limits.of(states.where[path], found, known, states.t[path], w)
     need = needs[(w & -w).bit_length() - 1]
     noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
@@ -366,7 +366,7 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
     for path in range(P):
         points[path] = states.point(path)
         if states.outcome[path] == end_run.REGULAR:
-            finite = bool(states.known(path)[infinite].all())
+            finite = bool(states.known_coordinates(path)[infinite].all())
             status[path] = PathStatus.REGULAR if finite else PathStatus.AT_INFINITY
             own = float(states.errors[path].max())
             accuracy[path] = max(ROUNDING, own, _affine_error(homotopy, states, path))
