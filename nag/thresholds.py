@@ -403,8 +403,8 @@ MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME, FLATTEST; tracking.close_paths: ST
 tracking.ends.at_infinity: DOUBLE_DOUBLE; tracking.ends.branch: LONGEST; tracking.ends.corrector:
 DOUBLES; tracking.ends.inclusion: TINY; tracking.ends.initial_forms: GAIN;
 tracking.ends.kept_points: RESIDUAL, SECOND; tracking.ends.records: IDLE, STEP, FINISH;
-tracking.ends.limits: LOG_2; tracking.ends.runs: ACCURACY, CONTRACTION; tracking.linear_algebra:
-PHASE; tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER; tracking.predictor: PREDICT,
+tracking.ends.runs: ACCURACY, CONTRACTION; tracking.linear_algebra: PHASE;
+tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER; tracking.predictor: PREDICT,
 CORRECT, TINY, FAR; tracking.projective: ROUNDING; tracking.track: BASIN; tracking.ends.end_run:
 TRIAL, SMALLER, SHORTEST, LAST_T; tracking.ends.follow: FURTHER, FURTHEST; tracking.jumps:
 NEIGHBOURS; tracking.settings: TIGHTER, SHARPER; tracking.straight_run: SHORTEST, OVERFLOW,
@@ -412,8 +412,8 @@ ROUNDING, FARTHEST; solving.certified_paths: FURTHER; solving.kantorovich: PROMI
 solving.isolated_zero: ROUNDING; solving.branch_solutions: ROUGH; solving.solution_classes: STEP;
 solving.start.choice: WORK; solving.start.family_monodromy: SHARP; solving.start.polyhedral: WIDTH,
 LENGTH; solving.tropical_zeros: NEAR; witness.close_points: STEEPEST; witness.cutting: FLAT, LOSS;
-witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP, BITS_PER_DIGIT, SPLITTER; witness.fibres:
-STEEPER; witness.gauss_newton: CLOSE, FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, NEARLY;
+witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP, SPLITTER; witness.fibres: STEEPER;
+witness.gauss_newton: CLOSE, FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, NEARLY;
 witness.real_points: SPREAD, SHORTEST, STILL; decomposition.curve_genus: NEAR, OUTSIDE, SHRINK,
 LEAST_RADIUS; decomposition.hypersurface: NEARER; decomposition.growth: PATH, FACTOR, ENTRY, STEP;
 decomposition.superset: REGULAR; decomposition.power_sums: EQUATIONS, EVEN; decomposition.zero_sums:

@@ -14,16 +14,13 @@ from typing import Any
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.chains import Chain
+from nag.bench.measure import LONG, RUNS
 from nag.bench.peers import in_macaulay2
 from nag.decomposition.decompose import decompose
 from nag.errors import NagError
 from nag.files.cases import Truth
 from nag.mechanism.problem import problem_of
 from nag.report.agreement import AgreementKind, compare
-
-# Best of so many runs; a run that takes longer than LONG seconds is not repeated.
-RUNS = 5
-LONG = 3.0
 
 
 @dataclass(frozen=True)

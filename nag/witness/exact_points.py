@@ -21,6 +21,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import LEAST
+from nag.numerics.digits import LOG10_2
 from nag.numerics.doubles import EPS
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import SingularEnd
@@ -46,7 +47,6 @@ ARRIVED = 1e-6
 SPLITTER = 134217729.0
 # Bits beyond the digits that are asked for.
 GUARD = 40
-BITS_PER_DIGIT = np.log2(10.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +94,7 @@ def of_balls(points: Sequence[Sequence[Any]]) -> ExactPoints:
 
 def unit_of(digits: int) -> int:
     """The unit's exponent for numbers of so many digits behind the point."""
-    return int(np.ceil(digits * BITS_PER_DIGIT)) + GUARD
+    return int(np.ceil(digits / LOG10_2)) + GUARD
 
 
 def exact_points(fibre: Fibre, digits: int) -> ExactPoints:

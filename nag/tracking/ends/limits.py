@@ -30,7 +30,6 @@ LEAST_EVIDENCE, MOST_EVIDENCE = 14, 58
 # An order in units of 1 / w is a whole number to so many units.
 WHOLE = 1e-3
 LARGEST = 100
-LOG_2 = 0.6931471805599453
 # The error of a limit, in last terms of its power series.
 BEYOND = 30.0
 # What is left of a power series nearer to its limit, over what was left further out.
@@ -191,7 +190,7 @@ class Limits:
             least = min(orders[j] for j in indices)
             first = [j for j in indices if orders[j] == least]
             # A power of two, by which nothing is rounded.
-            size = 2 ** round(max(float(abs(leading[j]).log().mid()) for j in first) / LOG_2)
+            size = 2 ** round(max(float(abs(leading[j]).log().mid()) for j in first) / np.log(2.0))
             for j in first:
                 centre[j] = words_of_number(leading[j] / size, self.words)
         return centre
