@@ -2,8 +2,8 @@
 
     python tests/measure_thresholds.py [--decompose] [--case FILE ...] [--seeds 0:3]
 
-Solves the systems by paths, or decomposes them, and prints for each threshold with a star in the
-table of `nag.thresholds` how many values it let pass and how many not, how many decades the nearest
+Solves the systems by paths, or decomposes them, and prints for each threshold that says so
+(`nag.thresholds`) how many values it let pass and how many not, how many decades the nearest
 of each lie from it, and how many lie within a decade of it. A threshold is a good one where hardly
 any do: then another value of it would give the same answers.
 """

@@ -1,4 +1,4 @@
-"""Every number that decides something stands in one table, with its value."""
+"""Every number that decides something has a name, and says above it what it decides."""
 
 from __future__ import annotations
 
@@ -29,42 +29,35 @@ SMALL, LARGE = 0.1, 10.0
 # They keep quotients, and logarithms, finite: no value of a computation lies between them and 0, or
 # infinity, but for what has lost its digits to the range of doubles.
 GUARDS = (1e-300, 1e300)
-ROW = re.compile(r"^([a-z_.]+\.[A-Z_0-9]+)(?: \*)? +(\S+) +\S", re.MULTILINE)
-STEERING = re.compile(r"([a-z_.]+\.[a-z_.]+):\s+((?:[A-Z_0-9]+[,;.]\s*)+)")
-
-
-def rows() -> dict[str, str]:
-    return dict(ROW.findall(thresholds.__doc__))
-
-
-def steering() -> set[str]:
-    rest = thresholds.__doc__.split("Other values of these")[1]
-    return {
-        f"{module}.{name}"
-        for module, names in STEERING.findall(rest)
-        for name in re.findall(r"[A-Z_0-9]+", names)
-    }
 
 
 def files() -> list[Path]:
     return [path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py"))]
 
 
-def named_floats() -> set[str]:
-    found = set()
-    for path in files():
-        module = ".".join(path.relative_to(ROOT).with_suffix("").parts)
-        for node in ast.parse(path.read_text()).body:
-            if not isinstance(node, ast.Assign | ast.AnnAssign):
+def floats_without_a_reason(file: Path) -> set[str]:
+    """Constants of a module that are floats, above which no comment stands.
+
+    A comment holds for what follows it without an empty line.
+    """
+    module, source = ".".join(file.relative_to(ROOT).with_suffix("").parts), file.read_text()
+    lines, found = source.splitlines(), set()
+    for node in ast.parse(source).body:
+        if not isinstance(node, ast.Assign | ast.AnnAssign):
+            continue
+        block = node.lineno - 2
+        while block >= 0 and lines[block].strip() and not lines[block].startswith("#"):
+            block -= 1
+        if lines[block].startswith("#"):
+            continue
+        targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+        for name in [n for target in targets for n in ast.walk(target)]:
+            if not isinstance(name, ast.Name) or not name.id.isupper():
                 continue
-            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-            for name in [n for target in targets for n in ast.walk(target)]:
-                if not isinstance(name, ast.Name) or not name.id.isupper():
-                    continue
-                value = getattr(import_module(f"nag.{module}"), name.id)
-                several = value if isinstance(value, tuple) else (value,)
-                if any(isinstance(v, float) for v in several):
-                    found.add(f"{module}.{name.id}")
+            value = getattr(import_module(f"nag.{module}"), name.id)
+            several = value if isinstance(value, tuple) else (value,)
+            if any(isinstance(v, float) for v in several):
+                found.add(name.id)
     return found
 
 
@@ -102,17 +95,20 @@ def nameless(source: str) -> set[float]:
     return {v for v in found if v not in GUARDS and (0 < v < SMALL or v > LARGE)}
 
 
-@pytest.mark.parametrize(("name", "value"), rows().items())
-def test_the_table_holds_the_values_of_the_code(name: str, value: str) -> None:
-    module, constant = name.rsplit(".", 1)
-    assert getattr(import_module(f"nag.{module}"), constant) == float(value)
+def test_thresholds_are_listed_as_their_modules_tell_of_them() -> None:
+    known = list(thresholds.read_thresholds())
+    comments = sum(
+        len(re.findall(r"^\s*# Decides\b", f.read_text(), re.MULTILINE)) for f in files()
+    )
+    assert len({threshold.name for threshold in known}) == len(known) == comments
+    assert all(threshold.reason.endswith(".") for threshold in known)
+    lines = "\n".join(thresholds.threshold_lines())
+    assert "tracking.track.PROOF = 100000 (measured)\n    Smallest singular value" in lines
 
 
-def test_every_named_number_is_in_the_table_or_decides_nothing() -> None:
-    decides, steers, named = set(rows()), steering(), named_floats()
-    assert not decides & steers
-    assert named <= decides | steers
-    assert steers <= named
+@pytest.mark.parametrize("file", files(), ids=lambda f: f.relative_to(ROOT).as_posix())
+def test_every_named_number_has_a_reason(file: Path) -> None:
+    assert floats_without_a_reason(file) == set()
 
 
 def test_no_number_that_decides_something_is_without_a_name() -> None:
@@ -155,6 +151,6 @@ def test_the_script_measures_what_is_compared(
     monkeypatch.chdir(ROOT.parent)
     monkeypatch.setattr(sys, "argv", ["measure_thresholds.py", *arguments, "--seeds", "0:1"])
     measure_thresholds.main()
-    marked = re.findall(r"^\S+\.([A-Z_]+) \*", thresholds.__doc__, re.MULTILINE)
+    marked = [t.name.rsplit(".", 1)[1] for t in thresholds.read_thresholds() if t.measured]
     lines = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
     assert set(measured) <= set(lines) & set(marked)

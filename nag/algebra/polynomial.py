@@ -85,8 +85,8 @@ def add_terms(sums: dict[Exponents, int], terms: Mapping[Exponents, int], factor
         sums[e] = sums[e] + factor * c if e in sums else factor * c
 
 
-# Digits of coefficients that nothing follows from; of longer ones, equations may nearly be what
-# they are not, and each digit more is one more to which what they decide must hold.
+# Decides: Digits of coefficients that ask for no more evidence; each further asks for one more:
+# what nearly is something else has long ones.
 ROUND_NUMBERS = 6
 
 

@@ -16,12 +16,13 @@ from nag.witness.points import Points, move_points
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
-# Distance of an end from its point beside that from the next one.
+# Decides, measured: Distance of an end from its point over that from the next: below 1e-14, or
+# above 0.01. What is not nearer says nothing.
 NEARER = 1e-3
 # Of more distances than FEW only those are computed that a projection does not show to be long, at
 # most so many at once.
 FEW, MOST_DISTANCES = 1_000, 100_000
-# Coordinates that are a smaller part of a point are taken for one of this size.
+# Decides: Coordinates of a point, over its largest, that slices of its sizes take for larger ones.
 LEAST_SIZE = 1e-8
 NOTHING: Mapping[int, PointInWords] = MappingProxyType({})
 

@@ -24,9 +24,11 @@ from nag.witness.slices import complex_normal, pad_rows
 
 # Powers of u, and of forms, up to which equations are taken; and equations for each unknown.
 FEWEST_POWERS, MOST_POWERS, MOST_DEGREE, EQUATIONS = 4, 12, 4, 1.5
-# Singular values that are no errors of the equations, in units of these; and how far solutions of
-# equations may be from 0 and 1.
-CERTAIN, UNCLEAR = 100.0, 0.1
+# Decides: Singular values of equations that are no errors, in units of these: 1e6 to 1e13 in
+# systems measured, 800 far from the origin; errors themselves gave 0.01 to 13.
+CERTAIN = 100.0
+# Decides: How far from 0 and 1 indicators may be.
+UNCLEAR = 0.1
 # Least error of a column over that of the worst one, as indicators are read in units of errors.
 EVEN = 1e-4
 # Points that are looked at together.

@@ -45,7 +45,7 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # More pairs of components are not intersected.
 MOST_PAIRS = 150
-# What is further from a linear space than a point's error by this factor is not on it.
+# Decides: Errors of a point that it may be off a linear equation, and be a point of the component.
 SURELY = 10.0
 
 

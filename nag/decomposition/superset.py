@@ -28,7 +28,8 @@ from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
 REGULAR = 1e-13
-# Part of the usual work after which a multiple zero beside a set passes for a point of it.
+# Decides: Part of the usual work after which a multiple zero that lies on a larger set as far as
+# doubles can tell passes for a point of it; simple ones are told in any case.
 IN_PASSING = 0.02
 
 

@@ -26,8 +26,8 @@ from nag.witness.points import Points
 from nag.witness.slices import pad_rows, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
-# Digits to which a trace must be linear, beside the points' motion: so many, and one more for each
-# digit of the system's coefficients beyond `ROUND_NUMBERS`.
+# Decides, measured: Digits to which a trace must be linear beside the points' motion: such as were
+# had 9 more, others 15 less.
 EVIDENCE = 18
 # Digits more than those in which points are seen to bend, to see whether others do.
 BEYOND = 4

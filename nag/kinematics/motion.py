@@ -28,13 +28,13 @@ from nag.witness.witness import Decomposition, WitnessSet
 # Samples of each circuit; an even number of steps, so that halves of coverings are whole ones.
 SAMPLES = 360
 LEAST_SAMPLES, MOST_SAMPLES = 12, 100_000
-# Distances of configurations, in radians and sizes, at which two are one: vertices are known to
-# half of the digits at least.
+# Decides: Distance in radians and sizes at which two configurations are one: vertices are known to
+# half the digits, others that are special lay beyond 1e-3.
 SAME = 1e-6
-# Of the distance of two samples: how far another circuit's samples may be from the line between
-# two neighbouring ones, if both are the same motion.
+# Decides: Steps of samples by which two circuits, or the halves of one in Euler parameters, may be
+# apart and be one motion.
 BESIDE = 0.1
-# Coordinates of vertices that are so near infinity that nothing is asked of them.
+# Decides: Coordinates of vertices near infinity: what else passes through them is not said.
 FAR = 1e6
 # Steps along a curve to a point that may be on it.
 APPROACHES = 6

@@ -18,17 +18,21 @@ from nag.kinematics.scene import Scene
 from nag.kinematics.walks import CurveWalk, points_of
 from nag.real.curve import RealCurve
 
-# Singular values of the equations on a curve, beside the largest, that are zero.
+# Decides: Singular values of equations along a curve, over the largest, that are zero: Newton's
+# steps that bring samples onto it leave them out.
 KERNEL = 1e-8
 # Newton's steps, and the last one's size from which on a point is on the curve.
 STEPS, ARRIVED = 12, 1e-14
 # Steps of samples are so many of the points that they are taken between; how often these are
 # halved for it at most.
 FINER, HALVINGS = 4, 12
-# Second least singular values of the equations, beside their median along a circuit, at which other
-# motions meet it; those that may become as small between samples; and how the way between samples
-# is searched for it: places at a time, and how often that is narrowed.
-SINGULAR, PROMISING = 1e-5, 0.3
+# Second least singular values of the equations, beside their median along a circuit, that may
+# become as small between samples as where other motions meet it.
+PROMISING = 0.3
+# Decides: Second least singular value of the equations, over its median along a circuit, at which
+# other motions meet it: it is brought to 1e-8 there.
+SINGULAR = 1e-5
+# How the way between samples is searched for it: places at a time, and how often that is narrowed.
 PLACES, NARROWINGS = 21, 9
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values, unwrap_angles
 from nag.kinematics.path import Path, along_three
 
-# Values that never move by more stand still all along; those that moved moved by 1e-3 and more.
+# Decides: By how much a joint moves that never does: 1e-14 was seen; others moved by 1e-3 and more.
 STILL = 1e-9
 # Shares of the way between samples by which the parabolas through three points narrow.
 NARROWER = (1.0, 0.05, 0.05)

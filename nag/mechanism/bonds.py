@@ -46,7 +46,9 @@ NEAR, NEARER = 1e-3, 1e-5
 # What is added to that size, which may be zero.
 LEAST_SIZE = 1e-3
 # Norms fall with a power of the distance that is a ratio of orders.
-LARGEST_ORDER, UNCLEAR = 6, 0.03
+LARGEST_ORDER = 6
+# Decides: How far orders of bonds may be from fractions.
+UNCLEAR = 0.03
 
 
 _Kind = tuple[tuple[str, int], ...]

@@ -20,7 +20,8 @@ STARTS, STEPS, ROUNDS = 24, 60, 12
 LAST_STEPS = 4
 # What stands along a pose is taken for no less.
 TINY = 1e-12
-# Relative residual of a pose that is reached.
+# Decides: Relative residual of a pose that a leg reaches; what it does not reach is said, not
+# dismissed.
 REACHED = 1e-10
 # Least damping of a step; share of a factor's size in the squares that its norm is compared with.
 LEAST_DAMPING, LEAST_SHARE = 1e-14, 1e-3

@@ -16,8 +16,8 @@ from nag.mechanism.inverse_kinematics import conjugate_pose, multiply_poses
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.text.table import count_text, join_words
 
-# Pitches, moments and entries of unit axes, beside the length that lengths are measured by, that
-# are zero.
+# Decides: Pitches, moments and entries of unit axes that are zero in what is said of a motion in
+# words.
 NO_PITCH = 1e-7
 
 

@@ -44,10 +44,12 @@ STRAIGHT = 0.998
 BEND = STEP / 4
 # Positions after which a motion is not followed further.
 MOST_POSITIONS = 1000
-# Gaps beyond which a motion is not followed further, and slides.
+# Decides: Gaps beyond which a motion is not followed, and the largest tolerance.
 WIDEST_GAP = 0.03
+# Slides beyond which it is not followed either.
 LONGEST_SLIDE = 10.0
-# Lines are all but parallel, if squared sines of their angles are no more than this.
+# Decides: Squared sines of angles between lines that count as parallel, where a centre is looked
+# for.
 PARALLEL = WIDEST_GAP**2
 # Positions at which the axes are fitted: more than the equations that any of their linkages has.
 FITTED = 12
@@ -58,8 +60,9 @@ FITS = 2
 # What closing weighs against changing the axes, when both are least squares: little at first, as a
 # fit that must close from the outset stays at the next best linkage.
 WEIGHTS = (1e1, 1e3, 1e5)
-# What is left of a gap by rounding.
+# Decides: Gaps of a loop, over its size, that rounding leaves.
 ROUNDING = 1e-11
+# Step of derivatives by complex numbers.
 COMPLEX_STEP = 1e-40
 # Steps to a position, which end with one that is too short to matter.
 MOST_STEPS = 8
@@ -68,7 +71,8 @@ MOST_EVALUATIONS = 200
 # Steps that close what is left; directions that change a gap by less than a small part are none.
 SHORTEST_STEPS = 3
 SMALL = 1e-8
-# A singular value that is so small beside the next one is that of a motion which rounding spoiled.
+# Decides: Smallest singular value, beside the next, at which a rigid mechanism may be meant to
+# move.
 HINT = 1e-6
 
 Array = np.ndarray

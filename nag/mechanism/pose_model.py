@@ -40,7 +40,7 @@ from nag.text.table import join_words
 
 # The same model each time: random numbers are those of this seed.
 SEED = 40
-# Imaginary parts of Study coordinates, beside their size, of a pose that is taken as a real one.
+# Decides: Imaginary parts of Study coordinates of a pose, relative, that is lifted to real joints.
 REAL = 1e-12
 
 

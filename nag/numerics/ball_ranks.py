@@ -30,10 +30,9 @@ Matrix = Sequence[Sequence[Any]]
 # Indices of rows and of columns.
 Places = tuple[list[int], list[int]]
 
-# An entry is no zero if it exceeds what the error may change by this factor (decimal logarithm).
+# Decides: Decimal logarithm of a pivot over its error that makes it no zero.
 CLEAR = 0.5
-# Pivots in doubles, over the largest, of a block that is solved for at once; what is left of the
-# matrix is looked at in all digits.
+# Decides: Pivots, over the largest, of a block that doubles solve for; the rest is for all digits.
 WELL = 1e-8
 
 

@@ -11,15 +11,22 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-# Estimated errors of points may be too small by this factor, and errors in doubles that are
-# smaller than LEAST, relative to the point, are not believed.
-SAFETY, LEAST = 1e2, 1e-11
-# Ends of paths that may have led to a known point: nearer than HIT they have, or than errors
-# explain; beyond MISS, and beyond so many times the errors, they have not.
-HIT, MISS, BEYOND = 1e-8, 1e-5, 1e4
+# Decides: Estimated errors that two points may be apart and be one: what the balls are wider by.
+SAFETY = 1e2
+# Decides, measured: Least relative error of a point in doubles. The same ones lay within 1e-15,
+# others beyond 0.05, where systems are not made to have close ones; isolated zeros that it makes
+# meet are told apart in 150 digits.
+LEAST = 1e-11
+# Decides, measured: Ends of paths that may have led to a known point and did: such as had lay
+# within 5e-11.
+HIT = 1e-8
+# Decides, measured: Such as had not: all lay beyond 7e-4. What falls between is undecided.
+MISS = 1e-5
+# Decides: The same in errors of the end.
+BEYOND = 1e4
 
-# Zeros as near as this to a point, beside its size, may be those that it stands for, where doubles
-# do not say how well it is known: they are compared with it in more digits.
+# Decides: Distance of zeros that a point may stand for whose error is not known, of ends of lost
+# paths from what they may lead to, of solutions in two branches that are compared in more digits.
 NEAR = 1e-6
 
 

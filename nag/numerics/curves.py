@@ -37,7 +37,7 @@ STEP = 3
 # How many digits smaller than their distance the errors of points there may be, in this order:
 # rounding alone; what the ends of series leave; what is left of multiple zeros.
 CLOSER = (12.5, 8.0, 5.0, 2.0)
-# Values below this share of the digits are zero.
+# Decides: Share of the digits that make a value zero.
 VANISHING = 0.75
 # Digits in which a zero on a hyperplane is looked at before the set that it may lie on is.
 MORE_DIGITS = 600
@@ -45,7 +45,7 @@ MORE_DIGITS = 600
 ROUND_NUMBERS = 20
 # Part of the usual work for a zero on a hyperplane: there are others.
 PATIENCE = 0.05
-# Zeros of truncated series so many times as far as the hyperplane are none of the system's.
+# Decides: Zeros of truncated series over their scale, beyond which they are none of the system's.
 OFF = 1e3
 # Binary logarithms of distances at which hyperplanes pass a singular point.
 DISTANCES = (5, 9, 13, 17, 21)

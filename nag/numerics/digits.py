@@ -14,6 +14,7 @@ from nag.algebra.flint_numbers import to_rational
 from nag.algebra.number import Number, Surd, binary
 from nag.numerics.doubles import LARGEST, SMALLEST
 
+# Decimal logarithm of 2.
 LOG10_2 = 0.30102999566398120
 
 
@@ -29,9 +30,11 @@ def bits_of(digits: float) -> int:
 # Digits in which singular points are judged, and what vanishes at zeros of a hundred digits.
 DIGITS = 150
 BITS = bits_of(DIGITS)
-# Digits beyond those that something is known to, and that it is computed with; and such as
-# rounding may have taken of a number that little was done with.
-SPARE, ROUNDING = 20, 5.0
+# Digits that rounding may have taken of a number that little was done with.
+ROUNDING = 5.0
+# Decides: Digits that computing may take: in so many of a hundred two points may differ that are
+# one, and coefficients as small are zero.
+SPARE = 20
 
 
 def in_bits(bits: int) -> AbstractContextManager[object]:

@@ -17,17 +17,25 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 
-# A rank is read where neighbouring singular values differ by this factor, below one of the next.
-# The first are those of singular matrices at points that are known to rounding, the second at those
-# that are known roughly; what is larger is not singular.
-GAP, SINGULAR, NEARLY_SINGULAR = 1e3, 1e-9, 1e-5
+# Decides, measured: Quotient of neighbouring singular values at which a rank is read: others lay
+# below 130, ranks above 1e13.
+GAP = 1e3
+# Decides: Singular values of a balanced Jacobian at a point of a component below which the gap is
+# looked for where a rank is read (`GAP`).
+SINGULAR = 1e-9
+# Decides: The same at a point that is known roughly. Above it a zero of as many equations as
+# unknowns needs no confirmation, a joint moves, and a projection keeps a direction; between the
+# two, what a joint does is not said.
+NEARLY_SINGULAR = 1e-5
 # A singular value, beside the largest, of zero.
 NOTHING = 1e-17
-# Least singular value of gradients of length one that are certainly independent.
+# Decides: Singular value of gradients of length one that surely are independent; else no bound is
+# given. Those of forms at a limit at infinity as well.
 INDEPENDENT = 1e-6
-# Least over largest singular value, or pivot, of rows that are not solved for.
+# Decides: Least singular value, over the largest, or pivot of rows that are not solved for: of a
+# slice, of linear equations, of rows that are to be made orthogonal.
 DEPENDENT = 1e-10
-# Errors of derivatives beside the sizes of their terms.
+# Decides: Errors of derivatives beside their terms.
 NOT_ZERO = 1e-7
 # Larger matrices are left to LAPACK, which takes longer to load than smaller ones take.
 MOST_ENTRIES = 10_000

@@ -181,9 +181,12 @@ def _evaluator(rows: Sequence[Terms], n: int) -> Evaluator:
     return Evaluator(n, np.array(exponents, dtype=np.int64), coefficients)
 
 
-# How far a set is followed in the variables that are free, or in any, all of them scaled to a size
-# of one (much further out many sets are nearly singular); and in how many steps at most.
-FAR, AT_MOST = 5.0, 100.0
+# Decides: Scaled distance from a singular point at which it is seen whether equations vanish along
+# a set: no power of it is small.
+FAR = 5.0
+# Decides: The same in variables that the set determines.
+AT_MOST = 100.0
+# Steps to there, at most.
 STEPS, STEPS_IN_DIGITS = 600, 200
 # Directions that are tried: some lead into a branch point.
 DIRECTIONS = 3

@@ -38,10 +38,10 @@ from nag.numerics.singular_point import Place, SingularEnd
 
 # Decimal logarithms of the factors by which the error may exceed what is claimed, in this order.
 REACHES = (1.0, 0.0, 2.0, 3.5)
-# Nothing is looked for further away than this.
+# Decides: Decimal logarithm of the largest distance in which a zero is looked for.
 FURTHEST = -1.3
-# Decimal logarithm of what is not zero, in 150 digits, where errors have grown through some
-# eliminations.
+# Decides, measured: Decimal logarithm of such entries that are not zero: above -1. What falls
+# between is undecided.
 SOMETHING = -45.0
 NUMBERS = Digits(DIGITS, ZERO, SOMETHING)
 # Degrees of the dual space from which on curves through the point are looked for, if it has not

@@ -26,8 +26,7 @@ from nag.numerics.digits import in_bits
 from nag.numerics.discs import DiscPolynomials, Discs, magnitude
 from nag.numerics.krawczyk import fine_box
 
-# Part of its size by which a coordinate may be further off than is said, in boxes of 150 digits, as
-# one is that is said to be exact: evidence that it is not.
+# Decides: Distance in 150 digits from zeros of coordinates that are said to be exact: evidence.
 SAME = 1e-140
 
 

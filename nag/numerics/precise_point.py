@@ -18,7 +18,7 @@ POINT_DIGITS = 100
 WORKING_DIGITS = 120
 # Exponents beyond which an error is none, or is unknown.
 LEAST_ERROR, LARGEST_ERROR = -300.0, 300.0
-# What Newton's method may move a zero in doubles by, relative: decimal logarithm.
+# Decides: Decimal logarithm of what Newton's method may move a zero in doubles by, relative.
 NEAR = -9.0
 
 

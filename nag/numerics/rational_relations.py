@@ -18,7 +18,7 @@ from nag.numerics.digits import LOG10_2, SPARE, bits_of, in_bits
 
 # Digits by which an approximation must be better than its size explains.
 EVIDENCE = 20
-# A rest counts as zero if its balls are smaller than this power of the working precision.
+# Decides: Share of the digits to which a relation must hold to be one; others show in more points.
 SHARP = 0.4
 
 

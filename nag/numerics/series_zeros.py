@@ -23,9 +23,11 @@ from nag.numerics.sharpening import ZERO
 RANK = 1e-12
 # Steps beside the point that lead nowhere.
 ASTRAY = 1e3
-# Last step, and values beside the point's square, where Newton's method has come near to a zero,
-# perhaps a multiple one: more than that is seen in all digits.
-SLOW, VANISHING = 1e-2, 1e-6
+# Decides: Newton's last step that has come near to a zero, perhaps a multiple one, of truncated
+# series; what there is shows in all digits.
+SLOW = 1e-2
+# Decides: Values there, beside the point's square.
+VANISHING = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,8 +124,8 @@ class ScaledSeries:
 
 # Random starts for each zero that a cluster in several variables may have.
 STARTS, MOST_STARTS = 12, 400
-# Starts that lead to points nearer to each other than this, beside the cluster's size, are not
-# followed twice; points are compared again when they are known to all digits.
+# Decides: Starts nearer to each other, beside the cluster's size, are followed once; their ends are
+# compared in all digits.
 ALIKE = 1e-5
 
 

@@ -13,15 +13,19 @@ from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import find_zero, move_point
 from nag.numerics.power_series import SeriesRing
 
-# What vanishes at a singular point, of `DIGITS` digits, stays below 10^ZERO, relative to
-# coefficients of one; Newton's method has arrived when its step is below 10^ARRIVED.
-ZERO, ARRIVED = -100.0, -125.0
+# Decides, measured: Decimal logarithm of what vanishes at a singular point, of 150 digits, and of
+# entries of the dual space's matrices there: all below -149; of a pivot of the Loewner matrix, of
+# 200 digits.
+ZERO = -100.0
+# Decides: The same of Newton's last step.
+ARRIVED = -125.0
+# Newton's steps, at most.
 NEWTON_STEPS = 24
 # A longer step (decimal logarithm) leads elsewhere.
 FURTHEST_STEP = -0.3
 # What a step must be shorter than the one before, after the first ones (decimal logarithm).
 GAIN = 1.0
-# Inverse blocks with larger entries (decimal logarithm) are rounding, or the zero is not regular.
+# Decides: The same of an inverse that says that a zero is not regular after all.
 LARGEST_INVERSE = 70.0
 # What rounding adds to a value (decimal logarithm): Newton's step cannot become smaller than this
 # times the inverse.

@@ -21,9 +21,12 @@ from nag.numerics.doubles import SLACK
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 
-# Zeros lie below 2.5e-13 at sharpened points, others above 2e-6 in all systems measured.
+# Decides, measured: Values in doubles, beside their terms, at sharpened points that may be zero:
+# zeros lie below 2.5e-13, others above 2e-6 in all systems measured. What depends on it is
+# confirmed.
 ON = 1e-9
-# Values at points that are not sharpened that are certainly not zero.
+# Decides: The same at other points that are certainly not zero; smaller ones are computed to 100
+# digits, or leave the answer to another way: so are those of polynomials that must not vanish.
 NONZERO = 1e-6
 # The least error of a point that is believed.
 LEAST = 1e-12
@@ -34,13 +37,17 @@ def widen_error(x: np.ndarray, accuracy: float) -> float:
     return max(SLACK * accuracy, LEAST) * (1 + float(np.abs(x).max(initial=0.0)))
 
 
-# Relative difference of coordinates that agree, and coordinates beside the largest that are zero.
-ALIKE, NOTHING = 1e-6, 1e-60
-# Relative error of a zero that is known by its written digits.
+# Decides: Relative difference of the coordinates of zeros that a point of doubles may stand for,
+# where it is near several.
+ALIKE = 1e-6
+# Decides: Coordinates beside the largest that are none.
+NOTHING = 1e-60
+# Decides: Relative error of a zero that is known by its written digits, of a hundred.
 WRITTEN = 1e-90
-# Values beside their terms, distances and pivots that are zero at zeros of a hundred digits, and
-# their decimal logarithm.
+# Decides: Decimal logarithm of values beside their terms, of distances and of pivots that are zero
+# at zeros of 100 digits.
 ZERO = -80.0
+# Decides, measured: The same as a number: all values of zeros lay below 5e-87.
 VANISHES = 10.0**ZERO
 # Bits in which the sizes of terms are added up.
 LEAST_BITS = 128

@@ -21,9 +21,11 @@ from nag.real.closure import ProjectiveClosure
 FIRST, LARGEST, LEAST = 0.02, 0.2, 1e-8
 # Cosine of the largest turn of the tangent in a step, and longest chord of normalised points.
 TURN, CHORD = 0.98, 0.15
-# First corrections beside the step, and later ones beside those before.
-# The latter tell how near another branch is, in steps.
-CORRECTION, SHRINK = 0.1, 0.05
+# First corrections beside the step.
+CORRECTION = 0.1
+# Decides: Newton's second correction beside the first, where another branch is as many times as far
+# as the point is off.
+SHRINK = 0.05
 # Part of what a step may be off and turn that makes the next one longer.
 EASY = 0.25
 # Newton's corrections that are rounding: certainly, and where they do not shrink any more.

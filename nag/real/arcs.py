@@ -26,12 +26,15 @@ from nag.real.real_fibres import SpecialFibre, real_fibre
 # Angles from the ends of an interval at which arcs are told to which vertices they go, tried in
 # turn; and how much nearer the vertex must be than all others.
 NEAR_END = (0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4)
+# Decides: Distance from the vertex that an arc goes to, beside that from the next one; else it is
+# looked nearer to the end.
 NEARER = 0.3
-# Distance of a traced point from the one in many digits that it must be, beside that of the next.
+# Decides: The same of an arc's end from a point that is known in digits; else arcs were mixed up.
 SAME = 1e-2
-# Least singular values beside the largest at vertices where the equations are singular, and where
-# they are regular.
-SINGULAR, REGULAR = 1e-11, 1e-9
+# Decides: Least singular value at a vertex that is singular: these are known to rounding.
+SINGULAR = 1e-11
+# Decides: And at one that is regular; what falls between is undecided.
+REGULAR = 1e-9
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,8 +22,10 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.real.curve import Turn
 
-# Homogeneous coordinates of length one that are zero, and norms of displacements that are not.
-AT_INFINITY, NO_NORM = 1e-9, 1e-7
+# Decides: Homogeneous coordinates of length one that are zero at vertices known to more digits.
+AT_INFINITY = 1e-9
+# Decides: The same of norms of displacements.
+NO_NORM = 1e-7
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,18 +21,21 @@ from nag.numerics.digits import bits_of, in_bits, middle
 from nag.real.fibre_table import SPARE, CircleOfFibres, roots_of
 from nag.witness.cutting import Cut
 
-# Part of the digits: coefficients smaller by so many are none, and such as are larger by the other
-# are some; between them it is not known.
-NOTHING, SOMETHING = 0.6, 0.4
-# Size of a cluster of zeros beside the distance of the next one that makes it one; and imaginary
-# parts, beside one and the zero's size, of such as are not real.
-ALONE, ASIDE = 1e-2, 1e-2
-# What values round a zero exceed rounding errors by.
+# Decides: The same of coefficients of products over fibres that are zero.
+NOTHING = 0.6
+# Decides: The same of leading ones that are not; between them more digits are taken.
+SOMETHING = 0.4
+# Imaginary parts, beside one and the zero's size, of zeros that are not real.
+ASIDE = 1e-2
+# Decides: Size of a cluster of zeros beside the distance of the next.
+ALONE = 1e-2
+# Decides: Values round a cluster of zeros, over rounding errors and what parts multiple zeros, from
+# which on these stay inside.
 CERTAIN = 1e3
 # Part of the digits beyond which coefficients are changed.
 PARTED = 0.75
-# Imaginary parts of zeros of real polynomials in the middle of a cluster that are rounding, in
-# radii: part of the digits.
+# Decides: Share of the digits to which imaginary parts of middles of clusters vanish that are real;
+# others need more digits.
 REAL = 0.15
 
 

@@ -57,7 +57,7 @@ DIGITS, ATTEMPTS = (120, 250, 500), 4
 MOST_CHECKED = 600
 # Points of fibres in all at most.
 MOST_POINTS = 40_000
-# Critical values that both methods find are the same to so many digits.
+# Decides: Difference of critical values of two methods.
 SAME = 1e-12
 # The circle's radius, at least.
 LEAST_RADIUS = 1e-3

@@ -17,18 +17,34 @@ from nag.real.closure import ProjectiveClosure
 from nag.real.critical_values import UnclearDigitsError
 from nag.real.fibre_table import SPARE, FibreTable, Point
 
-# Parts of the digits: how far beside a special value its fibre is looked at, in radii; up to which
-# distance of normalised points there they have come together; and how many times that is between.
-BESIDE, TOGETHER, BETWEEN = 0.25, 0.05, 1e2
-# Imaginary parts of real points over real values: part of the digits; and of others.
-REAL, COMPLEX = 0.5, 0.35
-# Imaginary parts of vertices that are real: rounding in doubles, and what is beyond it.
-ROUNDING, NOT_REAL = 1e-12, 1e-6
+# Decides: Share of the digits beside a critical value at which its fibre is looked at.
+BESIDE = 0.25
+# Decides: The same of distances there of points that come together, up to five of them; what is a
+# hundred times as far does not, and between them more digits are taken.
+TOGETHER = 0.05
+# Decides: The hundred times.
+BETWEEN = 1e2
+# Decides: Share of the digits to which imaginary parts vanish of points over real values that are
+# real.
+REAL = 0.5
+# Decides: The same of those that are not; between them more digits are taken.
+COMPLEX = 0.35
+# Decides: Imaginary parts of vertices, in doubles, that are real.
+ROUNDING = 1e-12
+# Decides: And of those that are not; between them more digits are taken.
+NOT_REAL = 1e-6
 # Decimal order of values at which infinity is looked at, at least; and parts of it: distances there
 # of points that come together, and how many times that is between; imaginary parts of real ones,
 # and of others.
 LEAST_ORDER = 10
-FAR_TOGETHER, FAR_BETWEEN, FAR_REAL, FAR_COMPLEX = 0.24, 10.0, 0.75, 0.35
+# Decides: Share of the order of a large value to which points there come together at infinity.
+FAR_TOGETHER = 0.24
+# Decides: Times that distance from which on they do not; between them more digits are taken.
+FAR_BETWEEN = 10.0
+# Decides: The same share of imaginary parts of real ones.
+FAR_REAL = 0.75
+# Decides: And of others; between them likewise.
+FAR_COMPLEX = 0.35
 
 
 @dataclass(frozen=True, eq=False)

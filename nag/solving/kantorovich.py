@@ -33,12 +33,13 @@ STEPS, FINE_STEPS, DIGITS = 8, 4, 50
 BLOCK, MOST_FINE = 256, 200
 # Steps that promise convergence.
 PROMISING = 1e-3
-# Second derivatives in the ball are at most so many times those at its centre, if its radius is
-# below a percent and degrees below 30.
+# Decides: Second derivatives in a ball over those at its centre: a bound that holds for radii below
+# a percent and degrees below 30.
 NEARBY = 1.5
-# Largest step, relative to the coordinates, for which that ball is small enough with room to spare;
-# and the inverse of the largest radius in which a zero is said to be the only one.
-SHORT, WIDEST = 1e-3, 1e2
+# Inverse of the largest radius in which a zero is said to be the only one.
+WIDEST = 1e2
+# Decides: Newton's step, beside the coordinates, at a proved zero: its ball is within that percent.
+SHORT = 1e-3
 # Size of a coordinate that is zero.
 TINY = 1e-30
 

@@ -23,7 +23,8 @@ from nag.tracking.paths import PathStatus
 MOST_PATHS = 2000
 # Lost paths at whose last points zeros are looked for.
 MOST_LOST = 16
-# Binary logarithm of a size at which a zero may look infinite to the least evidence: some 1e8.
+# Decides: Binary logarithm of sizes from which zeros are looked for where they cannot be counted;
+# ends so far out may satisfy the least evidence of infinity.
 EXTREME = 26.0
 
 

@@ -30,10 +30,9 @@ from nag.tracking.ends.terms import Terms
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.projective import coinciding_pairs
 
-# End points with larger values than this are no zeros, however badly they are known.
+# Decides: Values, beside their terms, of ends that are no zeros, however badly they are known.
 NEARLY = 1e-5
-# Homogenising coordinates of ends at infinity are less than this, or than their errors, which are
-# less than `MULTIPLE`.
+# Decides: Homogenising coordinates of ends at infinity, beside what is proved of them.
 INFINITE = 2e-12
 # Points evaluated at once.
 BLOCK = 2048

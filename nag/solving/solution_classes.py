@@ -12,7 +12,8 @@ from nag.tracking.projective import ROUNDING
 INVARIANTS = 3
 # Relative step of the difference quotients that say how errors of points show in the invariants.
 STEP = 1e-7
-# A class whose invariants have errors beyond this cannot be told: its path counts as lost.
+# Decides: Errors of a class's invariants from which on it is not told from others: its path is
+# lost.
 CLEAR = 1e-3
 
 

@@ -29,8 +29,7 @@ from nag.tracking.run import Run
 from nag.tracking.settings import Settings, find_settings
 from nag.tracking.track import track
 
-# The part of the classes that may be lost by chance; if more are, the parameters are special, and
-# their ends need an endgame.
+# Decides: Part of the classes that chance may lose; more, and the parameters are special.
 FEW = 0.1
 # Steps of a path from a member of a class other than the last that is tried.
 MOST_STEPS = 1500

@@ -34,7 +34,8 @@ UNITS, RANDOM = 4096, 32
 LARGEST = 900
 # Newton's method may lead so far from the binomials' zero, in each coordinate's size.
 NEAR = 0.5
-# Distance, relative to the largest coordinate, at which a zero is none of the known ones.
+# Decides: Relative distance, beyond those errors, of a zero of extreme size from all that were
+# found: nearer ones are for paths to find.
 APART = 1e-3
 
 

@@ -32,9 +32,11 @@ ERROR, ALONG, ACROSS = 0.2, 0.3, 0.3
 LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE = 0.2, 2.0, 0.02, 1e-2
 # Least side of a tube beside its largest.
 FLATTEST = 1e-3
-# A path with shorter steps, relative to t, is given up; one that gets so near to t = 0 without
-# arriving there has ended.
-SHORTEST, ENDGAME = 1e-9, 1e-6
+# A path that gets so near to t = 0 without arriving there has ended.
+ENDGAME = 1e-6
+# Decides: Steps, relative to t, at which a path is left without a proof.
+SHORTEST = 1e-9
+# Trials of a path, and corrections of a point.
 MOST_TRIALS, CORRECTIONS = 2000, 3
 # Sides of boxes that are tried about a point, and paths that are enclosed at a time.
 SIDES, BLOCK = 10, 256

@@ -14,9 +14,10 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths
 from nag.tracking.projective import coinciding_pairs
 
-# Leading coefficients of branches that differ by less are the same.
+# Decides: Leading coefficients of branches that are compared once more, with shorter steps: a jump
+# does not survive those, two branches do.
 ALIKE = 1e-9
-# Their next coefficients, over the sum of their sizes.
+# Decides: The same of the coefficients that follow, over their sizes together.
 BENT = 1e-4
 # Combinations of leading coefficients of branches that are compared at all.
 NEIGHBOURS = 1e-6

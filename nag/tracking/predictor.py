@@ -8,7 +8,8 @@ from nag.machine_code.lanes import fma, fnma, load, select_less, splat, square_r
 
 # What a lane does: predict from its base point, correct there, or correct once more.
 PREDICT, CORRECT = 0.0, 1.0
-# A step is rejected that is so many times as long as the radius of convergence at its end allows.
+# Decides: Steps over what the radius of convergence at their ends allows, which is estimated: of
+# 182 steps to another path 166 lay above 4/3 and 177 above 1.11; of others 0.3 and 4 in 100.
 OVERLONG = 1.25
 # Squares of coefficients that may have lost digits to the range of doubles.
 TINY = 1e-200

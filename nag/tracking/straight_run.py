@@ -46,14 +46,16 @@ EMPTY, STEPPING, STARTING, CORRECTING = -1, 0, 1, 2
 OVERSTEPPED, REJECTED, UNFINISHED, ACCEPTED = range(4)
 # Why a path ended before t = 0, see `nag.tracking.paths.Reason`.
 ARRIVED, STEP_SIZE, STEPS, START, NOT_FINITE = 0, 1, 2, 3, 5
-# A path of which a step is rejected after so many tries behind the radius is left to others: they
-# take a tenth of the time that its end then takes.
+# Decides: Steps tried behind the safe point before a path that does not get on goes to more digits,
+# where its end takes ten times as long. Of chemequ's 16 zeros 15 or 16 are reached within these, 2
+# to 12 within 24.
 PATIENCE = 48
 # Second corrections as small as this do not say how much longer a step may be.
 ROUNDING = 1e-9
 # Steps, relative to t, at which a path is left to others.
 SHORTEST = 1e-10
-# Corrections are rounding errors if they are at most so many times what these are estimated to be.
+# Decides: Rounding errors of a correction, as estimated, that it may be and need not contract any
+# more: such lay below 3.3, others above 30 but for 1 in 100, and a few between.
 NOISY = 10.0
 # What stands for the last correction of a point where there is none.
 FARTHEST = 1.0

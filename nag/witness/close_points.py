@@ -27,15 +27,15 @@ from nag.witness.slices import pad_rows
 if TYPE_CHECKING:
     from nag.algebra.polynomial import Polynomial
 
-# Points are close whose distance, relative to their size, is less than this: corrections that need
-# not contract any more may be as large as a hundredth of it.
+# Decides: Relative distance of points that are tracked in more digits: corrections that need not
+# contract any more may be as large as a hundredth of it.
 CLOSE = 1e-4
-# Far from the origin that suits the equations nothing is tracked, and points are close only where
-# Newton's method about that origin might be led to another one by what doubles round there.
+# Decides: The same far from the origin that suits the equations, where nothing is tracked: of
+# doubles about that one so many digits are left.
 CLOSE_AFAR = 1e-9
 # Digits that sums of `WORDS` doubles hold.
 DIGITS = 62
-# The part of the distance to the next point that Newton's method may move a close point by.
+# Decides: Part of the distance to the next point that Newton's method may move one by.
 BASIN = 0.1
 # Digits behind the point to which Newton's constant is probed: beyond all distances of points that
 # can be tracked, before what is left of their digits. And digits that are computed with: twice as

@@ -23,7 +23,8 @@ from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre
 from nag.witness.slices import pad_rows
 
-# An end is looked at as far about it as so many times its error.
+# Decides: Errors of an end within which others are taken to stand for the same zeros, which are
+# looked at once.
 REACH = 10.0
 
 

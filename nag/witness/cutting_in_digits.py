@@ -26,13 +26,12 @@ from nag.witness.fibres import Fibre, admit_end
 from nag.witness.isosingular import DeflatedEquations
 from nag.witness.slices import pad_rows
 
-# Part of its size that a point is off where doubles tell Newton's constant there: where other zeros
-# are close, second corrections are 1e-8 then, which at conditions up to 1e8 no rounding error is.
+# Decides: Part of its size that a point is off where doubles tell Newton's constant there: other
+# zeros are not close where it is below 1e4, which at conditions up to 1e8 rounding is.
 PROBED = 1e-6
 # How many digits larger slices are made than equations.
 FIRST = 40
-# Equations whose coefficients have more digits may be as good as zero, in a hundred digits, between
-# zeros that are close to each other: of z^3 (z - e) at the scale of e, e^4 is left.
+# Decides: Digits of coefficients from which on multiple zeros are told in digits from the first.
 LONG = 12
 
 

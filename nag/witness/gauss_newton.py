@@ -18,7 +18,7 @@ from nag.numerics.doubles import ARRIVED, SHARP, VANISHING
 MOST_STEPS = 200
 # Residuals from which the undamped steps take over, and that a zero must reach.
 CLOSE = 1e-6
-# Singular values below this, relative to the largest, may belong to the kernel on the zero set.
+# Decides: Singular values, over the largest, that may belong to the kernel; the gap decides.
 SMALL = 1e-3
 # Damping, beside the squared residual: where it begins, the least, and that from which on steps are
 # too short to lead anywhere.

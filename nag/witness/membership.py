@@ -37,7 +37,8 @@ from nag.witness.given_component import check_decomposition, in_doubles, round_p
 from nag.witness.slices import pad_rows
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
-# What rounding may do to a point that is close to others, and how much further the next one is.
+# Decides: Distances, in what rounding may do to a point, within which the next zero makes it
+# undecided.
 SPREAD = 10.0
 
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from nag.witness.witness import Slice
 
-# What a slice's terms at points may be beside those of one that the points move to: a third of the
-# digits that a path's parameter has near to 1.
+# Decides: Terms of a slice at points, over those of one that these move to, below which the latter
+# is scaled: else paths begin nearer to 1 than their parameter is told from it.
 UNEVEN = 1e-5
 
 

@@ -30,9 +30,10 @@ MOST_STEPS = 3_000_000
 MOST_CELLS = 200_000
 # Cells that wait to be followed.
 DEPTH = 1024
-# Edges have whole coordinates: shares and rates are fractions with the cell's volume below, and the
-# product of the pivots is that volume. What lies nearer to 0, or to 1, than this is rounding.
-SHARE, ZERO = 1e-8, 1e-9
+# Decides: Distance from 0 and 1 of fractions with volumes of cells below: less is rounding.
+SHARE = 1e-8
+# Decides: The same of pivots, and of rates from 0.
+ZERO = 1e-9
 
 
 @dataclass(frozen=True, eq=False)

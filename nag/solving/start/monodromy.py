@@ -38,11 +38,15 @@ from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.settings import find_settings
 from nag.tracking.track import track_regular
 
-# What rounding leaves at most of the sum of second differences over all points, in units of the
-# points' motion, in doubles and in 64 digits; and how much larger each point's own must be for its
-# absence to show.
-ROUNDING, FINE_ROUNDING, VISIBLE = 1e-12, 1e-50, 10.0
-# A larger sum is none of rounding, whatever the points' condition.
+# Decides: Sum of second differences over the points' motion that is rounding in doubles.
+ROUNDING = 1e-12
+# Decides: The same in 64 digits.
+FINE_ROUNDING = 1e-50
+# Decides: Second difference of each point alone, in units of those, without which its absence could
+# not show.
+VISIBLE = 10.0
+# Decides: Sum of second differences over the points' motion that is none of rounding: a point is
+# missing, or a path of the trace was lost.
 CLEAR = 1e-6
 # Steps of Newton's method from doubles to 64 digits.
 STEPS = 5

@@ -21,7 +21,7 @@ from nag.tracking.projective import ROUNDING
 
 # Digits that zeros are worked out to, and bits of the patches through the points they are near.
 DIGITS, BITS = 152, 700
-# Decimal logarithm of coordinates that are zero, beside the largest.
+# Decides: Decimal logarithm of coordinates, beside the largest, that are zero in 160 digits.
 ZERO = -150.0
 # Errors of coordinates of size one in two words.
 DOUBLE_DOUBLE = 2.0**-104

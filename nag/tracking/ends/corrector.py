@@ -10,11 +10,13 @@ from nag.tracking.evaluation import factors_at, jacobian, products
 from nag.tracking.linear_algebra import factorize
 from nag.tracking.numbers.complex_numbers import largest
 
-# Relative size of coordinates that doubles do not know, and the rounding errors that they make of
-# a point, both with room to spare.
-FLOOR, DOUBLES = 1e-9, 1e-13
+# Rounding errors that doubles make of a point, with room to spare.
+DOUBLES = 1e-13
+# Decides: Coordinates not known at a start in doubles.
+FLOOR = 1e-9
+# Corrections of a point.
 MOST_CORRECTIONS = 12
-# Corrections of so many rounding errors may be nothing else.
+# Decides: Rounding errors in a correction that need not contract any more.
 STAGNANT = 1e2
 
 

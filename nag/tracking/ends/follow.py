@@ -22,10 +22,12 @@ from nag.tracking.settings import Settings
 
 # Digits of numbers of as many words.
 DIGITS = {2: 32, 4: 64, 8: 120}
-# Residual of a limit over that of the last one, further out: more says that rounding decides, if
-# the forms nearly vanish.
-GAINED, NEARLY = 0.1, 1e-6
-# Rounding errors over the residual that is asked for, from which on they decide as well.
+# Decides: Residual of a limit over that of the last one, further out: more is rounding, if it is
+# below NEARLY, and asks for more digits.
+GAINED = 0.1
+# Decides: Residual below which `GAINED` is asked for.
+NEARLY = 1e-6
+# Decides: Rounding over the wanted residual that asks for more digits as well.
 NOISE = 1e-3
 # Part of t at which a limit is looked for next, where nothing is known of it, and the least.
 FURTHER, FURTHEST = 1e-3, 1e-8

@@ -14,11 +14,16 @@ from nag.numerics.digits import number_of_words, round_up
 from nag.numerics.newton import newton_step, subtract_step
 from nag.tracking.ends.terms import BITS, Terms
 
-# Most that the radii of the box are, in rounding errors of the coordinates, and in Newton's steps.
-WIDER, STEPS = 64.0, 16.0
+# Decides: Rounding errors in the radius of the box in which Krawczyk's test proves one zero; it
+# must hold the errors of the values there.
+WIDER = 64.0
+# Decides: Newton's steps in that radius, at least: the box need not be larger where these are
+# small.
+STEPS = 16.0
 # Least part of the first that is taken; of a zero in twice the digits, its square.
 TINY = 1e-12
-# Newton's steps to a regular zero, in the one before, at most.
+# Decides: Newton's step to a regular zero, in the one before, at most, with one Jacobian; to a
+# double one it is a fourth of that.
 SHRINKS = 0.01
 
 

@@ -28,9 +28,12 @@ from nag.tracking.paths import NEVER
 
 # Bits of forms that are to tell zeros: 120 digits.
 FINE = 400
-# By how much values that are not zero must grow so many errors away as `BEYOND` says, a decimal
-# logarithm, or this far at least.
-GROWN, CLOSE = 2.0, 1e-10
+# Decides: Digits by which others must grow away from it, as about a multiple zero: a constant shows
+# that the forms have no zero.
+GROWN = 2.0
+# Decides: The least distance at which they are compared: `BEYOND` errors of the limit where those
+# are more.
+CLOSE = 1e-10
 # Steps of Newton's method with a fixed inverse, and their least gain, decimal logarithm.
 STEPS, GAIN = 40, 1.0
 

@@ -25,14 +25,21 @@ from nag.tracking.ends.terms import BITS, Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import NEVER, relative
 
-# Digits to which equations must hold at least, and the most that may be asked for.
-LEAST_EVIDENCE, MOST_EVIDENCE = 14, 58
-# An order in units of 1 / w is a whole number to so many units.
+# Decides, measured: Digits to which the exact equations' terms of least order must cancel at a
+# limit, so that coefficients that doubles rounded would show. No gap: a limit that does not pass is
+# looked for further in.
+LEAST_EVIDENCE = 14
+# Decides: The most that is asked for: more cannot be asked of 64 digits, and 120 are for paths that
+# these lose.
+MOST_EVIDENCE = 58
+# Decides, measured: How far an order of a coordinate may be from a rational number.
 WHOLE = 1e-3
+# The largest order.
 LARGEST = 100
-# The error of a limit, in last terms of its power series.
+# Decides: Error of a limit in last terms of its series.
 BEYOND = 30.0
-# What is left of a power series nearer to its limit, over what was left further out.
+# Decides: Last terms of a power series over those that were left further out: branches that are not
+# one leave more on the way in.
 FALLEN = 0.5
 
 

@@ -10,9 +10,10 @@ from nag.tracking.linear_algebra import PHASE, order_rows
 from nag.tracking.numbers.complex_numbers import largest
 from nag.tracking.numbers.error_free import power_near_inverse
 
-# Part of a coordinate that a correction leaves where it takes it away.
+# Decides: What a correction leaves of a coordinate that it takes away: a zero along the whole path.
 GONE = 1e-6
-# Largest coordinate of a point from doubles that may be nothing but their rounding errors.
+# Decides: Coordinate of a point from doubles that may be rounding alone. More would hide
+# corrections that lead away from the path.
 ROUGHEST = 1e-6
 
 

@@ -41,7 +41,8 @@ MAX_WINDING = 40
 # Expected error of a prediction, and largest contraction of Newton's method after it, as parts of
 # those of the settings.
 ACCURACY, CONTRACTION = 0.1, 0.3
-# Largest last term of a power series in doubles that is taken to converge.
+# Decides: Last terms of a path's power series that is taken to converge, for the winding number in
+# question.
 TAIL = 1e-11
 
 
