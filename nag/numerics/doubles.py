@@ -27,7 +27,7 @@ SHARP = 1e-10
 # to a close point must not join components. Error of a point where none is told.
 ROUGH = 1e-8
 # Decides, measured: Values at a point where Newton's method arrived: all lay below 2e-16.
-VANISHING = 1e-11
+VANISHING = 1e-13
 # Decides: Error of a singular end, about a root of rounding; estimates of it are themselves
 # uncertain.
 MULTIPLE = 1e-7

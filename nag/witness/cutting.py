@@ -17,6 +17,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank, pivot_rows
 from nag.numerics.doubles import (
     ARRIVED,
@@ -221,7 +222,7 @@ def regular_on(evaluator: Evaluator, rows: np.ndarray, sharpened: Sharpened) -> 
     if len(matrix) < basis.shape[1]:
         return False
     left, s, right = np.linalg.svd(matrix, full_matrices=False)
-    limit = max(SLACK * sharpened.step, VANISHING) * max(1.0, s[0])
+    limit = max(SLACK * sharpened.step, LEAST) * max(1.0, s[0])
     if not s[-1] > limit:
         return False
     return not _perhaps_double(evaluator, sharpened.z, left[:, -1], s[-1], basis @ right[-1].conj())
