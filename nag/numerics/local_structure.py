@@ -27,6 +27,7 @@ from nag.numerics.digits import (
     to_point,
     working_digits,
 )
+from nag.numerics.doubles import EPS
 from nag.numerics.dual_space import CurveSearch, DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
@@ -348,7 +349,7 @@ def _end(
         precise.doubles,
         place,
         multiplicity,
-        float(np.finfo(float).eps),
+        EPS,
         10.0 ** max(found.inverse, 0.0),
         reason,
         dimension,

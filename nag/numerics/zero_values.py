@@ -17,7 +17,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import BITS
-from nag.numerics.doubles import SLACK
+from nag.numerics.doubles import EPS, SLACK
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 
@@ -149,7 +149,7 @@ def widen_point(x: np.ndarray, radii: np.ndarray) -> PrecisePoint:
     Args:
         radii: errors of the coordinates, shape ``(n,)``; to them comes that of writing them.
     """
-    return PrecisePoint.of_doubles(x, SLACK * (radii + np.finfo(float).eps * np.abs(x)))
+    return PrecisePoint.of_doubles(x, SLACK * (radii + EPS * np.abs(x)))
 
 
 def multiplicity_of_all(zeros: Sequence[SingularEnd]) -> int | None:

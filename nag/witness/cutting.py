@@ -21,6 +21,7 @@ from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank, pivot_rows
 from nag.numerics.doubles import (
     ARRIVED,
+    EPS,
     MULTIPLE,
     NEWTON_STEPS,
     ROUGH,
@@ -172,7 +173,7 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
         delta, _, _, s = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=ARRIVED)
         z = z - delta
         if len(s) and s[-1] > 0:
-            floor = min(max(SHARP, LOSS * np.finfo(float).eps * s[0] / s[-1]), ROUGH)
+            floor = min(max(SHARP, LOSS * EPS * s[0] / s[-1]), ROUGH)
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
         # Rounding alone keeps the steps at a badly conditioned point from shrinking further.
         if step < ARRIVED or (step < floor and step > 0.25 * last):
@@ -206,7 +207,7 @@ def _null_basis(rows: np.ndarray, columns: int) -> np.ndarray:
     if not len(a):
         return np.eye(columns, dtype=complex)
     _, s, adjoint = np.linalg.svd(a)
-    rank = int((s > np.finfo(float).eps * max(a.shape) * s[0]).sum())
+    rank = int((s > EPS * max(a.shape) * s[0]).sum())
     return adjoint[rank:].conj().T
 
 

@@ -13,7 +13,7 @@ from nag.algebra.combinations import of_fewest_terms
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.errors import NagError
-from nag.numerics.doubles import UNIT
+from nag.numerics.doubles import EPS, UNIT
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.tracking.compiled import CompiledRows
@@ -115,7 +115,7 @@ class Target:
         if radii is None or not self.scales:
             return radii
         exact = self.natural is None or self.natural.is_exact_in_doubles
-        rounding = 0.0 if exact else np.finfo(float).eps * np.abs(point)
+        rounding = 0.0 if exact else EPS * np.abs(point)
         return radii * self._units + rounding
 
     @cached_property
