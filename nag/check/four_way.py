@@ -22,11 +22,13 @@ from nag.algebra.rational_function import FunctionField
 from nag.check.identities import labelled, surviving
 from nag.check.known import KnownDecomposition, PaperComponent
 from nag.check.statement import Statement, Verdict, VerdictKind, decided, holds
-from nag.numerics.doubles import UNIT
 from nag.numerics.zero_values import ON
 from nag.witness.witness import Decomposition, Status, WitnessSet
 
 Decompose = Callable[[Any], Decomposition]
+
+# Values in doubles vanish to sixteen digits at most.
+ROUNDING = 1e-16
 
 
 @dataclass(frozen=True)
@@ -100,7 +102,7 @@ def residual(part: Ideal, points: np.ndarray) -> float:
 
 def digits(value: float) -> int:
     """Decimal digits to which something vanishes, at most 16."""
-    return 16 if value <= UNIT else floor(-log10(value))
+    return 16 if value <= ROUNDING else floor(-log10(value))
 
 
 def numerical(compared: Compared) -> Verdict:
