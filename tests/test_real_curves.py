@@ -187,6 +187,16 @@ def test_the_projection_does_not_matter(name: str, seed: int) -> None:
         assert np.allclose(*lengths, rtol=1e-2)
 
 
+def test_points_where_other_components_are_met_are_known() -> None:
+    for curve in real_curves(nag.decompose("(x^2 + y^2 - 1)*(x - y)")):
+        assert np.allclose(np.sort(curve.meetings[:, 0]), [-np.sqrt(0.5), np.sqrt(0.5)], atol=1e-14)
+    (lemniscate,) = of_equations("lemniscate")[1]
+    assert lemniscate.meetings.shape == (0, 2)
+    # The flat positions of a rhombus: each of the three motions meets both others.
+    _, curves = of_case("planar/four-bar-rhombus")
+    assert [len(curve.meetings) for curve in curves] == [2, 2, 2]
+
+
 def test_half_angles_pass_through_infinity() -> None:
     _, (curve,) = of_case("bennett")
     (edge,) = curve.edges
