@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+import random
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +22,7 @@ from nag.kinematics.path import Curve
 from nag.kinematics.poses import Poses, pose_steps, turn_product
 from nag.kinematics.scene import Scene, SceneJoint, scene_of
 from nag.kinematics.walks import walks_of
+from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import real_assemblies
 from nag.real.curve import (
@@ -280,6 +283,36 @@ def test_the_table_has_a_column_for_each_number(moved) -> None:
         motion.table(2)
     with pytest.raises(NagError, match="angles"):
         motion.table(angles="gon")
+
+
+def four_bar(lengths: list[Fraction]) -> Linkage:
+    links = zip(
+        ("base", "crank", "coupler", "rocker"), ("AD", "AB", "BC", "CD"), lengths, strict=True
+    )
+    zero = Fraction(0)
+    return Linkage(
+        "base",
+        tuple(Link(name, tuple(p), ((zero, zero), (size, zero))) for name, p, size in links),
+    )
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_circuits_and_full_turns_of_four_bars_are_those_of_grashofs_rule(seed: int) -> None:
+    rng = random.Random(seed)
+    while True:
+        lengths = [Fraction(rng.randrange(4, 30), rng.choice([1, 2, 3])) for _ in range(4)]
+        least, *middle, most = sorted(lengths)
+        # Some assembly, and none in a line.
+        if most < least + sum(middle) and least + most != sum(middle):
+            break
+    turns = least + most < sum(middle)
+    motion = nag.motion(linkage_model(four_bar(lengths)), samples=90, seed=seed)
+    assert motion.complete and len(motion.circuits) == 1 + turns
+    shortest = ["base", "crank", "coupler", "rocker"][lengths.index(least)]
+    for circuit in motion.circuits:
+        for i, joint in enumerate(motion.scene.joints):
+            links = {motion.scene.bodies[b] for b in joint.bodies}
+            assert circuit.values.turns_fully(i) == (turns and shortest in links)
 
 
 def test_samples_near_an_infinite_half_angle_are_on_the_same_motion() -> None:
