@@ -380,6 +380,8 @@ real.real_fibres.FAR_REAL                   0.75    The same share of imaginary 
 real.real_fibres.FAR_COMPLEX                0.35    And of others; between them likewise.
 real.closure.AT_INFINITY                    1e-9    Homogeneous coordinates of length one that are
                                                     zero at vertices known to more digits.
+real.closure.NEGATIVE                       1e-12   Eigenvalues of quadratic forms, beside the
+                                                    largest, that rounding makes negative.
 real.closure.NO_NORM                        1e-7    The same of norms of displacements.
 real.arcs.NEARER                            0.3     Distance from the vertex that an arc goes to,
                                                     beside that from the next one; else it is looked

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -195,6 +196,14 @@ def test_points_where_other_components_are_met_are_known() -> None:
     # The flat positions of a rhombus: each of the three motions meets both others.
     _, curves = of_case("planar/four-bar-rhombus")
     assert [len(curve.meetings) for curve in curves] == [2, 2, 2]
+
+
+def test_infinity_is_no_place_of_a_curve_in_an_affine_space() -> None:
+    # What must not vanish says of a turn only that its infinity is a value like others.
+    system = nag.system("x*y - 1")
+    excluding = replace(system, nonzero=nag.system("x^2 + y^2 + 1").polynomials)
+    (curve,) = real_curves(nag.decompose(excluding))
+    assert counted([curve]) == ({OPEN: 2}, {INFINITE: 2}, 2)
 
 
 def test_half_angles_pass_through_infinity() -> None:
