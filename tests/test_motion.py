@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import json
 import math
 import random
@@ -315,6 +316,35 @@ def test_circuits_and_full_turns_of_four_bars_are_those_of_grashofs_rule(seed: i
             assert circuit.values.turns_fully(i) == (turns and shortest in links)
 
 
+@pytest.mark.parametrize("angle", [0.4, -2.0, 3.0])
+def test_assemblies_at_a_cranks_angle_are_those_of_the_triangle_that_is_left(angle) -> None:
+    # Links 4, 1, 3, 7/2: from the crank's end to the rocker's pivot two sides are left.
+    lengths = [Fraction(4), Fraction(1), Fraction(3), Fraction(7, 2)]
+    motion = nag.motion(linkage_model(four_bar(lengths)), drive=("A", angle))
+    assert motion.complete and len(motion.assemblies) == 2
+    gap = complex(4, 0) - complex(math.cos(angle), math.sin(angle))
+    inner = math.acos((abs(gap) ** 2 + 9 - 3.5**2) / (2 * 3 * abs(gap)))
+    base = math.atan2(gap.imag, gap.real)
+    names = [c.name for c in motion.circuits[0].values.coordinates]
+    b, a = names.index("B"), names.index("A")
+    found = [each.values[b] for each in motion.assemblies]
+    wanted = [base + inner - angle, base - inner - angle]
+    apart = [min(abs(cmath.exp(1j * x) - cmath.exp(1j * y)) for y in wanted) for x in found]
+    assert max(apart) < 1e-12
+    assert abs(cmath.exp(1j * found[0]) - cmath.exp(1j * found[1])) > 0.1
+    for each in motion.assemblies:
+        assert math.cos(each.values[a] - angle) == pytest.approx(1, abs=1e-14)
+        assert joint_errors(motion.scene, each.poses).max() < FIT
+
+
+def test_a_joint_has_its_extreme_value_once_and_none_beyond() -> None:
+    case = nag.read_case(ROOT / "cases" / "bricard-cube.toml")
+    for degrees, count in ((30, 1), (29.9, 2), (30.1, 0), (-210, 1), (90, 0), (120, 0)):
+        motion = nag.motion(case, samples=90, drive=("J0", math.radians(degrees)))
+        # -210 is 150 degrees; between 30 and 150 there is nothing.
+        assert len(motion.assemblies) == count, degrees
+
+
 def test_samples_near_an_infinite_half_angle_are_on_the_same_motion() -> None:
     # The middle shafts of Hooke's joint swing between the angle of the shafts and its supplement.
     motion = nag.motion(nag.read_case(ROOT / "cases" / "spherical" / "hooke-joint.toml"))
@@ -378,6 +408,8 @@ def test_what_does_not_move_with_one_freedom_is_refused() -> None:
         nag.motion(nag.read_case(ROOT / "cases" / "spherical" / "triangle.toml"))
     with pytest.raises(NagError, match="samples"):
         nag.motion(nag.read_case(ROOT / "cases" / "bennett.toml"), samples=3)
+    with pytest.raises(NagError, match="drive: 'J9' is no angle or slide; they are J0, J1, J2"):
+        nag.motion(nag.read_case(ROOT / "cases" / "bennett.toml"), drive=("J9", 1.0))
     with pytest.raises(NagError, match="circuit"):
         nag.motion(nag.read_case(ROOT / "cases" / "bennett.toml"), circuit="some")
     with pytest.raises(NagError, match="equations by themselves"):

@@ -11,6 +11,7 @@ import numpy as np
 from nag.algebra.given import check_choice
 from nag.decomposition.through import through_points
 from nag.errors import NagError
+from nag.kinematics.driven import Assembly, Drive, assemblies_on, check_drive
 from nag.kinematics.joint_values import joint_coordinates
 from nag.kinematics.path import Curve, Path, sample_path, singular_places
 from nag.kinematics.poses import Poses, pose_distances
@@ -169,6 +170,8 @@ class Motion:
         counted: what Gruebler and Kutzbach count.
         idle: which parts turn idly, in words; empty where none does or it is not known.
         which: whether only motions through the reference configuration were asked for.
+        drive: what was asked to be held; None if nothing was.
+        assemblies: with that at its value, on all the circuits.
         left_out: which components were not looked at as they have more freedoms; empty if none.
         notes: what is not known.
     """
@@ -183,6 +186,8 @@ class Motion:
     which: Which
     left_out: str
     notes: tuple[str, ...]
+    drive: Drive | None = None
+    assemblies: tuple[Assembly, ...] = ()
 
     @property
     def complete(self) -> bool:
@@ -254,6 +259,19 @@ class Motion:
                 {"dimension": c.dimension, "degree": c.degree, "multiplicity": c.multiplicity}
                 for c in self.components
             ],
+            "drive": None
+            if self.drive is None
+            else {"coordinate": self.drive.coordinate, "value": self.drive.value},
+            "assemblies": [
+                {
+                    "circuit": a.circuit,
+                    "arc": a.arc,
+                    "values": a.values.tolist(),
+                    "positions": a.poses.places[:, 0].tolist(),
+                    "quaternions": a.poses.turns[:, 0].tolist(),
+                }
+                for a in self.assemblies
+            ],
             "circuits": [c.document(scene) for c in self.circuits],
         }
 
@@ -265,6 +283,7 @@ def motion(
     circuit: Which = "reference",
     samples: int = SAMPLES,
     formulation: str = "auto",
+    drive: tuple[str, float] | None = None,
     run: Run = DEFAULT_RUN,
 ) -> Motion:
     """How a mechanism of one freedom really moves: all joints and bodies along each circuit.
@@ -275,6 +294,8 @@ def motion(
             one; ``"all"`` for those of all components of dimension one.
         samples: into how many even steps each circuit is divided.
         formulation: of a mechanism's model, as for `nag.model`.
+        drive: the name of an angle or slide and a value, in radians or a length, at which all
+            assemblies on the circuits are wanted.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
@@ -283,7 +304,8 @@ def motion(
     """
     check_choice(circuit, "circuit", get_args(Which))
     problem = in_real_coordinates(problem_of(mechanism, formulation=formulation))
-    return motion_of(problem, circuit=circuit, samples=samples, run=run)
+    held = None if drive is None else Drive(*drive)
+    return motion_of(problem, circuit=circuit, samples=samples, drive=held, run=run)
 
 
 def motion_of(
@@ -291,6 +313,7 @@ def motion_of(
     *,
     circuit: Which = "reference",
     samples: int = SAMPLES,
+    drive: Drive | None = None,
     run: Run = DEFAULT_RUN,
     curve_of: Callable[[WitnessSet], RealCurve] | None = None,
 ) -> Motion:
@@ -302,6 +325,8 @@ def motion_of(
     if not isinstance(samples, int) or not LEAST_SAMPLES <= samples <= MOST_SAMPLES:
         raise NagError(f"samples: give a whole number from {LEAST_SAMPLES} to {MOST_SAMPLES}")
     scene = scene_of(problem)
+    if drive is not None:
+        check_drive(scene, drive)
     if not problem.system.n:
         raise MotionError("no equation has an unknown: nothing moves but what is in no loop")
     which: Which = circuit if scene.from_reference else "all"
@@ -321,8 +346,14 @@ def motion_of(
     ]
     circuits = _circuits(problem, scene, curves, which, samples)
     if not circuits and not notes:
-        raise MotionError(_no_motion(curves))
+        raise MotionError(_no_motion(curves, left_out))
     finished = _with_crossings(circuits, others, found, run)
+    assemblies = [
+        assembly
+        for each in circuits
+        if drive is not None
+        for assembly in assemblies_on(each.path, each.values, drive, each.circuit.number, each.end)
+    ]
     made = problem.model
     return Motion(
         scene,
@@ -335,6 +366,8 @@ def motion_of(
         which,
         left_out,
         tuple(notes),
+        drive,
+        tuple(assemblies),
     )
 
 
@@ -379,20 +412,25 @@ def _choose_components(
     return curves, left_out, expanded
 
 
-def _no_motion(curves: Sequence[RealCurve]) -> str:
+def _no_motion(curves: Sequence[RealCurve], left_out: str) -> str:
+    rest = f"; not looked at: {left_out}" if left_out else ""
     isolated = sum(len(curve.pieces) for curve in curves)
     if isolated:
         points = count_text(isolated, "isolated point")
-        return f"it has no real motion: its components have {points} that are real, and no curve"
-    return "it has no real motion: its components have no real points"
+        return (
+            f"it has no real motion: its components have {points} that are real, and no curve"
+            + rest
+        )
+    return "it has no real motion: its components of dimension 1 have no real points" + rest
 
 
 @dataclass(frozen=True, eq=False)
 class _Found:
-    """A circuit, what it was made of, and how far along that it ends."""
+    """A circuit, the path and its values that it was made of, and how far along that it ends."""
 
     circuit: Circuit
     path: Path
+    values: Values
     end: float
 
 
@@ -477,6 +515,7 @@ def _sample(
             (),
         ),
         path,
+        values,
         path.length / 2 if twice else np.inf,
     )
 
