@@ -165,6 +165,7 @@ class Motion:
         components: those that were looked at, of dimension one.
         curves: the real points of each.
         circuits: the motions on them.
+        reason: what was made of the mechanism: its model, in one sentence.
         freedoms: dimension of the configuration space there, freedoms of parts that were left out
             of the equations included.
         counted: what Gruebler and Kutzbach count.
@@ -180,6 +181,7 @@ class Motion:
     components: tuple[WitnessSet, ...]
     curves: tuple[RealCurve, ...]
     circuits: tuple[Circuit, ...]
+    reason: str
     freedoms: int
     counted: int
     idle: str
@@ -246,6 +248,7 @@ class Motion:
         """The motion as a JSON object without its head; angles are in radians."""
         scene = self.scene
         return {
+            "model": self.reason,
             "mobility": {"freedoms": self.freedoms, "counted": self.counted},
             "idle": self.idle,
             "left_out": self.left_out,
@@ -360,6 +363,7 @@ def motion_of(
         tuple(found),
         tuple(curves),
         tuple(finished),
+        made.reason,
         1 + problem.free,
         made.gruebler_kutzbach,
         _idle(problem, run),

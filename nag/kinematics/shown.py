@@ -90,7 +90,7 @@ def circuit_text(motion: Motion, circuit: Circuit) -> str:
 
 def motion_rows(motion: Motion) -> list[tuple[str, str]]:
     """Labelled lines of the whole."""
-    rows = [("mobility", motion.sentence)]
+    rows = [("model", motion.reason), ("mobility", motion.sentence)]
     for i, component in enumerate(motion.components):
         text = f"dimension {component.dimension}, degree {component.degree}"
         own = [c for c in motion.circuits if c.component == i]

@@ -126,7 +126,7 @@ def _what(motion: Motion) -> str:
 
 def facts(motion: Motion) -> list[list[str]]:
     """What is said of the whole motion beside the picture."""
-    rows = [["mobility", motion.sentence]]
+    rows = [["mobility", motion.sentence], ["model", motion.reason]]
     for i, component in enumerate(motion.components):
         name = "component" if len(motion.components) == 1 else f"component {i + 1}"
         on = sum(c.component == i for c in motion.circuits)
