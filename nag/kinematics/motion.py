@@ -76,7 +76,7 @@ class Circuit:
         number: from 1.
         component: index of the component that it runs on, in `Motion.components`.
         closed: whether it returns to where it began.
-        unbounded: whether it goes to infinity at its ends; it is followed for five sizes.
+        unbounded: whether it goes to infinity at its ends; it is followed for five sizes at most.
         from_reference: whether it begins at the reference configuration.
         through_reference: whether that lies on it.
         arc: how far each sample is from the first, shape ``(k,)``: the root of the sum over bodies
@@ -525,7 +525,7 @@ def _sample(
 
 
 def _within_reach(curve: Curve, walk: Walk) -> tuple[Walk, bool]:
-    """An open walk as far as bodies stay near, and whether that is not all of it."""
+    """A walk as far as bodies stay near, and whether it goes to infinity, as open ones do."""
     if walk.closed:
         return walk, False
     poses, scene = curve.poses(walk.chart), curve.scene
@@ -535,7 +535,7 @@ def _within_reach(curve: Curve, walk: Walk) -> tuple[Walk, bool]:
     inside = np.flatnonzero(far <= np.nanmin(far) + REACH * scene.size)
     first, last = int(inside[0]), int(inside[-1])
     if (first == 0 and last == len(walk.chart) - 1) or last - first < 1:
-        return walk, False
+        return walk, True
     vertices = tuple((v, i - first) for v, i in walk.vertices if first <= i <= last)
     return Walk(walk.piece, False, walk.chart[first : last + 1], vertices), True
 

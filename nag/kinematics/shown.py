@@ -79,7 +79,7 @@ def circuit_text(motion: Motion, circuit: Circuit) -> str:
     """One circuit in one line."""
     text = "closed" if circuit.closed else "open"
     if circuit.unbounded:
-        text += ", to infinity, followed for five sizes"
+        text += ", to infinity, followed for five sizes at most"
     if circuit.through_reference:
         begins = "begins at" if circuit.from_reference else "runs through"
         text += f", {begins} the reference configuration"
