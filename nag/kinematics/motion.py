@@ -304,6 +304,11 @@ def motion(
     Raises:
         MotionError: if it does not move with one freedom, or has no real motion.
         NagError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> moves = nag.motion(nag.read_case("cases/bennett.toml"))
+    >>> [(circuit.closed, round(circuit.length, 2)) for circuit in moves.circuits]
+    [(True, 14.97)]
     """
     check_choice(circuit, "circuit", get_args(Which))
     problem = in_real_coordinates(problem_of(mechanism, formulation=formulation))
