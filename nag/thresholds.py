@@ -441,6 +441,11 @@ kinematics.path.SINGULAR                    1e-5    Second least singular value 
 kinematics.turning_points.STILL             1e-9    By how much a joint moves that never does: 1e-14
                                                     was seen; others moved by 1e-3 and more.
 check.four_way.RESIDUAL                     1e-8    Values at witness points of exact components.
+files.robots.given_rotation.NEAR            1e-9    Radians, or parts of the largest entry, by
+                                                    which doubles miss what they stand for.
+files.robots.given_rotation.NOTHING         1e-12   Lengths that are zero.
+files.robots.robot.APART                    1e-6    How far a loop's ends may be apart in rounded
+                                                    numbers; it is said by how much.
 ==========================================  ======  ================================================
 
 Other values of these give the same answers, sooner or later: sizes of steps and work, bounds of
@@ -497,6 +502,7 @@ mechanism.moving_parts: LENGTH, ARRIVED; mechanism.nearly_mobile: STEP,
 SHORTEST_STEP, STRAIGHT, BEND, LONGEST_SLIDE, WEIGHTS, COMPLEX_STEP, NO_STEP, TINY, SMALL;
 mechanism.operation_modes: NEARER; kinematics.path: ARRIVED, PROMISING;
 kinematics.turning_points: NARROWER; files.export: ROUNDED; files.json_values: AGREES;
+files.robots.given_rotation: ROUNDED;
 check.four_way: ROUNDING; decomposition.shown: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:
 PATIENCE; cli.running: INTERVAL.
 """
