@@ -51,7 +51,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a configuration in the variables of `nag model`: 'c1 = 3/5, s1 = 4/5', all of them, "
         "where a rounded one stands for the configuration next to it "
         "(default: the reference configuration; of parts that are not assembled a general one); of "
-        "a framework in the plane the points' x_P and y_P, the first bar from (0, 0) to (1, 0); of a robot in URDF or MJCF values of joints, 'J = pi/3', the "
+        "a framework in the plane the points' x_P and y_P, the first bar from (0, 0) to (1, 0); "
+        "of a robot in URDF or MJCF values of joints, 'J = pi/3', the "
         "others 0; may be repeated",
     )
     how_far = parser.add_mutually_exclusive_group()

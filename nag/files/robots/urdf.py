@@ -51,7 +51,8 @@ def read(file: str, text: str) -> Robot:
         if joint.child in children:
             element.fail(
                 f"{quote(joint.child)} is the child of a joint already (line "
-                f"{children[joint.child].line}); a tree has one way to each link, and MJCF closes loops"
+                f"{children[joint.child].line}); MJCF closes "
+                "loops, URDF does not"
             )
         children[joint.child] = element
     roots = [name for name in links if name not in children]
