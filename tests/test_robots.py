@@ -67,6 +67,27 @@ HEXAPOD = f"""<mujoco><worldbody><body name="trunk" pos="0 0 1"><freejoint/>{LEG
 </worldbody><equality>{FEET}</equality></mujoco>"""
 
 
+def delta_leg(k: int, inside: str = "") -> str:
+    """An arm, and two rods down to the platform, which hangs on the first rod of the first leg."""
+    rods = "".join(
+        f'<body name="rod{k}{i}" pos="0.5 {y} 0"><joint type="ball"/>{inside if i else ""}</body>'
+        for i, y in enumerate(("-0.2", "0.2"))
+    )
+    return f"""<frame euler="0 0 {120 * k}"><body name="arm{k}" pos="1 0 0">
+<joint name="J{k}" axis="0 1 0"/>{rods}</body></frame>"""
+
+
+PLATFORM = '<body name="platform" pos="-1.1 0 -2"><joint type="ball"/></body>'
+RODS = "".join(
+    f'<connect body1="rod{k}{i}" body2="platform" anchor="-1.1 0 -2"/>'
+    for k in range(3)
+    for i in range(2)
+    if (k, i) != (0, 1)
+)
+DELTA = f"""<mujoco><worldbody>{delta_leg(0, PLATFORM)}{delta_leg(1)}{delta_leg(2)}</worldbody>
+<equality>{RODS}</equality></mujoco>"""
+
+
 def local(path: Path, **given: object) -> int:
     case = read_case(path, **given)
     return nag.mobility(case, detail="local").local_dimension
@@ -100,6 +121,10 @@ def test_a_four_bar_closed_by_a_point_has_one_freedom(tmp_path: Path) -> None:
 
 def test_feet_that_are_welded_leave_a_hexapod_of_three_turns_a_leg_rigid(tmp_path: Path) -> None:
     assert local(written(tmp_path, HEXAPOD)) == 0
+
+
+def test_a_delta_has_three_freedoms_and_six_rods_that_turn(tmp_path: Path) -> None:
+    assert local(written(tmp_path, DELTA)) == 3 + 6
 
 
 def test_angles_in_doubles_and_in_four_decimals_are_recognised(tmp_path: Path) -> None:
