@@ -121,8 +121,9 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
     for report in _reports(options, problem or case, at):
         say_first(options, name_case(case), report.local_rows(), WIDTH)
-    rows = report.rows()
-    complete = report.status is not MobilityStatus.UNDECIDED and not report.open
+    rows = [*report.rows(), *_unsaid_rows(options, report)]
+    complete = options.of is None or report.moving is not None or report.local_dimension == 0
+    complete &= report.status is not MobilityStatus.UNDECIDED and not report.open
     complete &= not any(curve.note for curve in report.curves)
     rows += [("read", note) for note in case.notes]
     known = _beside_known(report, case) if at is None else None
@@ -147,6 +148,25 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     }
     said = f"budget {options.budget} s" if _is_limited(options, report) else ""
     return answer_of(options, name_case(case), (), rows, fields, complete, said=said, width=WIDTH)
+
+
+def _unsaid_rows(options: argparse.Namespace, report: MobilityReport) -> Iterator[tuple[str, str]]:
+    """What was asked for and the report does not say, with the reason."""
+    if options.of is not None and report.moving is None:
+        if report.local_dimension == 0:
+            yield "of", f"{options.of}: no freedom, it stands still"
+        else:
+            smooth = report.local is None or report.local.smooth
+            why = (
+                "what moves is not clear in doubles" if smooth else "the configuration is singular"
+            )
+            yield "of", f"{options.of}: not known: {why}"
+    if options.tolerance is not None and report.near is None:
+        yield (
+            "tolerance",
+            "not looked at: that is for the reference configuration of a mechanism that is rigid "
+            "as it is given",
+        )
 
 
 def _beside_known(report: MobilityReport, case: Case) -> tuple[str, bool, dict[str, Any]] | None:
