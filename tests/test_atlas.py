@@ -21,7 +21,7 @@ from nag.bench.atlas.changes import KINDS, sparsely_changed
 from nag.bench.atlas.curves import tangent_slice
 from nag.bench.atlas.families import FAMILIES, KnobFamily
 from nag.bench.atlas.linkages import bennett_violated, bricard_violated, slider_crank
-from nag.bench.atlas.moved import GROUPS
+from nag.bench.atlas.moved import GROUPS, case_system
 from nag.bench.atlas.nine_points import NinePoints
 from nag.bench.atlas.stability import (
     Atlas,
@@ -303,3 +303,8 @@ def test_zeros_far_closer_than_doubles_are_told_apart(name: str, count: int, dig
     result = solve(family_named(name).make(digits, np.random.default_rng([3, 20])).system, seed=3)
     assert result.complete
     assert [s.multiplicity for s in result.solutions] == [1] * count
+
+
+def test_something_is_known_of_every_case_in_the_formulation_that_is_moved() -> None:
+    names = [name for group in GROUPS.values() for name in group]
+    assert [name for name in names if not case_system(name)[1]] == []

@@ -16,7 +16,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.files.cases import CaseError, read_case
-from nag.files.formats import READ, WRITTEN
+from nag.files.formats import READ, ROBOTS, WRITTEN
 from nag.files.formats.reading import READERS, read_system_text, recognise_format
 from nag.files.formats.writing import WRITERS, write_system
 
@@ -252,11 +252,11 @@ def test_sympy_takes_what_is_written() -> None:
 
 
 def test_the_lists_of_formats_are_those_of_the_functions() -> None:
-    assert ("toml", *READERS) == READ
+    assert ("toml", *READERS, *ROBOTS) == READ
     assert tuple(WRITERS) == WRITTEN
 
 
-@pytest.mark.parametrize("format", [f for f in READ if f != "toml"])
+@pytest.mark.parametrize("format", [f for f in READ if f != "toml" and f not in ROBOTS])
 def test_a_case_is_the_same_by_each_format(
     format: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import cmath
 import json
 import math
+import random
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +23,7 @@ from nag.kinematics.path import Curve
 from nag.kinematics.poses import Poses, pose_steps, turn_product
 from nag.kinematics.scene import Scene, SceneJoint, scene_of
 from nag.kinematics.walks import walks_of
+from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import real_assemblies
 from nag.real.curve import (
@@ -282,6 +286,65 @@ def test_the_table_has_a_column_for_each_number(moved) -> None:
         motion.table(angles="gon")
 
 
+def four_bar(lengths: list[Fraction]) -> Linkage:
+    links = zip(
+        ("base", "crank", "coupler", "rocker"), ("AD", "AB", "BC", "CD"), lengths, strict=True
+    )
+    zero = Fraction(0)
+    return Linkage(
+        "base",
+        tuple(Link(name, tuple(p), ((zero, zero), (size, zero))) for name, p, size in links),
+    )
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_circuits_and_full_turns_of_four_bars_are_those_of_grashofs_rule(seed: int) -> None:
+    rng = random.Random(seed)
+    while True:
+        lengths = [Fraction(rng.randrange(4, 30), rng.choice([1, 2, 3])) for _ in range(4)]
+        least, *middle, most = sorted(lengths)
+        # Some assembly, and none in a line.
+        if most < least + sum(middle) and least + most != sum(middle):
+            break
+    turns = least + most < sum(middle)
+    motion = nag.motion(linkage_model(four_bar(lengths)), samples=90, seed=seed)
+    assert motion.complete and len(motion.circuits) == 1 + turns
+    shortest = ["base", "crank", "coupler", "rocker"][lengths.index(least)]
+    for circuit in motion.circuits:
+        for i, joint in enumerate(motion.scene.joints):
+            links = {motion.scene.bodies[b] for b in joint.bodies}
+            assert circuit.values.turns_fully(i) == (turns and shortest in links)
+
+
+@pytest.mark.parametrize("angle", [0.4, -2.0, 3.0])
+def test_assemblies_at_a_cranks_angle_are_those_of_the_triangle_that_is_left(angle) -> None:
+    # Links 4, 1, 3, 7/2: from the crank's end to the rocker's pivot two sides are left.
+    lengths = [Fraction(4), Fraction(1), Fraction(3), Fraction(7, 2)]
+    motion = nag.motion(linkage_model(four_bar(lengths)), drive=("A", angle))
+    assert motion.complete and len(motion.assemblies) == 2
+    gap = complex(4, 0) - complex(math.cos(angle), math.sin(angle))
+    inner = math.acos((abs(gap) ** 2 + 9 - 3.5**2) / (2 * 3 * abs(gap)))
+    base = math.atan2(gap.imag, gap.real)
+    names = [c.name for c in motion.circuits[0].values.coordinates]
+    b, a = names.index("B"), names.index("A")
+    found = [each.values[b] for each in motion.assemblies]
+    wanted = [base + inner - angle, base - inner - angle]
+    apart = [min(abs(cmath.exp(1j * x) - cmath.exp(1j * y)) for y in wanted) for x in found]
+    assert max(apart) < 1e-12
+    assert abs(cmath.exp(1j * found[0]) - cmath.exp(1j * found[1])) > 0.1
+    for each in motion.assemblies:
+        assert math.cos(each.values[a] - angle) == pytest.approx(1, abs=1e-14)
+        assert joint_errors(motion.scene, each.poses).max() < FIT
+
+
+def test_a_joint_has_its_extreme_value_once_and_none_beyond() -> None:
+    case = nag.read_case(ROOT / "cases" / "bricard-cube.toml")
+    for degrees, count in ((30, 1), (29.9, 2), (30.1, 0), (-210, 1), (90, 0), (120, 0)):
+        motion = nag.motion(case, samples=90, drive=("J0", math.radians(degrees)))
+        # -210 is 150 degrees; between 30 and 150 there is nothing.
+        assert len(motion.assemblies) == count, degrees
+
+
 def test_samples_near_an_infinite_half_angle_are_on_the_same_motion() -> None:
     # The middle shafts of Hooke's joint swing between the angle of the shafts and its supplement.
     motion = nag.motion(nag.read_case(ROOT / "cases" / "spherical" / "hooke-joint.toml"))
@@ -345,6 +408,8 @@ def test_what_does_not_move_with_one_freedom_is_refused() -> None:
         nag.motion(nag.read_case(ROOT / "cases" / "spherical" / "triangle.toml"))
     with pytest.raises(NagError, match="samples"):
         nag.motion(nag.read_case(ROOT / "cases" / "bennett.toml"), samples=3)
+    with pytest.raises(NagError, match="drive: 'J9' is no angle or slide; they are J0, J1, J2"):
+        nag.motion(nag.read_case(ROOT / "cases" / "bennett.toml"), drive=("J9", 1.0))
     with pytest.raises(NagError, match="circuit"):
         nag.motion(nag.read_case(ROOT / "cases" / "bennett.toml"), circuit="some")
     with pytest.raises(NagError, match="equations by themselves"):

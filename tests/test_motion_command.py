@@ -58,6 +58,13 @@ def test_the_table_and_the_document_hold_the_same_numbers(tmp_path, capsys) -> N
     assert page.read_bytes() == before
 
 
+def test_assemblies_at_a_value_of_a_joint_are_listed(capsys) -> None:
+    assert ask(str(CASES / "planar" / "four-bar.toml"), "--drive", "A=30") == 0
+    printed = capsys.readouterr().out
+    assert "A at 30.00\u00b0: 2 real assemblies" in printed
+    assert "44.09\u00b0" in printed
+
+
 def test_one_circuit_may_be_asked_for(tmp_path, capsys) -> None:
     table = tmp_path / "motion.csv"
     case = str(CASES / "planar" / "four-bar.toml")
@@ -71,6 +78,8 @@ def test_one_circuit_may_be_asked_for(tmp_path, capsys) -> None:
     [
         (["bennett.toml", "--circuit", "7"], "circuit: 7 is none; they are 1"),
         (["bennett.toml", "--circuit", "first"], "write reference, all, or a circuit's number"),
+        (["bennett.toml", "--drive", "J0"], "'J0' is not of the form JOINT=VALUE"),
+        (["bennett.toml", "--drive", "J7=1"], "drive: 'J7' is no angle or slide"),
         (["bennett.toml", "--samples", "3"], "3 is not between 12 and 100000"),
         (["bennett.toml", "--csv", "/nowhere/x.csv"], "--csv: /nowhere/x.csv"),
         (["bennett.toml", "--html", "/nowhere/x.html"], "--html: /nowhere/x.html"),

@@ -120,3 +120,21 @@ def test_a_part_of_a_mechanism_elsewhere_is_described_there() -> None:
     report = nag.mobility(made, model.reference, of="platform", detail="local")
     assert report.moving is not None and report.moving.body is not None
     assert there is not None and report.moving.body.kind == there.kind
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "status", "said"),
+    [
+        ("spatial/wren-4", ["--of", "plate"], 1, "plate: not known: the configuration is singular"),
+        ("spatial/ur5-held", ["--of", "link2"], 0, "link2: no freedom, it stands still"),
+        ("bennett", ["--tolerance", "1e-3"], 0, "not looked at"),
+    ],
+)
+def test_what_is_asked_for_and_not_found_is_said(
+    name: str, options: list[str], status: int, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = str(CASES / f"{name}.toml")
+    assert main(["mobility", case, "--quiet", "--budget", "1", *options]) == status
+    (label,) = (option.removeprefix("--") for option in options if option.startswith("--"))
+    (row,) = [line for line in capsys.readouterr().out.splitlines() if line.startswith(label)]
+    assert said in row

@@ -310,6 +310,38 @@ def test_pitches_of_screw_systems_are_those_of_their_axes() -> None:
     assert screw_system(np.vstack([twists[2:], slide]), 1.0).pitches == ()
 
 
+def turns_and_slides(turning: list[tuple], slides: list[tuple]) -> np.ndarray:
+    """An orthonormal basis of twists through the origin."""
+    rows = [(*w, 0, 0, 0) for w in turning] + [(0, 0, 0, *v) for v in slides]
+    return np.linalg.svd(np.array(rows, dtype=complex), full_matrices=False)[2]
+
+
+@pytest.mark.parametrize(
+    ("twists", "real"),
+    [
+        (turns_and_slides([Z], [X, Y]), True),
+        (turns_and_slides([(1, 1j, 0)], [(1, 1j, 0), Z]), False),
+        (turns_and_slides([(3, 4j, 5)], [(4j, -3, 0), (5, 0, -3)]), False),
+        (turns_and_slides([(1j, 0, 0)], [Y, Z]), True),
+        (turns_and_slides([], [(1, 1j, 0)]), False),
+        (turns_and_slides([Y], [X, Y, Z]), True),
+        (turns_and_slides([(0, 1, 1j)], [X, Y, Z]), False),
+    ],
+)
+def test_groups_about_directions_that_are_not_real_have_no_name(
+    twists: np.ndarray, real: bool
+) -> None:
+    standing = np.eye(8, dtype=complex)[:1]
+    assert bool(motion_of(standing, [twists, twists], 1.0).group) == real
+
+
+def test_a_complex_orientation_is_told() -> None:
+    pose = np.zeros((1, 8), dtype=complex)
+    pose[0, [0, 3]] = 5 / 4, 3j / 4
+    twists = turns_and_slides([], [X, Y, Z])
+    assert str(motion_of(pose, [twists, twists], 1.0)) == "translation, turned by a complex angle"
+
+
 def test_a_screw_system_that_changes_is_no_group() -> None:
     pose = np.array([[1.0, 0, 0, 0, 0, 0, 0, 0]])
     about = [np.array([[*axis, 0, 0, 0]], dtype=float) for axis in (X, X, Y)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -185,6 +186,24 @@ def test_the_projection_does_not_matter(name: str, seed: int) -> None:
     if not any(v.kind is INFINITE for c in curves for v in c.vertices):
         # Polygons with corners on the curve are shorter by the square of their turns.
         assert np.allclose(*lengths, rtol=1e-2)
+
+
+def test_points_where_other_components_are_met_are_known() -> None:
+    for curve in real_curves(nag.decompose("(x^2 + y^2 - 1)*(x - y)")):
+        assert np.allclose(np.sort(curve.meetings[:, 0]), [-np.sqrt(0.5), np.sqrt(0.5)], atol=1e-14)
+    (lemniscate,) = of_equations("lemniscate")[1]
+    assert lemniscate.meetings.shape == (0, 2)
+    # The flat positions of a rhombus: each of the three motions meets both others.
+    _, curves = of_case("planar/four-bar-rhombus")
+    assert [len(curve.meetings) for curve in curves] == [2, 2, 2]
+
+
+def test_infinity_is_no_place_of_a_curve_in_an_affine_space() -> None:
+    # What must not vanish says of a turn only that its infinity is a value like others.
+    system = nag.system("x*y - 1")
+    excluding = replace(system, nonzero=nag.system("x^2 + y^2 + 1").polynomials)
+    (curve,) = real_curves(nag.decompose(excluding))
+    assert counted([curve]) == ({OPEN: 2}, {INFINITE: 2}, 2)
 
 
 def test_half_angles_pass_through_infinity() -> None:

@@ -195,6 +195,7 @@ def write_everything(
     ask("check", str(CASES / "four-bar.toml"))
     for name in ("bennett", "planar/four-bar-folding"):
         ask("motion", str(CASES / f"{name}.toml"), "--samples", "12")
+    ask("motion", str(CASES / "bennett.toml"), "--samples", "12", "--drive", "J0=30")
     equations = "y^2 - x^2*(x - 1)"
     for answer in (nag.decompose(equations), nag.decompose(nag.read_case(CASES / "bennett.toml"))):
         curve = nag.find_real_curve(answer.components[0])

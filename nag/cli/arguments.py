@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NoReturn
 
 from nag.errors import NagError
@@ -160,12 +160,18 @@ def add_certify(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def read_case_file(path: str, values: Sequence[tuple[str, str]] = (), format: str = "auto") -> Case:
+def read_case_file(
+    path: str,
+    values: Sequence[tuple[str, str]] = (),
+    format: str = "auto",
+    hold: Sequence[str] = (),
+    at: Mapping[str, str] | None = None,
+) -> Case:
     """The case in a file of some format, ``values`` given to its parameters."""
     from nag.files.cases import read_case
 
     try:
-        return read_case(path, dict(values), format=format)
+        return read_case(path, dict(values), format=format, hold=hold, at=at)
     except OSError as error:
         raise UsageError(f"{path}: {error.strerror or error}") from None
 

@@ -10,8 +10,8 @@ from nag.cli.arguments import (
     UsageError,
     add_case,
     add_running,
+    problem_of_case,
     read_case_file,
-    read_problem,
     whole,
 )
 from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case, say_first
@@ -38,12 +38,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_case(parser)
     add_running(parser)
     parser.add_argument(
+        "--hold",
+        metavar="LINK",
+        action="append",
+        default=[],
+        help="of a robot in URDF or MJCF: this link is fixed to the ground; may be repeated",
+    )
+    parser.add_argument(
         "--at",
         metavar="VALUES",
+        action="append",
         help="a configuration in the variables of `nag model`: 'c1 = 3/5, s1 = 4/5', all of them, "
         "where a rounded one stands for the configuration next to it "
         "(default: the reference configuration; of parts that are not assembled a general one); of "
-        "a framework in the plane the points' x_P and y_P, the first bar from (0, 0) to (1, 0)",
+        "a framework in the plane the points' x_P and y_P, the first bar from (0, 0) to (1, 0); "
+        "of a robot in URDF or MJCF values of joints, 'J = pi/3', the "
+        "others 0; may be repeated",
     )
     how_far = parser.add_mutually_exclusive_group()
     how_far.add_argument(
@@ -111,9 +121,11 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
     for report in _reports(options, problem or case, at):
         say_first(options, name_case(case), report.local_rows(), WIDTH)
-    rows = report.rows()
-    complete = report.status is not MobilityStatus.UNDECIDED and not report.open
+    rows = [*report.rows(), *_unsaid_rows(options, report)]
+    complete = options.of is None or report.moving is not None or report.local_dimension == 0
+    complete &= report.status is not MobilityStatus.UNDECIDED and not report.open
     complete &= not any(curve.note for curve in report.curves)
+    rows += [("read", note) for note in case.notes]
     known = _beside_known(report, case) if at is None else None
     beside: dict[str, Any] | None = None
     if known is not None:
@@ -136,6 +148,25 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     }
     said = f"budget {options.budget} s" if _is_limited(options, report) else ""
     return answer_of(options, name_case(case), (), rows, fields, complete, said=said, width=WIDTH)
+
+
+def _unsaid_rows(options: argparse.Namespace, report: MobilityReport) -> Iterator[tuple[str, str]]:
+    """What was asked for and the report does not say, with the reason."""
+    if options.of is not None and report.moving is None:
+        if report.local_dimension == 0:
+            yield "of", f"{options.of}: no freedom, it stands still"
+        else:
+            smooth = report.local is None or report.local.smooth
+            why = (
+                "what moves is not clear in doubles" if smooth else "the configuration is singular"
+            )
+            yield "of", f"{options.of}: not known: {why}"
+    if options.tolerance is not None and report.near is None:
+        yield (
+            "tolerance",
+            "not looked at: that is for the reference configuration of a mechanism that is rigid "
+            "as it is given",
+        )
 
 
 def _beside_known(report: MobilityReport, case: Case) -> tuple[str, bool, dict[str, Any]] | None:
@@ -192,7 +223,7 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
     from nag.mechanism.mobility_at import check_body, product_of_loops, tree_of
     from nag.mechanism.problem import in_real_coordinates
 
-    case = read_case_file(options.case, options.set)
+    case = _read_case(options)
     try:
         check_body(options.of, case.mechanism)
     except NagError as error:
@@ -213,7 +244,7 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
     if case.kind == "mechanism" and options.at is None and options.formulation is None:
         problem = product_of_loops(case.mechanism, _detail(options), chosen_run(options))
     if problem is None:
-        case, problem = read_problem(options)
+        problem = problem_of_case(case, options.formulation or "auto")
     if problem.model is None:
         raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
     if options.at is not None:
@@ -229,6 +260,24 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
                 f"{options.case}: its parts are not assembled: give --at, or leave out --local"
             )
     return case, problem
+
+
+def _read_case(options: argparse.Namespace) -> Case:
+    """The case; what is given of a robot's joints is part of it, and `options.at` None then."""
+    from nag.files.cases import is_robot
+
+    if options.at is not None:
+        options.at = ", ".join(options.at)
+    if not is_robot(options.case):
+        return read_case_file(options.case, options.set, hold=options.hold)
+    values: dict[str, str] = {}
+    for part in (options.at or "").split(",") if options.at is not None else ():
+        name, equals, value = (text.strip() for text in part.partition("="))
+        if not equals or name in values:
+            raise UsageError(f"--at: {part.strip()[:40]!r}: write 'JOINT = value', each joint once")
+        values[name] = value
+    options.at = None
+    return read_case_file(options.case, options.set, hold=options.hold, at=values)
 
 
 def _detail(options: argparse.Namespace) -> Detail:

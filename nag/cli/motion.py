@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 from dataclasses import replace
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
@@ -20,6 +22,7 @@ from nag.errors import NagError
 
 if TYPE_CHECKING:
     from nag.kinematics.motion import Motion
+    from nag.mechanism.problem import Problem
 
 FORMAT = "nag-motion"
 MOST_SAMPLES = 100_000
@@ -33,7 +36,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--circuit",
         type=_circuit,
-        default="reference",
         metavar="WHICH",
         help="'reference' for the motions through the reference configuration, 'all' for those of "
         "all components of dimension one, or the number that one of these has (default: "
@@ -53,6 +55,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="what angles are written in, in --csv (default: degrees); --json has radians",
     )
     parser.add_argument(
+        "--drive",
+        type=_drive,
+        metavar="JOINT=VALUE",
+        help="all assemblies on the circuits in which a joint's angle, in degrees, or slide has "
+        "this value; of all circuits, if none is asked for",
+    )
+    parser.add_argument(
         "--csv",
         metavar="FILE",
         help="write a table to FILE: a line for each sample of each circuit, with the joints' "
@@ -63,6 +72,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="write a page to FILE in which the mechanism moves; it needs no network",
     )
+
+
+def _drive(text: str) -> tuple[str, Fraction]:
+    name, equals, value = text.rpartition("=")
+    try:
+        number = Fraction(value.strip())
+    except (ValueError, ZeroDivisionError):
+        number = None
+    if not equals or not name.strip() or number is None:
+        raise argparse.ArgumentTypeError(
+            f"{text[:40]!r} is not of the form JOINT=VALUE, a number like 30 or 45/2"
+        )
+    return name.strip(), number
 
 
 def _circuit(text: str) -> str | int:
@@ -82,14 +104,29 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if case.kind == "system":
         raise UsageError(f"{options.case}: is a polynomial system; only mechanisms have a motion")
     from nag.kinematics.motion import motion
-    from nag.kinematics.shown import circuit_rows, circuit_text, crossing_text, motion_rows
+    from nag.kinematics.shown import (
+        assembly_rows,
+        circuit_rows,
+        circuit_text,
+        crossing_text,
+        drive_text,
+        motion_rows,
+    )
 
     problem = problem_of_case(case, options.formulation or "auto")
-    which = options.circuit if isinstance(options.circuit, str) else "all"
+    asked = options.circuit or ("reference" if options.drive is None else "all")
+    which = asked if isinstance(asked, str) else "all"
     try:
-        found = motion(problem, circuit=which, samples=options.samples, run=chosen_run(options))
-        if isinstance(options.circuit, int):
-            found = replace(found, circuits=(found.circuit(options.circuit),))
+        found = motion(
+            problem,
+            circuit=which,
+            samples=options.samples,
+            drive=None if options.drive is None else _in_radians(problem, *options.drive),
+            run=chosen_run(options),
+        )
+        if isinstance(asked, int):
+            own = tuple(a for a in found.assemblies if a.circuit == asked)
+            found = replace(found, circuits=(found.circuit(asked),), assemblies=own)
     except NagError as error:
         raise UsageError(f"{options.case}: {error}") from None
     if options.csv is not None:
@@ -110,6 +147,9 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         head = [(f"circuit {each.number}", circuit_text(found, each))]
         head += [("crossing", crossing_text(found, each, c)) for c in each.crossings]
         blocks += [head, circuit_rows(found, each)]
+    if found.drive is not None:
+        blocks.append([("driven", drive_text(found))])
+        blocks.append(assembly_rows(found) if found.assemblies else [])
     fields = {
         "format": FORMAT,
         "formulation": problem.formulation,
@@ -117,6 +157,17 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         **found.document(),
     }
     return answer_of(options, name_case(case), blocks, tail, fields, found.complete)
+
+
+def _in_radians(problem: Problem, name: str, value: Fraction) -> tuple[str, float]:
+    """What is to be held, angles in radians."""
+    from nag.kinematics.joint_values import joint_coordinates
+    from nag.kinematics.scene import scene_of
+    from nag.mechanism.problem import in_real_coordinates
+
+    each = joint_coordinates(scene_of(in_real_coordinates(problem)))
+    angle = any(c.name == name and c.kind == "angle" for c in each)
+    return name, math.radians(value) if angle else float(value)
 
 
 def _table_text(found: Motion, angles: str) -> str:

@@ -31,12 +31,13 @@ from nag.files.case_table import (
     CaseTable,
     ReadNumber,
     kind_of,
+    line_of,
     parse_toml,
     read_case_text,
     read_parameters,
     with_values,
 )
-from nag.files.formats import READ
+from nag.files.formats import READ, ROBOTS
 from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
 
 if TYPE_CHECKING:
@@ -137,6 +138,7 @@ class Case:
     `symmetries` are those that the file declares; each was verified exactly on the equations.
     `family` is the one that the file declares the system to belong to. Where the file gives the
     parts of a mechanism but not how they are assembled, `system` is that of `assembly`. What the
+    `notes` say what numbers of a robot's file were taken for. What the
     file says is known, of components (`truth`) or at the reference configuration alone
     (`truth_at_reference`), is left out where parameters were given other values.
     """
@@ -153,6 +155,7 @@ class Case:
     family: FamilyMember | None = None
     assembly: AssemblyModel | None = None
     truth_at_reference: TruthAtReference | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def described(self) -> Mechanism | AssemblyModel | PolynomialSystem:
@@ -174,12 +177,17 @@ def read_case(
     values: Mapping[str, str | Number] | None = None,
     *,
     format: str = "auto",
+    hold: Sequence[str] = (),
+    at: Mapping[str, str | Number] | None = None,
 ) -> Case:
     """Read the case file at ``path``.
 
     Args:
         values: numbers or expressions for some of the parameters, in place of the file's.
         format: one of `nag.files.formats.READ`; by default told by the content.
+        hold: links of a robot (URDF, MJCF) that are fixed to the ground.
+        at: angles in radians and lengths of a robot's joints at its reference configuration, 0 by
+            default.
 
     Raises:
         CaseError: if it cannot be read or makes no sense; one line says where and what would be
@@ -194,6 +202,11 @@ def read_case(
     path = Path(path)
     text = read_case_text(path)
     chosen = _format_of(path, text, format)
+    if chosen in ROBOTS:
+        return _robot_case(path, text, chosen, values, hold, at or {})
+    if hold or at is not None:
+        option = "hold" if hold else "at"
+        raise CaseError(line_of(str(path), f"{option} is for robots in URDF or MJCF; leave it out"))
     if chosen != "toml":
         return _system_case(path, text, chosen, values)
     top = CaseTable(str(path), "", parse_toml(path, text))
@@ -243,11 +256,42 @@ def _format_of(path: Path, text: str, format: str) -> str:
         return format
     if path.suffix == ".toml" or _TOML.search(text):
         return "toml"
+    if text.lstrip().startswith("<"):
+        from nag.files.robots import mjcf, urdf
+
+        found = [name for name, one in (("urdf", urdf), ("mjcf", mjcf)) if one.recognise(text)]
+        if not found:
+            raise CaseError(line_of(str(path), "is XML, but has no <robot> and no <mujoco>"))
+        return found[0]
     if text.lstrip().startswith("{"):
         raise CaseError(f"{path}: is JSON, as exports are; give the case file")
     from nag.files.formats.reading import recognise_format
 
     return recognise_format(text)
+
+
+def is_robot(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is one of a robot, by its content."""
+    return _format_of(Path(path), read_case_text(Path(path)), "auto") in ROBOTS
+
+
+def _robot_case(
+    path: Path,
+    text: str,
+    format: str,
+    values: Mapping[str, str | Number] | None,
+    hold: Sequence[str],
+    at: Mapping[str, str | Number],
+) -> Case:
+    from nag.files.robots import mjcf, urdf
+    from nag.files.robots.robot import assemble
+
+    if values:
+        raise CaseError(line_of(str(path), "has no parameters; joint values are given by `at`"))
+    robot = (urdf if format == "urdf" else mjcf).read(str(path), text)
+    mechanism, notes = assemble(robot, str(path), hold, at)
+    held = f", {', '.join(hold)} held" if hold else ""
+    return Case(robot.title + held, "mechanism", path, {}, mechanism=mechanism, notes=notes)
 
 
 def _system_case(

@@ -11,6 +11,7 @@ import numpy as np
 from nag.algebra.given import check_choice
 from nag.decomposition.through import through_points
 from nag.errors import NagError
+from nag.kinematics.driven import Drive, DrivenAssembly, assemblies_on, check_drive
 from nag.kinematics.joint_values import joint_coordinates
 from nag.kinematics.path import Curve, Path, sample_path, singular_places
 from nag.kinematics.poses import Poses, pose_distances
@@ -75,7 +76,7 @@ class Circuit:
         number: from 1.
         component: index of the component that it runs on, in `Motion.components`.
         closed: whether it returns to where it began.
-        unbounded: whether it goes to infinity at its ends; it is followed for five sizes.
+        unbounded: whether it goes to infinity at its ends; it is followed for five sizes at most.
         from_reference: whether it begins at the reference configuration.
         through_reference: whether that lies on it.
         arc: how far each sample is from the first, shape ``(k,)``: the root of the sum over bodies
@@ -164,11 +165,14 @@ class Motion:
         components: those that were looked at, of dimension one.
         curves: the real points of each.
         circuits: the motions on them.
+        reason: what was made of the mechanism: its model, in one sentence.
         freedoms: dimension of the configuration space there, freedoms of parts that were left out
             of the equations included.
         counted: what Gruebler and Kutzbach count.
         idle: which parts turn idly, in words; empty where none does or it is not known.
         which: whether only motions through the reference configuration were asked for.
+        drive: what was asked to be held; None if nothing was.
+        assemblies: with that at its value, on all the circuits.
         left_out: which components were not looked at as they have more freedoms; empty if none.
         notes: what is not known.
     """
@@ -177,12 +181,15 @@ class Motion:
     components: tuple[WitnessSet, ...]
     curves: tuple[RealCurve, ...]
     circuits: tuple[Circuit, ...]
+    reason: str
     freedoms: int
     counted: int
     idle: str
     which: Which
     left_out: str
     notes: tuple[str, ...]
+    drive: Drive | None = None
+    assemblies: tuple[DrivenAssembly, ...] = ()
 
     @property
     def complete(self) -> bool:
@@ -241,6 +248,7 @@ class Motion:
         """The motion as a JSON object without its head; angles are in radians."""
         scene = self.scene
         return {
+            "model": self.reason,
             "mobility": {"freedoms": self.freedoms, "counted": self.counted},
             "idle": self.idle,
             "left_out": self.left_out,
@@ -254,6 +262,19 @@ class Motion:
                 {"dimension": c.dimension, "degree": c.degree, "multiplicity": c.multiplicity}
                 for c in self.components
             ],
+            "drive": None
+            if self.drive is None
+            else {"coordinate": self.drive.coordinate, "value": self.drive.value},
+            "assemblies": [
+                {
+                    "circuit": a.circuit,
+                    "arc": a.arc,
+                    "values": a.values.tolist(),
+                    "positions": a.poses.places[:, 0].tolist(),
+                    "quaternions": a.poses.turns[:, 0].tolist(),
+                }
+                for a in self.assemblies
+            ],
             "circuits": [c.document(scene) for c in self.circuits],
         }
 
@@ -265,6 +286,7 @@ def motion(
     circuit: Which = "reference",
     samples: int = SAMPLES,
     formulation: str = "auto",
+    drive: tuple[str, float] | None = None,
     run: Run = DEFAULT_RUN,
 ) -> Motion:
     """How a mechanism of one freedom really moves: all joints and bodies along each circuit.
@@ -275,15 +297,23 @@ def motion(
             one; ``"all"`` for those of all components of dimension one.
         samples: into how many even steps each circuit is divided.
         formulation: of a mechanism's model, as for `nag.model`.
+        drive: the name of an angle or slide and a value, in radians or a length, at which all
+            assemblies on the circuits are wanted.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
         MotionError: if it does not move with one freedom, or has no real motion.
         NagError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> moves = nag.motion(nag.read_case("cases/bennett.toml"))
+    >>> [(circuit.closed, round(circuit.length, 2)) for circuit in moves.circuits]
+    [(True, 14.97)]
     """
     check_choice(circuit, "circuit", get_args(Which))
     problem = in_real_coordinates(problem_of(mechanism, formulation=formulation))
-    return motion_of(problem, circuit=circuit, samples=samples, run=run)
+    held = None if drive is None else Drive(*drive)
+    return motion_of(problem, circuit=circuit, samples=samples, drive=held, run=run)
 
 
 def motion_of(
@@ -291,6 +321,7 @@ def motion_of(
     *,
     circuit: Which = "reference",
     samples: int = SAMPLES,
+    drive: Drive | None = None,
     run: Run = DEFAULT_RUN,
     curve_of: Callable[[WitnessSet], RealCurve] | None = None,
 ) -> Motion:
@@ -302,6 +333,8 @@ def motion_of(
     if not isinstance(samples, int) or not LEAST_SAMPLES <= samples <= MOST_SAMPLES:
         raise NagError(f"samples: give a whole number from {LEAST_SAMPLES} to {MOST_SAMPLES}")
     scene = scene_of(problem)
+    if drive is not None:
+        check_drive(scene, drive)
     if not problem.system.n:
         raise MotionError("no equation has an unknown: nothing moves but what is in no loop")
     which: Which = circuit if scene.from_reference else "all"
@@ -321,20 +354,29 @@ def motion_of(
     ]
     circuits = _circuits(problem, scene, curves, which, samples)
     if not circuits and not notes:
-        raise MotionError(_no_motion(curves))
+        raise MotionError(_no_motion(curves, left_out))
     finished = _with_crossings(circuits, others, found, run)
+    assemblies = [
+        assembly
+        for each in circuits
+        if drive is not None
+        for assembly in assemblies_on(each.path, each.values, drive, each.circuit.number, each.end)
+    ]
     made = problem.model
     return Motion(
         scene,
         tuple(found),
         tuple(curves),
         tuple(finished),
+        made.reason,
         1 + problem.free,
         made.gruebler_kutzbach,
         _idle(problem, run),
         which,
         left_out,
         tuple(notes),
+        drive,
+        tuple(assemblies),
     )
 
 
@@ -379,20 +421,25 @@ def _choose_components(
     return curves, left_out, expanded
 
 
-def _no_motion(curves: Sequence[RealCurve]) -> str:
+def _no_motion(curves: Sequence[RealCurve], left_out: str) -> str:
+    rest = f"; not looked at: {left_out}" if left_out else ""
     isolated = sum(len(curve.pieces) for curve in curves)
     if isolated:
         points = count_text(isolated, "isolated point")
-        return f"it has no real motion: its components have {points} that are real, and no curve"
-    return "it has no real motion: its components have no real points"
+        return (
+            f"it has no real motion: its components have {points} that are real, and no curve"
+            + rest
+        )
+    return "it has no real motion: its components of dimension 1 have no real points" + rest
 
 
 @dataclass(frozen=True, eq=False)
 class _FoundCircuit:
-    """A circuit, what it was made of, and how far along that it ends."""
+    """A circuit, the path and its values that it was made of, and how far along that it ends."""
 
     circuit: Circuit
     path: Path
+    values: Values
     end: float
 
 
@@ -477,12 +524,13 @@ def _sample(
             (),
         ),
         path,
+        values,
         path.length / 2 if twice else np.inf,
     )
 
 
 def _within_reach(curve: Curve, walk: CurveWalk) -> tuple[CurveWalk, bool]:
-    """An open walk as far as bodies stay near, and whether that is not all of it."""
+    """A walk as far as bodies stay near, and whether it goes to infinity, as open ones do."""
     if walk.closed:
         return walk, False
     poses, scene = curve.poses(walk.chart), curve.scene
@@ -492,7 +540,7 @@ def _within_reach(curve: Curve, walk: CurveWalk) -> tuple[CurveWalk, bool]:
     inside = np.flatnonzero(far <= np.nanmin(far) + REACH * scene.size)
     first, last = int(inside[0]), int(inside[-1])
     if (first == 0 and last == len(walk.chart) - 1) or last - first < 1:
-        return walk, False
+        return walk, True
     vertices = tuple((v, i - first) for v, i in walk.vertices if first <= i <= last)
     return CurveWalk(walk.piece, False, walk.chart[first : last + 1], vertices), True
 

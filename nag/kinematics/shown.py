@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nag.kinematics.joint_values import Coordinate
+from nag.kinematics.joint_values import Coordinate, joint_coordinates
 from nag.kinematics.motion import Circuit, Crossing, Motion
 from nag.kinematics.turning_points import STILL, TurningPoint, Values
 from nag.text.table import align, count_text, join_words, lines_of
@@ -79,7 +79,7 @@ def circuit_text(motion: Motion, circuit: Circuit) -> str:
     """One circuit in one line."""
     text = "closed" if circuit.closed else "open"
     if circuit.unbounded:
-        text += ", to infinity, followed for five sizes"
+        text += ", to infinity, followed for five sizes at most"
     if circuit.through_reference:
         begins = "begins at" if circuit.from_reference else "runs through"
         text += f", {begins} the reference configuration"
@@ -90,7 +90,7 @@ def circuit_text(motion: Motion, circuit: Circuit) -> str:
 
 def motion_rows(motion: Motion) -> list[tuple[str, str]]:
     """Labelled lines of the whole."""
-    rows = [("mobility", motion.sentence)]
+    rows = [("model", motion.reason), ("mobility", motion.sentence)]
     for i, component in enumerate(motion.components):
         text = f"dimension {component.dimension}, degree {component.degree}"
         own = [c for c in motion.circuits if c.component == i]
@@ -119,6 +119,27 @@ def _never_moving(motion: Motion) -> list[str]:
         for name in dict.fromkeys(names)
         if all(s for s, other in zip(still, names, strict=True) if other == name)
     ]
+
+
+def assembly_rows(motion: Motion) -> list[str]:
+    """The table of assemblies with a joint held: a line for each."""
+    assert motion.drive is not None
+    coordinates = joint_coordinates(motion.scene)
+    rows = [["assembly", "circuit", *(c.name for c in coordinates)]]
+    for number, each in enumerate(motion.assemblies, start=1):
+        values = zip(coordinates, each.values, strict=True)
+        texts = [value_text(c, value) for c, value in values]
+        rows.append([str(number), str(each.circuit), *texts])
+    return align(rows)
+
+
+def drive_text(motion: Motion) -> str:
+    """What is held, and how many assemblies there are."""
+    drive = motion.drive
+    assert drive is not None
+    each = next(c for c in joint_coordinates(motion.scene) if c.name == drive.coordinate)
+    count = count_text(len(motion.assemblies), "real assembly", "real assemblies")
+    return f"{each.name} at {value_text(each, drive.value)}: {count}"
 
 
 def motion_text(motion: Motion) -> str:

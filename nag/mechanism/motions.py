@@ -119,10 +119,13 @@ def motion_of(poses: np.ndarray, systems: Sequence[np.ndarray], length: float) -
 def _motion_of_group(
     twists: np.ndarray, turning: int, pose: np.ndarray, length: float
 ) -> MotionType:
-    """The group whose twists these are, and how it lies."""
+    """The group whose twists these are, and how it lies; unnamed where its axis is not real."""
     rank = len(twists)
     slides = _translations(twists, turning)
     turn = pose[:4] / np.sqrt(np.sum(pose[:4] ** 2))
+    if not _has_real_span(slides) or (turning == 1 and not _has_real_span(twists[:, :3])):
+        # Modes without real poses may have such axes, isotropic ones among them.
+        return MotionType(rank, turning, "")
     if not turning:
         names = ("", "translation along", "translation parallel to a plane", "translation")
         place = _vector_text(slides[0]) if rank == 1 else ""
@@ -146,6 +149,8 @@ def _motion_of_group(
     if (turning, rank) == (3, 3):
         # The velocity of the origin of a turn w about the centre c is c x w.
         found = np.linalg.lstsq(_cross_rows(twists[:, :3]), twists[:, 3:].ravel(), rcond=None)[0]
+        if np.abs(found.imag).max() > NO_PITCH:
+            return MotionType(rank, turning, "spherical motion", "about a complex point")
         centre = found.real * length
         place = f"about the point {_point_text(centre)}"
         return MotionType(rank, turning, "spherical motion", place)
@@ -160,7 +165,9 @@ def _cross_rows(axes: np.ndarray) -> np.ndarray:
 
 def _start_text(turn: np.ndarray) -> str:
     """A constant orientation, a unit quaternion, in words; empty for that of the reference."""
-    if np.abs(turn.imag).max() > NO_PITCH or np.linalg.norm(turn[1:]) < NO_PITCH:
+    if np.abs(turn.imag).max() > NO_PITCH:
+        return "turned by a complex angle"
+    if np.linalg.norm(turn[1:]) < NO_PITCH:
         return ""
     turn = turn.real * (1 if turn[0].real >= 0 else -1)
     angle = np.degrees(2 * np.arctan2(np.linalg.norm(turn[1:]), turn[0]))
@@ -174,6 +181,11 @@ def _over_text(turn: np.ndarray, axis: np.ndarray) -> str:
     vector = np.array([0, *axis, 0, 0, 0, 0])
     moved = multiply_poses(multiply_poses(motion, vector), conjugate_pose(motion))[1:4]
     return "turned over" if np.linalg.norm(moved + axis) < NO_PITCH * np.linalg.norm(axis) else ""
+
+
+def _has_real_span(vectors: np.ndarray) -> bool:
+    """Whether vectors span what their complex conjugates span; shape ``(d, n)``."""
+    return not len(vectors) or _rank(np.vstack([vectors, vectors.conj()])) == _rank(vectors)
 
 
 def _vector_text(vector: np.ndarray) -> str:

@@ -229,6 +229,9 @@ def _link(
                 return [_shape("tube", _arc(corners[0], *arms), (radius,))]
         way = [ends[0], corners[0], corners[1], ends[1]]
         return [_shape("tube", _without_repeats(way, radius), (radius,))]
+    ends = _without_same(ends, radius / 100)
+    if len(ends) < 2:
+        return []
     if len(ends) == 2:
         return [_shape("rod", ends, (radius,))]
     middle = np.mean(ends, axis=0)

@@ -19,9 +19,9 @@ from nag.kinematics.shown import crossing_text, range_text, turning_text
 from nag.page.link_shapes import BodyShape, Shapes, link_shapes
 from nag.text.table import count_text
 
-# Bytes that the numbers of all circuits may take, in base64: with the bundle a page stays under a
-# million. Circuits have fewer frames where there are many, but so many at least.
-BYTES, LEAST_FRAMES = 300_000, 48
+# Bytes of a page, and of those the numbers of all circuits in base64, at most. Circuits have fewer
+# frames where there are many, but so many at least.
+MOST_BYTES, BYTES, LEAST_FRAMES = 985_000, 315_000, 24
 # Decimals of places in shapes, over the typical link's length.
 DECIMALS = 6
 # How much of the light of a colour each body has is not decided here: see viewer.js.
@@ -42,9 +42,19 @@ def motion_page(motion: Motion, title: str, file: str) -> str:
     """
     if not motion.circuits:
         raise NagError("html: there is no real motion to show")
-    text = json.dumps(_page_data(motion, title, file), separators=(",", ":"), allow_nan=False)
+    page = _with_frames(motion, title, file, _frame_count(motion, BYTES))
+    excess = len(page.encode()) - MOST_BYTES
+    if excess > 0:
+        page = _with_frames(motion, title, file, _frame_count(motion, BYTES - excess))
+    return page
+
+
+def _with_frames(motion: Motion, title: str, file: str, frames: int) -> str:
+    """The page with so many frames for each circuit, at most."""
+    data = _page_data(motion, title, file, frames)
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     # Nothing in a script's text may end it.
-    data = text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+    safe = text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
     parts = {
         "title": escape(title),
         "subtitle": escape(subtitle(motion)),
@@ -52,7 +62,7 @@ def motion_page(motion: Motion, title: str, file: str) -> str:
         "test": _part("self_test.js"),
         "licence": _part("three.LICENSE").strip(),
         "three": _part("three.bundle.js"),
-        "data": data,
+        "data": safe,
         "viewer": _part("viewer.js"),
     }
     return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _read("page.html"))
@@ -77,12 +87,12 @@ def _part(name: str) -> str:
     return re.sub(r"</(script|style)", r"<\\/\1", _read(name), flags=re.IGNORECASE)
 
 
-def _page_data(motion: Motion, title: str, file: str) -> dict[str, Any]:
+def _page_data(motion: Motion, title: str, file: str, frames: int) -> dict[str, Any]:
+    """What the page shows, for its script."""
     scene = motion.scene
     shapes = link_shapes(scene, _slide_ranges(motion))
     root = _root_turn(motion)
     colours = _colours(motion)
-    frames = _frame_count(motion)
     ground = motion.circuits[0].poses.turns[scene.ground, 0]
     return {
         "title": title,
@@ -126,7 +136,7 @@ def _what(motion: Motion) -> str:
 
 def facts(motion: Motion) -> list[list[str]]:
     """What is said of the whole motion beside the picture."""
-    rows = [["mobility", motion.sentence]]
+    rows = [["mobility", motion.sentence], ["model", motion.reason]]
     for i, component in enumerate(motion.components):
         name = "component" if len(motion.components) == 1 else f"component {i + 1}"
         on = sum(c.component == i for c in motion.circuits)
@@ -179,12 +189,12 @@ def _colours(motion: Motion) -> list[int]:
     return found
 
 
-def _frame_count(motion: Motion) -> int:
-    """How many frames each circuit has, so that all of them fit in one page."""
+def _frame_count(motion: Motion, most: int) -> int:
+    """How many frames each circuit has, for all of them to take so many bytes at most."""
     first = motion.circuits[0]
     numbers = 7 * len(motion.scene.bodies) + len(first.values.coordinates)
     # Four bytes each, in base64 a third more.
-    frames = int(BYTES * 3 / 16 / numbers / len(motion.circuits))
+    frames = int(most * 3 / 16 / numbers / len(motion.circuits))
     if frames < LEAST_FRAMES:
         raise NagError(
             f"html: {len(motion.circuits)} circuits of {len(motion.scene.bodies)} bodies do not "

@@ -340,7 +340,7 @@
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.Float32BufferAttribute(lines, 3));
     scene.add(new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: "#e6e8e8" })));
-    scene.fog = new THREE.Fog(PAPER, 4.2 * radius, 8.5 * radius);
+    scene.fog = new THREE.Fog(PAPER, 5.9 * radius, 11 * radius);
     standOn(low);
     sun.position.set(middle.x + 1.2 * radius, middle.y - 1.5 * radius, middle.z + 3.2 * radius);
     fill.position.set(middle.x - 2 * radius, middle.y - radius, middle.z + radius);
@@ -421,14 +421,14 @@
       camera.position.set(middle.x + 0.05 * distance, middle.y - 0.02 * distance, middle.z + distance);
     } else {
       camera.up.set(0, 0, 1);
-      const distance = (1.22 * radius) / half;
+      const distance = (1.3 * radius) / half;
       camera.position.copy(middle).add(new Vector3(0.46, -0.8, 0.4).normalize().multiplyScalar(distance));
     }
     camera.near = 0.02 * radius;
     camera.far = 60 * radius;
     camera.updateProjectionMatrix();
     controls.target.copy(middle);
-    if (!data.planar) controls.target.z -= 0.1 * radius;
+    if (!data.planar) controls.target.z -= 0.03 * radius;
     controls.update();
   }
   function resize() {

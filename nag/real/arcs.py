@@ -25,7 +25,7 @@ from nag.real.real_fibres import SpecialFibre, real_fibre
 
 # Angles from the ends of an interval at which arcs are told to which vertices they go, tried in
 # turn; and how much nearer the vertex must be than all others.
-NEAR_END = (0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4)
+NEAR_END = (0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4)
 # Decides: Distance from the vertex that an arc goes to, beside that from the next one; else it is
 # looked nearer to the end.
 NEARER = 0.3

@@ -26,6 +26,8 @@ from nag.real.curve import Turn
 AT_INFINITY = 1e-9
 # Decides: The same of norms of displacements.
 NO_NORM = 1e-7
+# Eigenvalues of quadratic forms, beside the largest, that rounding makes negative.
+NEGATIVE = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +69,7 @@ class ProjectiveClosure:
             tuple(
                 _homogeneous(f, groups)
                 for f in system.nonzero
-                if {i for e in f.terms for i, k in enumerate(e) if k} <= set(group)
+                if system.groups and _is_norm(f, group)
             )
             for group in groups
         )
@@ -207,6 +209,22 @@ class ProjectiveClosure:
             patches[g] = np.where(self.group_of == g, point, 0)
         s = np.linalg.svd(np.vstack([own, patches]), compute_uv=False)
         return float(s[self.size - 2] / s[0])
+
+
+def _is_norm(f: Polynomial, group: Sequence[int]) -> bool:
+    """Whether a polynomial in a group is quadratic and nowhere negative, infinity included."""
+    if {i for e in f.terms for i, k in enumerate(e) if k} - set(group) or f.degree != 2:
+        return False
+    size = 1 + len(group)
+    place = {i: 1 + k for k, i in enumerate(group)}
+    matrix = np.zeros((size, size))
+    for e, c in f.terms.items():
+        factors = [place[i] for i, k in enumerate(e) for _ in range(k)]
+        i, j = [0] * (2 - len(factors)) + factors
+        matrix[i, j] += float(c) / 2
+        matrix[j, i] += float(c) / 2
+    values = np.linalg.eigvalsh(matrix)
+    return bool(values[0] > -NEGATIVE * values[-1])
 
 
 def _homogeneous(f: Polynomial, groups: Sequence[Sequence[int]]) -> Polynomial:

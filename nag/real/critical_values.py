@@ -16,10 +16,9 @@ from dataclasses import dataclass
 import flint
 import numpy as np
 
-from nag.algebra.system import PolynomialSystem
+from nag.algebra.polynomial import Polynomial
 from nag.numerics.digits import bits_of, in_bits, middle
 from nag.real.fibre_table import SPARE, CircleOfFibres, roots_of
-from nag.witness.cutting import Cut
 
 # Decides: The same of coefficients of products over fibres that are zero.
 NOTHING = 0.6
@@ -56,20 +55,23 @@ def discriminant_degree(degree: int, real: bool) -> int:
     return degree * (degree - 1) if real else degree * degree
 
 
-def determinant_degree(cut: Cut, system: PolynomialSystem, multidegree: Sequence[int]) -> int:
+def determinant_degree(
+    equations: Sequence[Polynomial], groups: Sequence[Sequence[int]], multidegree: Sequence[int]
+) -> int:
     """Largest degree of the product of determinants over the points of a curve.
 
     Args:
-        multidegree: of the curve in the system's groups; empty where it has none.
+        equations: one fewer than variables.
+        groups: of the variables; without them the multidegree is the degree.
     """
-    degree = sum(multidegree)
-    if not system.groups:
-        return degree * sum(max(f.degree - 1, 0) for f in cut.polynomials)
+    degree = sum(multidegree) * sum(max(f.degree - 1, 0) for f in equations)
+    if not groups:
+        return degree
     tops = [
-        sum(max(sum(e[i] for i in group) for e in f.terms) for f in cut.polynomials)
-        for group in system.groups
+        sum(max((sum(e[i] for i in group) for e in f.terms), default=0) for f in equations)
+        for group in groups
     ]
-    return sum(m * top for m, top in zip(multidegree, tops, strict=True))
+    return min(degree, sum(m * top for m, top in zip(multidegree, tops, strict=True)))
 
 
 def discriminant_values(circle: CircleOfFibres, rng: np.random.Generator) -> list[flint.acb]:

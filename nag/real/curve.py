@@ -152,6 +152,10 @@ class RealCurve:
         reason: what is not decided; empty otherwise.
         critical_values: of the projection, real, by which fibres the pieces were told.
         residual: largest relative residual of the equations at the points of edges.
+        meetings: points, shape ``(k, n)``, at which the curve passes smoothly and the equations are
+            singular: it meets other components there, real ones or not. None where they are not
+            known: of curves that are not reduced, on which an equation's factor vanishes, or of
+            such degrees that only differences of points told the critical values.
     """
 
     variables: tuple[str, ...]
@@ -163,11 +167,14 @@ class RealCurve:
     reason: str = ""
     critical_values: tuple[float, ...] = ()
     residual: float = field(default=0.0, compare=False)
+    meetings: np.ndarray | None = None
 
     __eq__ = equal_values
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "verdict", PictureVerdict(self.verdict))
+        if self.meetings is not None:
+            object.__setattr__(self, "meetings", fixed_array(self.meetings, float))
 
     @property
     def complete(self) -> bool:
@@ -219,6 +226,7 @@ class RealCurve:
             "reason": self.reason,
             "critical_values": list(self.critical_values),
             "residual": self.residual,
+            "meetings": None if self.meetings is None else self.meetings.tolist(),
             "vertices": [{"kind": str(v.kind), "point": v.point.tolist()} for v in self.vertices],
             "edges": [
                 {

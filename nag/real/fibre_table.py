@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import flint
 import numpy as np
 
+from nag.algebra.polynomial import Polynomial
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import EXACT, bits_of, in_bits, middle
@@ -53,7 +54,7 @@ class CircleOfFibres:
         points: for each value the points, of ``n`` coordinates each.
         conjugates: of another curve the points of its conjugate.
         determinants: for each value the product over the points of ``det [J; form]``, with J of the
-            square system that cuts the curve; None where it has no such system alone.
+            square system; None where there is none.
     """
 
     form: np.ndarray
@@ -106,11 +107,13 @@ def sample_circle(
     digits: int,
     rng: np.random.Generator,
     run: Run,
+    square: Sequence[Polynomial] = (),
 ) -> CircleOfFibres:
     """Fibres over points of a circle.
 
     Args:
         fibres: the curve's points on one slice.
+        square: equations, one fewer than variables, whose determinants are asked for.
 
     Raises:
         FibreError: if a path fails.
@@ -118,13 +121,13 @@ def sample_circle(
     with in_bits(bits_of(digits + SPARE)):
         turns = unit_roots(2 * count)
         at = [middle(turns[2 * k + 1] * flint.arb(radius)) for k in range(count)]
-    alone = len(fibres) == 1 and not fibres[0].cut.aux
+    slopes = BallPolynomials.of(square, form_row(form)) if square else None
     found: list[tuple[list[Point], flint.acb] | None] = [None] * count
 
     def fibre(k: int) -> tuple[list[Point], flint.acb]:
         known = found[k]
         if known is None:
-            known = found[k] = _fibre_over(fibres, form, at[k], digits, rng, run)
+            known = found[k] = _fibre_over(fibres, form, at[k], digits, rng, run, slopes)
         return known
 
     upper, lower = fibre(0), fibre(count - 1)
@@ -140,8 +143,13 @@ def sample_circle(
     table = [entry for entry in found if entry is not None]
     points = [p for p, _ in table]
     others = [] if real else [conjugates_of(points[count - 1 - k]) for k in range(count)]
-    products = [product for _, product in table] if alone and real else None
+    products = [product for _, product in table] if square and real else None
     return CircleOfFibres(form, radius, digits, real, points, others, products)
+
+
+def form_row(form: np.ndarray) -> np.ndarray:
+    """A linear form as a row on ``(1, x)``."""
+    return np.concatenate([[0.0], form])[None].astype(complex)
 
 
 def conjugates_of(points: Sequence[Point]) -> list[Point]:
@@ -173,6 +181,7 @@ def _fibre_over(
     digits: int,
     rng: np.random.Generator,
     run: Run,
+    slopes: BallPolynomials | None,
 ) -> tuple[list[Point], flint.acb]:
     """The points over a value, and the product of their determinants."""
     rows = np.concatenate([[-complex(t)], form])[None].astype(complex)
@@ -195,8 +204,9 @@ def _fibre_over(
             if zero is None or zero.error > -digits:
                 raise FibreError("Newton's method does not converge on a fibre")
             points.append([middle(z) for z in zero.point[:n]])
-            with in_bits(bits):
-                product = middle(product * system.jacobian(zero.point, bits).det())
+            if slopes is not None:
+                with in_bits(bits):
+                    product = middle(product * slopes.jacobian(points[-1], bits).det())
     return points, product
 
 

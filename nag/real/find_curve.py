@@ -26,7 +26,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.real.arc_tracing import TracingError
-from nag.real.arcs import Skeleton, connect, find_arcs, join_arcs
+from nag.real.arcs import SINGULAR, Skeleton, connect, find_arcs, join_arcs
 from nag.real.closure import ProjectiveClosure, turns_of
 from nag.real.critical_values import (
     UnclearDigitsError,
@@ -141,13 +141,16 @@ def _find(
     form = rng.integers(64, 128, system.n) * rng.choice([-1, 1], system.n) / 128
     sizes = np.abs(np.vstack([fibre.x for fibre in fibres]) @ form)
     radius = float(np.ldexp(1.0, int(np.ceil(np.log2(max(LEAST_RADIUS, sizes.max()))))))
-    circle, degrees = _sample(system, component, fibres, form, radius, digits, rng, run)
+    square = _square_equations(equations, fibres)
+    circle, degrees = _sample(system, component, fibres, square, form, radius, digits, rng, run)
     table = fibre_table(circle, rng)
     closure = ProjectiveClosure.of(equations, system, form)
     alike = 1 if component.multidegree is None else int(component.multidegree.max(initial=1))
-    specials = _special_fibres(circle, degrees, table, closure, alike, rng)
+    specials, crossed = _special_fibres(circle, degrees, table, closure, alike, rng)
     arcs = find_arcs(table, closure, specials, radius)
     skeleton = join_arcs(closure, specials, arcs, turns)
+    # Of a factor of an equation the determinants say nothing of the other ones.
+    whole = set(square) <= set(system.polynomials)
     doubt = skeleton.doubt or _too_many_pieces(skeleton, circle.degree)
     residual = _residual(system, skeleton)
     return RealCurve(
@@ -160,13 +163,25 @@ def _find(
         doubt,
         tuple(float(s.pencil[0]) for s in specials[:-1]),
         residual,
+        closure.affine(crossed) if crossed is not None and whole else None,
     )
+
+
+def _square_equations(
+    equations: Sequence[Polynomial], fibres: Sequence[Fibre]
+) -> tuple[Polynomial, ...]:
+    """One equation fewer than variables, regular at general points of the curve; or none."""
+    if len(equations) == fibres[0].cut.n - 1:
+        return tuple(equations)
+    alone = len(fibres) == 1 and not fibres[0].cut.aux
+    return fibres[0].cut.polynomials if alone else ()
 
 
 def _sample(
     system: PolynomialSystem,
     component: WitnessSet,
     fibres: Sequence[Fibre],
+    square: Sequence[Polynomial],
     form: np.ndarray,
     radius: float,
     digits: int,
@@ -180,14 +195,12 @@ def _sample(
     d = component.degree
     discriminant = discriminant_degree(d, True)
     determinant: int | None = None
-    if len(fibres) == 1 and not fibres[0].cut.aux:
-        multidegree = [] if component.multidegree is None else component.multidegree.tolist()
-        if system.groups and sum(multidegree) != d:
+    if square:
+        # Component by component of a product of spaces; in one space it is the degree.
+        multidegree = [d] if component.multidegree is None else component.multidegree.tolist()
+        if len(system.groups) not in (0, len(multidegree)):
             multidegree = [d] * len(system.groups)
-        bounds = [determinant_degree(fibres[0].cut, system, multidegree or [d])]
-        if system.groups:
-            bounds.append(d * sum(max(f.degree - 1, 0) for f in fibres[0].cut.polynomials))
-        determinant = min(bounds)
+        determinant = determinant_degree(square, system.groups, multidegree)
     known = [b for b in (discriminant, determinant) if b is not None]
     if min(known) * d > MOST_POINTS:
         raise RealCurveError(
@@ -196,7 +209,7 @@ def _sample(
         )
     wanted = max(known) if max(known) * d <= MOST_CHECKED else min(known)
     count = max(wanted, d + 1) + 1 + MORE_SAMPLES
-    circle = sample_circle(fibres, form, radius, count, digits, rng, run)
+    circle = sample_circle(fibres, form, radius, count, digits, rng, run, square)
     if not circle.real:
         needed = max(discriminant_degree(d, False), 2 * d + 1) + 1 + MORE_SAMPLES
         if needed > count:
@@ -212,20 +225,27 @@ def _special_fibres(
     closure: ProjectiveClosure,
     alike: int,
     rng: np.random.Generator,
-) -> list[SpecialFibre]:
+) -> tuple[list[SpecialFibre], np.ndarray | None]:
     """The fibres over values at which real points meet, ascending, and last that over infinity.
+
+    Also the smooth real points at which the equations are singular, where they are known.
 
     Raises:
         UnclearDigitsError: if the two methods disagree.
     """
     enough = circle.count - MORE_SAMPLES
     found: list[list[SpecialFibre]] = []
+    crossed: np.ndarray | None = None
     discriminant, determinant = degrees
     if discriminant < enough:
-        values = discriminant_values(circle, rng)
-        found.append(_singular_fibres(circle, values, discriminant, table, closure))
+        zeros = real_zeros(circle, discriminant_values(circle, rng), discriminant)
+        fibres = [special_fibre(table, closure, zero.value) for zero in zeros]
+        found.append([fibre for fibre in fibres if fibre.singular])
     if determinant is not None and determinant < enough and circle.determinants is not None:
-        found.append(_singular_fibres(circle, circle.determinants, determinant, table, closure))
+        zeros = real_zeros(circle, circle.determinants, determinant)
+        fibres = [special_fibre(table, closure, zero.value) for zero in zeros]
+        found.append([fibre for fibre in fibres if fibre.singular])
+        crossed = _crossed(closure, fibres)
     if len(found) == 2:
         one, other = ([s.pencil[0] for s in each] for each in found)
         if len(one) != len(other) or not np.allclose(one, other, rtol=0, atol=SAME * circle.radius):
@@ -235,19 +255,18 @@ def _special_fibres(
         # Any other value serves to cut loops that reach from infinity to infinity.
         value = flint.arb(float(rng.integers(-32, 32)) / 128)
         specials = [special_fibre(table, closure, value)]
-    return [*specials, _over_infinity(circle, table, closure, alike, specials)]
+    return [*specials, _over_infinity(circle, table, closure, alike, specials)], crossed
 
 
-def _singular_fibres(
-    circle: CircleOfFibres,
-    values: Sequence[flint.acb],
-    top: int,
-    table: FibreTable,
-    closure: ProjectiveClosure,
-) -> list[SpecialFibre]:
-    zeros = real_zeros(circle, values, top)
-    fibres = [special_fibre(table, closure, zero.value) for zero in zeros]
-    return [fibre for fibre in fibres if fibre.singular]
+def _crossed(closure: ProjectiveClosure, fibres: Sequence[SpecialFibre]) -> np.ndarray:
+    """Smooth real points at which the equations are singular, shape ``(k, size)``."""
+    points = [
+        fibre.points[i].real
+        for fibre in fibres
+        for i in np.flatnonzero(fibre.real & (fibre.sheets == 1))
+    ]
+    kept = [x for x in points if closure.corank_gap(x) < SINGULAR and not closure.is_infinite(x)]
+    return np.array(kept).reshape(-1, closure.size)
 
 
 def _over_infinity(
@@ -296,8 +315,9 @@ def _in_given_coordinates(
     back = natural.inverse
     turns = turns_of(system)
     vertices = tuple(replace(v, point=back.points(v.point)) for v in found.vertices)
+    meetings = None if found.meetings is None else back.points(found.meetings)
     edges = []
     for edge in found.edges:
         points = back.points(edge.points)
         edges.append(RealEdge(edge.start, edge.end, points, chart_of(points, turns)))
-    return replace(found, turns=turns, vertices=vertices, edges=tuple(edges))
+    return replace(found, turns=turns, vertices=vertices, edges=tuple(edges), meetings=meetings)

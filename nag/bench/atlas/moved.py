@@ -20,8 +20,8 @@ from nag.bench.verdicts import Components
 from nag.files.cases import read_case
 from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.legs import parallel_robot
-from nag.mechanism.model import model
 from nag.mechanism.platform import platform_model
+from nag.mechanism.problem import problem_of
 
 CASES = Path("cases")
 
@@ -210,15 +210,13 @@ def case_system(name: str) -> tuple[PolynomialSystem, Components]:
     For a mechanism that of the fewest paths, for a parallel robot that of its platform's poses.
     """
     case = read_case(CASES / f"{name}.toml")
-    system, formulation = case.system, None
     if any(item.formulation == PLATFORM_ALONE for item in case.truth):
         robot = parallel_robot(case.described)
         system = platform_model(robot, np.random.default_rng(0)).system
         formulation = PLATFORM_ALONE
-    elif case.mechanism is not None:
-        made = model(case.mechanism)
-        system, formulation = made.system, made.formulation
-    assert system is not None
+    else:
+        problem = problem_of(case)
+        system, formulation = problem.system, problem.formulation
     truth = points()
     for item in case.truth:
         if item.formulation in (None, formulation):

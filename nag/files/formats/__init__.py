@@ -9,7 +9,9 @@ To add a format, write such a file with ``read`` or ``write``, and enter it in `
 `writing.WRITERS` and in `docs/formats.md`.
 """
 
-# Formats that are read: TOML for all kinds of cases, the others for polynomial systems.
-READ = ("toml", "bertini", "phc", "m2", "singular", "text")
+# Formats that are read: TOML for all kinds of cases, the others for polynomial systems,
+# and those of robots (`nag.files.robots`).
+ROBOTS = ("urdf", "mjcf")
+READ = ("toml", "bertini", "phc", "m2", "singular", "text", *ROBOTS)
 # Formats that are written.
 WRITTEN = ("bertini", "phc", "m2", "singular", "text", "sympy", "hc", "latex")

@@ -1,0 +1,138 @@
+"""Files in XML as plain data: elements, their attributes and lines.
+
+Document types and entities are refused, so that nothing in a file grows or leads to another file.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from dataclasses import dataclass, field
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any, NoReturn
+from xml.parsers import expat
+
+from nag.algebra.tokens import nearest, quote
+from nag.files.case_table import CaseError, line_of
+
+MAX_ELEMENTS = 20_000
+MAX_DEPTH = 100
+MAX_NUMBER = 60
+
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,2})?", re.ASCII)
+
+
+@dataclass(eq=False)
+class XmlElement:
+    """An element of a file.
+
+    Attributes:
+        file: path of the file.
+        line: where it begins, from 1.
+        tag: its name.
+        attributes: texts by name.
+        children: the elements inside, in order.
+    """
+
+    file: str
+    line: int
+    tag: str
+    attributes: dict[str, str]
+    children: list[XmlElement] = field(default_factory=list)
+
+    def fail(self, message: str, key: str | None = None) -> NoReturn:
+        """Raise a `CaseError` about the element, or one of its attributes."""
+        name = self.attributes.get("name", "")
+        shown = f"<{self.tag}>" + (f" {quote(name)}" if name else "")
+        raise CaseError(line_of(self.file, f"line {self.line}", shown, key, message))
+
+    def all(self, tag: str) -> list[XmlElement]:
+        """The elements of a name inside."""
+        return [child for child in self.children if child.tag == tag]
+
+    def one(self, tag: str) -> XmlElement | None:
+        """The only element of a name inside, None if there is none."""
+        found = self.all(tag)
+        if len(found) > 1:
+            found[1].fail(f"is there twice in <{self.tag}>; leave one of them out")
+        return found[0] if found else None
+
+    def text(self, key: str) -> str:
+        """An attribute that must be there, in one line."""
+        if key not in self.attributes:
+            self.fail(f'is missing; write {key}="..."', key)
+        value = self.attributes[key].strip()
+        if not value or not value.isprintable():
+            self.fail("is empty or holds a control character; write a name", key)
+        return value
+
+    def choice(self, key: str, among: Collection[str], default: str) -> str:
+        """An attribute that is one of some words."""
+        value = self.attributes.get(key, default).strip()
+        if value not in among:
+            self.fail(
+                f"{quote(value)} is unknown{nearest(value, among)}; write one of "
+                f"{', '.join(among)}",
+                key,
+            )
+        return value
+
+    def numbers(self, key: str, count: int, default: str | None = None) -> tuple[Fraction, ...]:
+        """Decimal numbers with spaces between, exact as they are written."""
+        if key not in self.attributes and default is None:
+            self.fail(f"is missing; write {count} numbers", key)
+        words = self.attributes.get(key, default or "").split()
+        if len(words) != count:
+            self.fail(f"has {len(words)} entries; write {count} numbers", key)
+        return tuple(self._number(word, key) for word in words)
+
+    def _number(self, word: str, key: str) -> Fraction:
+        if "${" in word or "$(" in word:
+            self.fail("is an expression of xacro; expand the file with xacro first", key)
+        if len(word) > MAX_NUMBER or _NUMBER.fullmatch(word) is None:
+            self.fail(f"{quote(word)} is no decimal number; write one of 60 places or less", key)
+        return Fraction(Decimal(word))
+
+
+def parse_xml(file: str, text: str) -> XmlElement:
+    """The element that a text in XML is.
+
+    Raises:
+        CaseError: if it is not XML, has a document type or entities, or is too large.
+    """
+    stack: list[XmlElement] = []
+    roots: list[XmlElement] = []
+    count = 0
+    # The text is decoded already, whatever encoding its first line names.
+    parser = expat.ParserCreate("utf-8")
+
+    def fail(message: str) -> NoReturn:
+        raise CaseError(line_of(file, f"line {parser.CurrentLineNumber}", message))
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        nonlocal count
+        count += 1
+        if count > MAX_ELEMENTS or len(stack) >= MAX_DEPTH:
+            fail(f"more than {MAX_ELEMENTS} elements, or {MAX_DEPTH} inside of each other")
+        if tag.startswith("xacro:"):
+            fail(f"<{tag}> is a macro of xacro; expand the file with xacro first")
+        element = XmlElement(file, parser.CurrentLineNumber, tag, dict(attributes))
+        (stack[-1].children if stack else roots).append(element)
+        stack.append(element)
+
+    def refuse(*_: Any) -> None:
+        fail("a document type or an entity is declared; leave it out, and write what it stands for")
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = lambda _: stack.pop()
+    parser.StartDoctypeDeclHandler = refuse
+    parser.EntityDeclHandler = refuse
+    try:
+        parser.Parse(text.encode(), True)
+    except expat.ExpatError as error:
+        message = expat.ErrorString(error.code)
+        raise CaseError(
+            line_of(file, f"line {error.lineno}", f"is not valid XML: {message}; mend it there")
+        ) from None
+    return roots[0]

@@ -1,0 +1,202 @@
+"""Robots in URDF and MJCF, as mechanisms with their hands held and their loops closed."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from math import atan2
+from pathlib import Path
+
+import pytest
+
+import nag
+from nag.cli import main
+from nag.files.cases import CaseError, read_case
+from nag.files.robots.given_rotation import GivenFrame, turns_in_order
+
+HALF = "1.5707963267948966"
+
+
+def urdf(*joints: tuple[str, str, str, str]) -> str:
+    """A chain of joints: type, xyz, rpy, axis."""
+    links = "".join(f'<link name="l{k}"/>\n' for k in range(len(joints) + 1))
+    text = "".join(
+        f'<joint name="j{k + 1}" type="{kind}"><parent link="l{k}"/><child link="l{k + 1}"/>'
+        f'<origin xyz="{xyz}" rpy="{rpy}"/><axis xyz="{axis}"/></joint>\n'
+        for k, (kind, xyz, rpy, axis) in enumerate(joints)
+    )
+    return f'<?xml version="1.0"?>\n<robot name="arm">\n{links}{text}</robot>\n'
+
+
+UR5 = urdf(
+    ("revolute", "0 0 0.089159", "0 0 0", "0 0 1"),
+    ("revolute", "0 0.13585 0", f"0 {HALF} 0", "0 1 0"),
+    ("revolute", "0 -0.1197 0.425", "0 0 0", "0 1 0"),
+    ("revolute", "0 0 0.39225", f"0 {HALF} 0", "0 1 0"),
+    ("revolute", "0 0.093 0", "0 0 0", "0 0 1"),
+    ("revolute", "0 0 0.09465", "0 0 0", "0 1 0"),
+    ("fixed", "0 0.0823 0", f"0 0 {HALF}", "1 0 0"),
+)
+SRS = urdf(
+    *(
+        ("continuous", "0 0 0.3" if k in (3, 4) else "0 0 0", "0 0 0", axis)
+        for k, axis in enumerate(["0 0 1", "0 1 0", "0 0 1", "0 1 0", "0 0 1", "0 1 0", "0 0 1"])
+    )
+)
+SCARA = urdf(
+    ("revolute", "0 0 0.4", "0 0 0", "0 0 1"),
+    ("revolute", "0.3 0 0", "0 0 0", "0 0 1"),
+    ("revolute", "0.25 0 0", "0 0 0", "0 0 1"),
+    ("prismatic", "0 0 0", "0 0 0", "0 0 -1"),
+)
+FOUR_BAR = """<mujoco model="four-bar"><compiler angle="radian"/><worldbody>
+<body name="a"><joint name="A" axis="0 1 0"/>
+ <body name="b" pos="0 0 1"><joint name="B" axis="0 1 0"/>
+  <body name="c" pos="2 0 0.5"><joint name="C" axis="0 1 0"/></body></body></body>
+</worldbody><equality><connect body1="c" anchor="0.5 0 -1.5"/></equality></mujoco>
+"""
+LEGS = "".join(
+    f"""<body name="u{k}" pos="{x} {y} 0"><joint name="hip{k}" axis="0 0 1"/>
+<joint name="lift{k}" axis="{-y} {x} 0"/><body name="f{k}" pos="{x} {y} 0">
+<joint name="knee{k}" axis="{-y} {x} 0"/><site name="s{k}" pos="0 0 -1"/>
+</body></body>"""
+    for k, (x, y) in enumerate([(1, 1), (1, 0), (1, -1), (-1, -1), (-1, 0), (-1, 1)])
+)
+FEET = "".join(f'<weld body1="f{k}"/>' for k in range(6))
+HEXAPOD = f"""<mujoco><worldbody><body name="trunk" pos="0 0 1"><freejoint/>{LEGS}</body>
+</worldbody><equality>{FEET}</equality></mujoco>"""
+
+
+def delta_leg(k: int, inside: str = "") -> str:
+    """An arm, and two rods down to the platform, which hangs on the first rod of the first leg."""
+    rods = "".join(
+        f'<body name="rod{k}{i}" pos="0.5 {y} 0"><joint type="ball"/>{inside if i else ""}</body>'
+        for i, y in enumerate(("-0.2", "0.2"))
+    )
+    return f"""<frame euler="0 0 {120 * k}"><body name="arm{k}" pos="1 0 0">
+<joint name="J{k}" axis="0 1 0"/>{rods}</body></frame>"""
+
+
+PLATFORM = '<body name="platform" pos="-1.1 0 -2"><joint type="ball"/></body>'
+RODS = "".join(
+    f'<connect body1="rod{k}{i}" body2="platform" anchor="-1.1 0 -2"/>'
+    for k in range(3)
+    for i in range(2)
+    if (k, i) != (0, 1)
+)
+DELTA = f"""<mujoco><worldbody>{delta_leg(0, PLATFORM)}{delta_leg(1)}{delta_leg(2)}</worldbody>
+<equality>{RODS}</equality></mujoco>"""
+
+
+def local(path: Path, **given: object) -> int:
+    case = read_case(path, **given)
+    return nag.mobility(case, detail="local").local_dimension
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "robot.xml"
+    path.write_text(text)
+    return path
+
+
+ELBOW = {"j1": "0.3", "j2": "-0.7", "j3": "1.1", "j4": "0.4", "j5": "0.9", "j6": "0.2"}
+
+
+def test_a_general_arm_of_six_turns_is_rigid_with_its_hand_held(tmp_path: Path) -> None:
+    assert local(written(tmp_path, UR5), hold=["l7"], at=ELBOW) == 0
+
+
+def test_an_arm_of_seven_turns_has_one_freedom_left(tmp_path: Path) -> None:
+    at = {f"j{k}": f"{k}/5" for k in range(1, 8)}
+    assert local(written(tmp_path, SRS), hold=["l7"], at=at) == 1
+
+
+def test_a_scara_is_rigid_with_its_hand_held(tmp_path: Path) -> None:
+    assert local(written(tmp_path, SCARA), hold=["l4"], at={"j2": "pi/3", "j4": "0.1"}) == 0
+
+
+def test_a_four_bar_closed_by_a_point_has_one_freedom(tmp_path: Path) -> None:
+    assert local(written(tmp_path, FOUR_BAR)) == 1
+
+
+def test_feet_that_are_welded_leave_a_hexapod_of_three_turns_a_leg_rigid(tmp_path: Path) -> None:
+    assert local(written(tmp_path, HEXAPOD)) == 0
+
+
+def test_a_delta_has_three_freedoms_and_six_rods_that_turn(tmp_path: Path) -> None:
+    assert local(written(tmp_path, DELTA)) == 3 + 6
+
+
+def test_angles_in_doubles_and_in_four_decimals_are_recognised(tmp_path: Path) -> None:
+    frames = [
+        GivenFrame(turns_in_order([Fraction(0), Fraction(t), Fraction(0)], "XYZ").quaternion)
+        for t in (HALF, "1.5708", "1.5707")
+    ]
+    assert all(f.matrix == frames[0].matrix for f in frames)
+    assert frames[0].turned((1, 0, 0)) == (0, 0, -1)
+    assert "1.57079632679 as" in read_case(written(tmp_path, UR5)).notes[0]
+
+
+@pytest.mark.parametrize("text", ["0.3", "-1.2", "2.9999", "3.1", "0.001", "1.57", "-6.1"])
+def test_other_angles_are_rational_rotations_next_to_them(text: str) -> None:
+    turn = turns_in_order([Fraction(text)], "z")
+    rows = GivenFrame(turn.quaternion).matrix
+    for i in range(3):
+        for j in range(3):
+            assert sum(x * y for x, y in zip(rows[i], rows[j], strict=True)) == (i == j)
+    angle = atan2(rows[1][0], rows[0][0])
+    turns = (angle - float(text)) / 6.283185307179586
+    assert abs(turns - round(turns)) < 1e-15
+    there = turn.then(turns_in_order([-Fraction(text)], "z"))
+    assert there.quaternion[1:] == (0, 0, 0)
+
+
+BROKEN = {
+    "entity": ('<!DOCTYPE robot [<!ENTITY a "b">]><robot/>', "document type"),
+    "no xml": ("<robot>", "is not valid XML"),
+    "other": ("<sdf/>", "no <robot>"),
+    "mimic": (SCARA.replace("</joint>", '<mimic joint="j1"/></joint>', 1), "gears"),
+    "number": (SCARA.replace("0.25 0 0", "0.25 nan 0"), "no decimal number"),
+    "macro": (SCARA.replace("0.25 0 0", "${a} 0 0"), "xacro"),
+    "axis": (SCARA.replace("0 0 -1", "0 0 0"), "length zero"),
+    "type": (SCARA.replace("prismatic", "prismtic"), "did you mean"),
+    "two parents": (SCARA.replace('child link="l2"', 'child link="l1"'), "is the child of a joint"),
+    "gear": (FOUR_BAR.replace("<connect", '<joint joint1="A"/><connect'), "is not modelled"),
+    "include": (
+        FOUR_BAR.replace("<worldbody>", '<include file="/etc/passwd"/><worldbody>'),
+        "read",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_bad_files_are_one_line(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text, message = BROKEN[name]
+    assert main(["mobility", str(written(tmp_path, text))]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert message in line
+
+
+def test_links_and_joints_are_asked_for_by_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(written(tmp_path, SCARA))
+    for options in (["--hold", "l9"], ["--hold", "l0"], ["--at", "j9=1"], ["--at", "j1"]):
+        assert main(["mobility", path, *options]) == 2
+        assert len(capsys.readouterr().err.splitlines()) == 1
+    assert main(["mobility", path, "--hold", "l4", "--at", "j2=pi/3", "--local", "--quiet"]) == 0
+    assert "l4 held" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_damaged_files_are_read_or_refused_in_one_line(seed: int, tmp_path: Path) -> None:
+    rng = random.Random(seed)
+    for text in (UR5, FOUR_BAR, HEXAPOD):
+        at, end = rng.randrange(len(text)), rng.randrange(9)
+        inserted = "".join(rng.choices("<>/=\"'0123456789.-exyz&; ", k=rng.randrange(5)))
+        try:
+            read_case(written(tmp_path, text[:at] + inserted + text[at + end :]), format="auto")
+        except CaseError as error:
+            assert "\n" not in str(error)
