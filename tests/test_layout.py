@@ -32,6 +32,7 @@ ORDER = (
     "check",
     "report",
     "page",
+    "pictures",
     "bench",
     "cli",
 )

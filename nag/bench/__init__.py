@@ -4,6 +4,6 @@ Bottom-up: read `measure` (solving), `chains`, `decomposition`, `models`, then `
 programs) and `table`, on `timed_runs`. Speed against accuracy: `reference` (solutions, proved),
 `work_precision` (what is charted: `sharpening`, `whole_paths`), `speed_accuracy` (solutions),
 `component_curves`, and what other programs find, `peer_points` and `peer_components`;
-`speed_accuracy_picture` on `picture_file` draws it. `verdicts` says whether answers are right;
+`speed_accuracy_picture` draws it. `verdicts` says whether answers are right;
 `atlas` is where methods fail.
 """

@@ -7,21 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from nag.bench.picture_file import STYLE, save
 from nag.bench.whole_paths import ARITHMETICS, DIGITS
 from nag.bench.work_precision import ACCURATE, Chart, ChartCurve, Point
+from nag.pictures.picture_file import COLOURS, DASHES, MARKS, STYLE, save
 
-# Colours, from dark to light in equal steps, marks and dashes, so that greyscale will do.
-COLOURS = ("#10102e", "#7d0a22", "#2a5fb0", "#1e9684", "#e0931c", "#b4cc55")
-MARKS = ("o", "s", "^", "D", "v", "P")
-DASHES = (
-    "-",
-    (0, (6, 1.5)),
-    (0, (3, 1.2)),
-    (0, (6, 1.5, 1, 1.5)),
-    (0, (3, 1.2, 1, 1.2)),
-    (0, (1, 1)),
-)
 PEERS = {
     "M2": ("#6a6a6a", "<"),
     "M2, refined": ("#8c8c8c", "p"),

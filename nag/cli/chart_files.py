@@ -7,7 +7,7 @@ import importlib.util
 from collections.abc import Callable
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import write_document
+from nag.cli.running import check_option_target, write_document
 
 KINDS = (".svg", ".png", ".pdf")
 
@@ -18,18 +18,26 @@ def check_targets(options: argparse.Namespace) -> None:
     Raises:
         UsageError: for the first of them, or if matplotlib is missing.
     """
-    from nag.files.written_file import TargetError, check_target
-
     for path in options.picture or ():
-        if not path.endswith(KINDS):
-            raise UsageError(f"--picture: {path}: name a file that ends in {', '.join(KINDS)}")
-        if importlib.util.find_spec("matplotlib") is None:
-            text = 'matplotlib is missing; install it with pip install "nag[plot]"'
-            raise UsageError(f"--picture: {text}")
-        try:
-            check_target(path)
-        except TargetError as error:
-            raise UsageError(f"--picture: {error}") from None
+        check_picture("picture", path)
+
+
+def check_picture(option: str, path: str, source: str = "") -> None:
+    """Refuse a picture that could not be written.
+
+    Args:
+        option: names the file.
+        source: the file that is read, which it must not be.
+
+    Raises:
+        UsageError: if it could not, or if matplotlib is missing.
+    """
+    if not path.endswith(KINDS):
+        raise UsageError(f"--{option}: {path}: name a file that ends in {', '.join(KINDS)}")
+    if importlib.util.find_spec("matplotlib") is None:
+        text = 'matplotlib is missing; install it with pip install "nag[plot]"'
+        raise UsageError(f"--{option}: {text}")
+    check_option_target(option, path, source)
 
 
 def write_text(path: str | None, text: str) -> None:
@@ -42,7 +50,7 @@ def write_text(path: str | None, text: str) -> None:
         write_document(text, path)
 
 
-def write_picture(path: str, draw: Callable[[str], None]) -> None:
+def write_picture(path: str, draw: Callable[[str], None], option: str = "picture") -> None:
     """Draw to a file.
 
     Raises:
@@ -51,4 +59,4 @@ def write_picture(path: str, draw: Callable[[str], None]) -> None:
     try:
         draw(path)
     except OSError as error:
-        raise UsageError(f"--picture: {path}: {error.strerror or error}") from None
+        raise UsageError(f"--{option}: {path}: {error.strerror or error}") from None

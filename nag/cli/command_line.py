@@ -59,6 +59,13 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "they move.",
     ),
     (
+        "plot",
+        "draw real curves, joint angles, and bodies with joints",
+        "Draw the real curves of components, projected to two variables; of a mechanism the angles "
+        "of two joints against each other, the path of a point, or the graph of its bodies and "
+        "joints. The components are those of an export of `nag decompose --json`, or of a case.",
+    ),
+    (
         "modes",
         "find the operation modes of a parallel robot",
         "Find the operation modes of a parallel robot, the components of its platform's poses: the "

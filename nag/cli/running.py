@@ -158,7 +158,7 @@ def begin(options: argparse.Namespace) -> None:
     for name in TARGETS:
         target = getattr(options, name, None)
         if target is not None:
-            _check_target(name, target, source if isinstance(source, str) else "")
+            check_option_target(name, target, source if isinstance(source, str) else "")
 
 
 @contextlib.contextmanager
@@ -222,7 +222,15 @@ def write_document(document: dict[str, Any] | str, target: str, option: str = "j
         write_target(target, text)
 
 
-def _check_target(option: str, target: str, source: str) -> None:
+def check_option_target(option: str, target: str, source: str = "") -> None:
+    """Refuse a file that an option names and that could not be written.
+
+    Args:
+        source: the file that is read, which it must not be.
+
+    Raises:
+        UsageError: if it could not.
+    """
     from nag.files.written_file import check_target
 
     with writing_to(option):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from nag.bench.atlas.stability import Atlas, Cell
-from nag.bench.picture_file import STYLE, save
+from nag.pictures.picture_file import STYLE, save
 
 # Lightness falls from right to wrong, so that the picture can be read without colours.
 COLOURS = {"right": "#dcebd5", "undecided": "#f0b05a", "slow": "#f0b05a", "wrong": "#7f0000"}
