@@ -62,6 +62,7 @@ _HOME = {
     "Solution": "nag.solving.solutions",
     "Status": "nag.witness.witness",
     "WitnessSet": "nag.witness.witness",
+    "Constraints": "nag.witness.constraints",
     "decompose": "nag.mechanism.problem",
     "find_real_curve": "nag.real.find_curve",
     "find_real_points": "nag.real.real_pieces",

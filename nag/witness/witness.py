@@ -21,6 +21,7 @@ from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 if TYPE_CHECKING:
     from nag.decomposition.curve_genus import Genus
     from nag.tracking.settings import Settings
+    from nag.witness.constraints import Constraints
     from nag.witness.fibres import Fibre
     from nag.witness.projection import Projection
     from nag.witness.real_points import RealPoints
@@ -379,6 +380,26 @@ class WitnessSet:
         from nag.decomposition.curve_genus import genus
 
         return genus(self._known_system(), self, run=run)
+
+    def constraints(self, system: PolynomialSystem | None = None) -> Constraints:
+        """Constraints for equations of motion, independent along the component.
+
+        Args:
+            system: other equations that hold on it, in variables of their own, as
+                ``nag.model(...).unreduced``; by default those that it is a component of.
+
+        Raises:
+            ComponentError: if the equations are singular at all of its points.
+
+        >>> import nag
+        >>> circle = nag.decompose(["x^2 + y^2 = 1", "x*(x^2 + y^2 - 1)"]).components[0]
+        >>> constraints = circle.constraints()
+        >>> constraints.jacobian([0.6, 0.8]).shape, constraints.values([0.6, 0.8]).shape
+        ((1, 2), (1,))
+        """
+        from nag.witness.constraints import find_constraints
+
+        return find_constraints(self, system)
 
     @takes_run
     def project(
