@@ -120,7 +120,8 @@ def test_an_answer_says_all_that_it_rests_on(engine, case, capsys) -> None:
 
 
 def test_options_reach_the_decomposition(engine, case) -> None:
-    assert main(["decompose", case, "--seed=3", "--threads=2", "--settings=careful"]) == 0
+    words = ["--seed=3", "--threads=2", "--settings=careful", "--quiet"]
+    assert main(["decompose", case, *words]) == 0
     (call,) = engine.calls
     expected = {"seed": 3, "threads": 2, "settings": "careful", "progress": None, "symmetries": ()}
     assert call == expected

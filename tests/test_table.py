@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem, system_line
-from nag.cli.running import INTERVAL, progress_line
+from nag.cli.running import INTERVAL, MINUTE, progress_line
 from nag.report.agreement import AgreementKind, agreement_text, compare
 from nag.text.table import align, label_lines, magnitude, printable
 from nag.witness.shown import component_table, multidegree_text, remarks, title_line
@@ -257,25 +257,39 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_progress_is_shown_on_a_terminal_only_and_erased() -> None:
-    terminal = Terminal()
+def test_progress_is_shown_on_a_terminal_and_erased_and_quiet_is_quiet() -> None:
+    terminal, pipe, quiet = Terminal(), io.StringIO(), Terminal()
     with progress_line(terminal) as progress:
         progress("slicing", 1, 3)
     assert "slicing: 1 of 3" in terminal.getvalue()
     assert terminal.getvalue().endswith("\r\x1b[K")
-    for stream, quiet in ((io.StringIO(), False), (Terminal(), True)):
-        with progress_line(stream, quiet) as progress:
-            assert progress is None
-        assert stream.getvalue() == ""
+    with progress_line(pipe) as progress:
+        progress("slicing", 1, 3)
+    with progress_line(quiet, quiet=True) as progress:
+        assert progress is None
+    assert pipe.getvalue() == quiet.getvalue() == ""
 
 
-def test_progress_is_not_written_more_often_than_it_can_be_read(monkeypatch) -> None:
-    clock = iter([0.0, INTERVAL / 2, 1.5 * INTERVAL])
-    monkeypatch.setattr("nag.cli.running.time.monotonic", lambda: next(clock))
-    terminal = Terminal()
-    with progress_line(terminal) as progress:
-        for step in (1, 2, 3):
+@pytest.mark.parametrize("kind, wait", [(Terminal, INTERVAL), (io.StringIO, MINUTE)])
+def test_progress_is_not_written_more_often_than_it_can_be_read(kind, wait, monkeypatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr("nag.cli.running.time.monotonic", lambda: now[0])
+    stream = kind()
+    with progress_line(stream) as progress:
+        for step, now[0] in ((1, wait), (2, 1.5 * wait), (3, 2.5 * wait)):
             progress("splitting", step, 0)
-    written = terminal.getvalue()
+    written = stream.getvalue()
     assert "splitting: 1" in written and "splitting: 3" in written
     assert "splitting: 2" not in written
+
+
+def test_a_line_says_the_rate_and_the_time_left_of_its_stage(monkeypatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr("nag.cli.running.time.monotonic", lambda: now[0])
+    pipe = io.StringIO()
+    with progress_line(pipe) as progress:
+        for step, now[0] in ((0, 20.0), (30, 80.0)):
+            progress("paths", step, 120)
+    assert pipe.getvalue() == (
+        "nag: paths: 30 of 120 (1 min 20 s so far, 0.5 a second, 3 min 00 s left of this)\n"
+    )

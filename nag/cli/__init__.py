@@ -1,9 +1,10 @@
 """The command ``nag``: a command is a file of its name.
 
 Read in this order, top-down: `command_line` (the list of commands), `running` (starting, telling,
-writing and printing), `arguments` (options that commands share), then any command. `witness_input`
-is what those that work with components begin with; `sweep` belongs to `decompose`, files that begin
-as ``bench`` and ``chart`` do to these. Only `nag.__main__` imports this package.
+writing and printing), `watched` (the process that waits for the one that works, and ends it),
+`arguments` (options that commands share), then any command. `witness_input` is what those that work
+with components begin with; `sweep` belongs to `decompose`, files that begin as ``bench`` and
+``chart`` do to these. Only `nag.__main__` imports this package.
 
 Each command has ``add_arguments(parser)`` and ``run(options)``, which turns the options into a call
 and hands back a `running.CommandAnswer`: the lines to print, whether it is complete, and the

@@ -49,6 +49,16 @@ def _threads(text: str) -> int:
     return whole(text, 1, MOST_THREADS)
 
 
+def _positive(text: str) -> float:
+    try:
+        value = float(text) if text.isascii() else 0.0
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text[:30]!r} is not a number above 0")
+    return value
+
+
 def _available_threads() -> int:
     if hasattr(os, "sched_getaffinity"):
         return min(len(os.sched_getaffinity(0)), MOST_THREADS)
@@ -141,8 +151,20 @@ def add_tracking(parser: argparse.ArgumentParser) -> None:
 
 
 def add_quiet(parser: argparse.ArgumentParser) -> None:
-    """The option of the commands that may take long."""
+    """The options of the commands that may take long: what is told, and when they are to end."""
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    parser.add_argument(
+        "--time-limit",
+        type=_positive,
+        metavar="SECONDS",
+        help="end after so many seconds, incomplete",
+    )
+    parser.add_argument(
+        "--memory-limit",
+        type=_positive,
+        metavar="GB",
+        help="end when so many gigabytes are in use, incomplete",
+    )
 
 
 def add_certify(parser: argparse.ArgumentParser) -> None:

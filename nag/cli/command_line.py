@@ -1,8 +1,9 @@
 """The command line's grammar, and how a command ends.
 
-Exit status: 0 for a complete answer, 1 for an incomplete one, 2 for bad input (one line on
-standard error), 130 after Ctrl-C. A command is imported when it is asked for, and modules that load
-numpy or llvmlite by the commands that need them, so that ``nag --help`` answers at once.
+Exit status: 0 for a complete answer, 1 for an incomplete one (also where a limit of time or memory
+is reached), 2 for bad input (one line on standard error), 130 after Ctrl-C. A command is imported
+when it is asked for, and modules that load numpy or llvmlite by the commands that need them, so
+that ``nag --help`` answers at once.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -17,6 +19,7 @@ from importlib import import_module
 import nag
 from nag.cli.arguments import Parser, UsageError
 from nag.cli.running import run_command
+from nag.cli.watched import leave_to_parent, work_in_child
 from nag.errors import ComponentError, NagError
 
 COMPLETE, INCOMPLETE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -137,7 +140,7 @@ def parser(words: Sequence[str]) -> argparse.ArgumentParser:
     root = Parser(
         prog="nag",
         description="Numerical algebraic geometry for mechanisms.",
-        epilog="Exit status: 0 complete answer, 1 incomplete answer, 2 bad input.",
+        epilog="Exit status: 0 complete answer, 1 incomplete answer, 2 bad input, 130 interrupted.",
         allow_abbrev=False,
     )
     root.add_argument("--version", action="version", version=f"nag {nag.__version__}")
@@ -183,7 +186,13 @@ def _abandon_output() -> None:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command line; returns the exit status."""
+    """Run the command line; returns the exit status.
+
+    Args:
+        argv: the words; None for those that the process was started with, which then works in a
+            child, as it does within limits of time and memory. Other words are run in the calling
+            process, whose threads a child would not have.
+    """
     words = sys.argv[1:] if argv is None else list(argv)
     # A stream that was closed before the start is None.
     sys.stdout = sys.stdout or open(os.devnull, "w")  # noqa: SIM115
@@ -192,12 +201,37 @@ def main(argv: Sequence[str] | None = None) -> int:
         # What a terminal's encoding cannot show is escaped; it must not end the run.
         with contextlib.suppress(AttributeError):
             stream.reconfigure(errors="backslashreplace")
+    watched = False
     try:
         try:
             arguments = parser(words).parse_args(words)
         except SystemExit:  # after --help or --version
             _print()
             return COMPLETE
+        limits = (getattr(arguments, name, None) for name in ("time_limit", "memory_limit"))
+        if argv is None or any(limit is not None for limit in limits):
+            status = work_in_child(arguments)
+            if status is not None:
+                return status
+            watched = "tell" in arguments
+        return _run(arguments)
+    except KeyboardInterrupt:
+        if watched:
+            leave_to_parent()
+        _complain("interrupted")
+        return INTERRUPTED
+    except NagError as error:
+        _complain(str(error))
+        return BAD_INPUT
+    finally:
+        if watched:
+            # What is done is not undone by an interruption of the interpreter's own end.
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    """Run the command that was parsed; returns the exit status."""
+    try:
         return COMPLETE if run_command(arguments, _print) else INCOMPLETE
     except ComponentError as error:
         _complain(str(error))
@@ -205,9 +239,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     except NagError as error:
         _complain(str(error))
         return BAD_INPUT
-    except KeyboardInterrupt:
-        _complain("interrupted")
-        return INTERRUPTED
     except MemoryError:
         _complain("not enough memory for this case")
         return INCOMPLETE

@@ -25,6 +25,11 @@ Progress = Callable[[str, int, int], None]
 
 # Seconds between two updates of the line: often enough to look alive, too seldom to cost time.
 INTERVAL = 0.1
+# Seconds between two lines in a file or a pipe: a batch job can be told from a hang, and a day of
+# work leaves 1,440 lines.
+MINUTE = 60.0
+# What is told where a stage has no steps yet.
+WORKING = "working"
 
 _ERASE = "\r\x1b[K"
 
@@ -95,6 +100,8 @@ def say_first(
         options.progress.erase()
     options.write(lines[options.said :])
     options.said = len(lines)
+    if options.progress is not None:
+        options.progress(WORKING, 0, 0)
 
 
 def document_head(name: str, case: tuple[str, str] | None) -> dict[str, Any]:
@@ -128,6 +135,7 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
     options.write, options.said = write, 0
     with show_progress(options) as options.progress:
         answer = options.module.run(options)
+    tell = getattr(options, "tell", None)
     try:
         if answer.document is not None and options.json is not None:
             write_document(answer.document(), options.json)
@@ -137,7 +145,11 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
         return answer.complete
     from nag.text.table import label_lines
 
+    if tell is not None:
+        tell("proof", 0, 0)
     rows, proved = answer.proof()
+    if tell is not None:
+        tell.erase()
     write(["", *label_lines(rows)])
     return answer.complete and proved
 
@@ -162,10 +174,22 @@ def begin(options: argparse.Namespace) -> None:
 
 
 @contextlib.contextmanager
-def show_progress(options: argparse.Namespace) -> Iterator[ProgressLine | None]:
-    """Tell on standard error what a command that tracks paths does; the progress callback."""
+def show_progress(options: argparse.Namespace) -> Iterator[ProgressLine | TellParent | None]:
+    """Tell on standard error what a command that tracks paths does; the progress callback.
+
+    Where a parent watches, it is told, quiet or not: it says how far the work was that it ends.
+    """
     if "quiet" not in options:
         yield None
+        return
+    tell = getattr(options, "tell", None)
+    if tell is not None:
+        tell(WORKING, 0, 0)
+        with compilation_notice(sys.stderr, options.quiet):
+            try:
+                yield tell
+            finally:
+                tell.erase()
         return
     with (
         compilation_notice(sys.stderr, options.quiet),
@@ -240,38 +264,128 @@ def check_option_target(option: str, target: str, source: str = "") -> None:
 
 
 class ProgressLine:
-    """One line on a terminal that is written over as work goes on.
+    """How far the work is: one line on a terminal, written over; elsewhere a line every minute.
 
-    Called as ``line(stage, done, total)``, from any thread; a ``total`` of 0 means not known.
+    Called as ``line(stage, done, total)``, from any thread; a ``total`` of 0 means not known. From
+    then on until `erase` the line stands; `show` keeps its times up to date.
+
+    Attributes:
+        stage: that was told last, empty before the first.
     """
 
-    def __init__(self, stream: TextIO) -> None:
+    def __init__(self, stream: TextIO, quiet: bool = False) -> None:
         self._stream = stream
-        self._last = -INTERVAL
-        self._shown = False
+        self._terminal = stream.isatty()
+        self._quiet = quiet
+        self._started = time.monotonic()
+        self._last = self._started - (INTERVAL if self._terminal else 0.0)
+        self._standing = self._shown = False
+        self.stage, self._done, self._total = "", 0, 0
+        self._stage_started, self._stage_first = self._started, 0
+
+    def __call__(self, stage: str, done: int, total: int) -> None:
+        if stage != self.stage or done < self._done:
+            self._stage_started, self._stage_first = time.monotonic(), done
+        self.stage, self._done, self._total = stage, done, total
+        self._standing = True
+        self.show()
+
+    def stage_text(self) -> str:
+        """The stage that was told last, and how far it was."""
+        if self._total:
+            return f"{self.stage}: {self._done} of {self._total}"
+        return f"{self.stage}: {self._done}" if self._done else self.stage
+
+    def show(self) -> None:
+        """Write the line, if it is time to."""
+        now = time.monotonic()
+        wait = INTERVAL if self._terminal else MINUTE
+        if self._quiet or not self._standing or now - self._last < wait:
+            return
+        self._last = now
+        text = f"{self.stage_text()}{self._speed(now)}"
+        with contextlib.suppress(OSError, ValueError):
+            if self._terminal:
+                width = os.get_terminal_size(self._stream.fileno()).columns if self._real else 80
+                self._stream.write(f"{_ERASE}{text[: width - 1]}")
+                self._shown = True
+            else:
+                self._stream.write(f"nag: {text}\n")
+            self._stream.flush()
+
+    @property
+    def _real(self) -> bool:
+        """Whether the terminal has a size."""
+        try:
+            return os.isatty(self._stream.fileno())
+        except (OSError, ValueError):
+            return False
+
+    def _speed(self, now: float) -> str:
+        """Seconds since the start; steps a second and the time left of the stage."""
+        parts = [f"{_duration(now - self._started)} so far"]
+        steps, seconds = self._done - self._stage_first, now - self._stage_started
+        if steps > 0 and seconds >= 1.0:
+            parts.append(f"{steps / seconds:.3g} a second")
+            if self._total > self._done:
+                left = (self._total - self._done) * seconds / steps
+                parts.append(f"{_duration(left)} left of this")
+        return " (" + ", ".join(parts) + ")"
+
+    def erase(self) -> None:
+        """Take the line off the terminal, until more is told."""
+        self._standing = False
+        if self._shown:
+            with contextlib.suppress(OSError, ValueError):
+                self._stream.write(_ERASE)
+                self._stream.flush()
+            self._shown = False
+
+
+def _duration(seconds: float) -> str:
+    whole = int(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60:02} s"
+    return f"{whole // 3600} h {whole % 3600 // 60:02} min"
+
+
+class TellParent:
+    """Tells the process that watches this one what `ProgressLine` is to show.
+
+    A stage is told at once, further steps of it not more often than they can be read.
+    """
+
+    def __init__(self, telling: int, acknowledged: int) -> None:
+        self._telling, self._acknowledged = telling, acknowledged
+        self._last, self._stage = 0.0, ""
 
     def __call__(self, stage: str, done: int, total: int) -> None:
         now = time.monotonic()
-        if now - self._last < INTERVAL:
+        if stage == self._stage and now - self._last < INTERVAL and done != total:
             return
-        self._last = now
-        self._shown = True
-        count = f"{done} of {total}" if total else f"{done}"
-        self._stream.write(f"{_ERASE}{stage}: {count}")
-        self._stream.flush()
+        self._last, self._stage = now, stage
+        name = stage.replace("\n", " ").replace("\t", " ")
+        self._write(f"{name}\t{int(done)}\t{int(total)}\n")
 
     def erase(self) -> None:
-        """Take the line off the terminal."""
-        if self._shown:
-            self._stream.write(_ERASE)
-            self._stream.flush()
-            self._shown = False
+        """Have the line taken off the terminal, and wait until it is."""
+        self._write("\n")
+        os.read(self._acknowledged, 1)
+
+    def _write(self, text: str) -> None:
+        # Without the parent there is no one to work for.
+        try:
+            os.write(self._telling, text.encode(errors="replace"))
+        except OSError:
+            os._exit(1)
 
 
 @contextlib.contextmanager
 def progress_line(stream: TextIO, quiet: bool = False) -> Iterator[ProgressLine | None]:
-    """A progress callback for ``stream`` if it is a terminal, else None."""
-    if quiet or not stream.isatty():
+    """A progress callback that writes to ``stream``; None if nothing is to be written."""
+    if quiet:
         yield None
         return
     line = ProgressLine(stream)

@@ -1,0 +1,133 @@
+"""A command that is ended ends at once, says so, and leaves nothing behind."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+# What stands for a stage, in the place of `nag model`: all but the first hold the interpreter.
+STAGES = {
+    "Python": "time.sleep(60)",
+    "FLINT": "flint.fmpz(10 ** 4000 + 7).factor()",
+    "SciPy": "scipy.linalg.svd(numpy.ones((4000, 4000)))",
+    "deaf": "signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]); time.sleep(60)",
+}
+SCRIPT = """
+import os, signal, sys, time
+import nag.cli.model
+signal.signal(signal.SIGINT, signal.default_int_handler)
+def work(options):
+    import flint, numpy, scipy.linalg
+    print(os.getpid(), flush=True)
+    {stage}
+nag.cli.model.run = work
+sys.argv = ["nag", "model", "x"]
+sys.exit(nag.cli.main())
+"""
+
+
+def start(tmp_path: Path, stage: str) -> tuple[subprocess.Popen[str], int]:
+    """A command whose work is the stage, and the process that works."""
+    script = tmp_path / "run.py"
+    script.write_text(SCRIPT.format(stage=stage))
+    process = subprocess.Popen(
+        [sys.executable, str(script)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    line = process.stdout.readline()
+    assert line, process.communicate()[1]
+    return process, int(line)
+
+
+def is_alive(process: int) -> bool:
+    """Whether a process is there that has not ended."""
+    try:
+        with open(f"/proc/{process}/stat", encoding="ascii") as stream:
+            return stream.read().rsplit(")", 1)[1].split()[0] not in "ZX"
+    except FileNotFoundError:
+        return False
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_ctrl_c_ends_what_holds_the_interpreter_and_the_child_with_it(stage, tmp_path) -> None:
+    process, child = start(tmp_path, STAGES[stage])
+    assert child != process.pid
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert out == "" and err.startswith("nag: interrupted after ") and err.count("\n") == 1
+    assert not is_alive(child)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_other_signals_end_both_as_they_end_any_process(number, tmp_path) -> None:
+    process, child = start(tmp_path, STAGES["Python"])
+    process.send_signal(number)
+    assert process.communicate(timeout=30) == ("", "")
+    assert process.returncode == -number
+    assert not is_alive(child)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell of a dead parent")
+def test_no_child_is_left_by_a_parent_that_is_killed(tmp_path) -> None:
+    process, child = start(tmp_path, STAGES["FLINT"])
+    process.kill()
+    # The pipes are closed by then by both.
+    process.communicate(timeout=30)
+    assert not is_alive(child)
+
+
+def test_a_killed_child_is_said(tmp_path) -> None:
+    process, child = start(tmp_path, STAGES["Python"])
+    os.kill(child, signal.SIGKILL)
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == 128 + signal.SIGKILL
+    assert err == "nag: the work was ended by SIGKILL, as when memory is short\n"
+
+
+def katsura(n: int) -> str:
+    """The equations of Katsura in n + 1 variables, a line each."""
+    names = [f"u{abs(i)}" if abs(i) <= n else "0" for i in range(-2 * n, 2 * n + 1)]
+    u = {i: names[i + 2 * n] for i in range(-2 * n, 2 * n + 1)}
+    lines = ["+".join(u[i] for i in range(-n, n + 1)) + "-1"]
+    for m in range(n):
+        products = [f"{u[i]}*{u[m - i]}" for i in range(-n, n + 1) if "0" not in (u[i], u[m - i])]
+        lines.append("+".join(products) + f"-u{m}")
+    return "\n".join(lines) + "\n"
+
+
+def limited(tmp_path: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    case = tmp_path / "katsura.txt"
+    case.write_text(katsura(13))
+    command = [sys.executable, "-m", "nag", "solve", str(case), "--threads", "1", *words]
+    return subprocess.run(command, capture_output=True, text=True, timeout=100)
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        (("--time-limit", "1.5"), "nag: the time limit of 1.5 s is reached after "),
+        (("--memory-limit", "0.02"), "nag: the memory limit of 0.02 GB is reached after "),
+    ],
+)
+def test_a_limit_that_is_reached_ends_with_status_1_and_leaves_the_export(
+    words, said, tmp_path
+) -> None:
+    target = tmp_path / "answer.json"
+    target.write_text("before")
+    done = limited(tmp_path, *words, "--quiet", "--json", str(target))
+    assert done.returncode == 1
+    assert done.stdout == "" and done.stderr.startswith(said) and done.stderr.count("\n") == 1
+    assert target.read_text() == "before"
+    assert sorted(os.listdir(tmp_path)) == ["answer.json", "katsura.txt"]
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "nan", "inf", "soon", "\u0661"])
+def test_a_limit_is_a_positive_number(text, tmp_path) -> None:
+    done = limited(tmp_path, f"--time-limit={text}")
+    assert done.returncode == 2
+    assert "is not a number above 0" in done.stderr and done.stderr.count("\n") == 1
