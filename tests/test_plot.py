@@ -73,6 +73,8 @@ def test_what_is_shown_is_all_that_is_bounded_and_arcs_to_infinity_nearby() -> N
 
 def test_angles_are_shown_for_one_turn_wherever_a_curve_comes_into_it() -> None:
     axes = Axis("a", True), Axis("b")
+    straight = np.array([[180.0, 0.0], [180.0, 3.0]])
+    assert [copy[0, 0] for copy in plane_curves._copies(straight, axes)] == [-180.0, 180.0]
     arc = np.array([[-100.0, 1.0], [400.0, 2.0]])
     shifts = [copy[0, 0] for copy in plane_curves._copies(arc, axes)]
     assert shifts == [-460.0, -100.0]

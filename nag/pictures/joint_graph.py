@@ -9,10 +9,12 @@ from nag.pictures.picture_file import COLOURS, DASHES, STYLE, save
 
 # Of a circle of radius one: how far joints of the same two bodies are apart.
 APART = 0.24
+# Decimals of places.
+PLACES = 3
 
 
 def draw_joint_graph(scene: Scene, title: str, path: str) -> None:
-    """Bodies on a circle, the ground a square; joints as lines, a style for each type.
+    """Bodies, the ground a square; joints as lines, a style for each type.
 
     Raises:
         OSError: if the file cannot be written.
@@ -20,9 +22,7 @@ def draw_joint_graph(scene: Scene, title: str, path: str) -> None:
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
-    count = len(scene.bodies)
-    angles = np.pi / 2 - 2 * np.pi * np.arange(count) / count
-    places = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    places = _places(scene)
     types = list(dict.fromkeys(joint.type for joint in scene.joints))
     pairs = [tuple(sorted(joint.bodies)) for joint in scene.joints]
     with rc_context(STYLE | {"font.size": 8}):
@@ -55,3 +55,19 @@ def draw_joint_graph(scene: Scene, title: str, path: str) -> None:
         figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4,
                       frameon=False)  # fmt: skip
         save(figure, path)
+
+
+def _places(scene: Scene) -> np.ndarray:
+    """Where bodies are drawn, shape ``(bodies, 2)``: distances are like those in the graph."""
+    import networkx
+
+    count = len(scene.bodies)
+    angles = np.pi / 2 - 2 * np.pi * np.arange(count) / count
+    circle = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    graph = networkx.Graph()
+    graph.add_nodes_from(range(count))
+    graph.add_edges_from(joint.bodies for joint in scene.joints)
+    if not networkx.is_connected(graph):
+        return circle
+    laid = networkx.kamada_kawai_layout(graph, pos=dict(enumerate(circle)))
+    return np.round([laid[i] for i in range(count)], PLACES)

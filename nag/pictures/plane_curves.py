@@ -13,6 +13,8 @@ from nag.pictures.picture_file import COLOURS, DASHES, STYLE, save
 
 # In degrees.
 TURN = 360.0
+# Half of what is shown: a little more than a turn, so that what is at its ends is seen.
+SHOWN = 188.0
 TICKS = (-180, -90, 0, 90, 180)
 # Of arcs to infinity: how far they are shown, in sizes of what is bounded; and room at the sides.
 REACH, MARGIN = 3, 0.06
@@ -61,7 +63,7 @@ def draw_plane_curves(
 ) -> None:
     """Curves, each in a colour and a line style of its own, with a legend.
 
-    Of angles the picture shows one turn.
+    Of angles the picture shows a turn and a little more.
 
     Raises:
         OSError: if the file cannot be written.
@@ -89,7 +91,7 @@ def draw_plane_curves(
             label(f"{axis.label} [\u00b0]" if axis.angle else axis.label)
             if axis.angle:
                 ticks(TICKS)
-                limits(-TURN / 2, TURN / 2)
+                limits(-SHOWN, SHOWN)
             else:
                 limits(*ends)
         if axes[0].angle == axes[1].angle:
@@ -134,7 +136,7 @@ def _copies(points: np.ndarray, axes: tuple[Axis, Axis]) -> list[np.ndarray]:
         if not axis.angle:
             shifts.append([0.0])
             continue
-        first = np.ceil((-TURN / 2 - column.max()) / TURN)
-        last = np.floor((TURN / 2 - column.min()) / TURN)
+        first = np.ceil((-SHOWN - column.max()) / TURN)
+        last = np.floor((SHOWN - column.min()) / TURN)
         shifts.append([TURN * k for k in np.arange(first, last + 1)])
     return [points + np.array(shift) for shift in product(*shifts)]
