@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -53,3 +54,29 @@ def test_results_compare_by_value_and_survive_pickles_and_copies() -> None:
         assert copy.deepcopy(each) == each
     assert solved != nag.solve(["x^2 + y^2 - 1", "x - 2*y"])
     assert solved.solutions[0] != solved.solutions[1]
+
+
+def told_by(call: Callable[..., object], *given: object) -> list[str]:
+    """The stages that a call tells of."""
+    stages: list[str] = []
+    call(*given, progress=lambda stage, *_: stages.append(stage))
+    return stages
+
+
+def test_solving_tells_of_paths_and_of_the_judging_of_their_ends() -> None:
+    stages = told_by(nag.solve, ["x^2 + y^2 + z^2 - 5", "x*y*z - 1", "x^3 - y*z + 2"])
+    (tracked,) = (s for s in stages if s.startswith("tracking "))
+    paths = tracked.removeprefix("tracking ")
+    assert stages.index(f"judging the ends of {paths}") == stages.index(tracked) + 1
+
+
+def test_each_branch_of_a_system_that_falls_apart_is_told_of() -> None:
+    stages = told_by(nag.decompose, "(x^2 + y^2*z - 3)*(y^3 + z*x - 1)")
+    assert stages.count("decomposing, by branches") == 1
+    # The next method is asked for each of the two branches.
+    assert stages.count("decomposing, one equation") == 2
+
+
+def test_solving_inside_a_decomposition_is_told_of() -> None:
+    stages = told_by(nag.decompose, ["x^2 + y^2 + z^2 - 5", "x*y*z - 1", "x^3 - y*z + 2"])
+    assert any(stage.startswith("tracking ") for stage in stages)

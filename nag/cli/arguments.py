@@ -202,6 +202,9 @@ def read_problem(arguments: argparse.Namespace) -> tuple[Case, Problem]:
     """The case, and the problem that it describes in the formulation that is asked for."""
     values = getattr(arguments, "set", ())
     case = read_case_file(arguments.case, values, getattr(arguments, "format", "auto"))
+    tell = getattr(arguments, "progress", None)
+    if tell is not None:
+        tell("choosing the model", 0, 0)
     return case, problem_of_case(case, arguments.formulation or "auto")
 
 

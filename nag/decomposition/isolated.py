@@ -93,7 +93,7 @@ def _solve(
     facts: SystemFacts, rng: np.random.Generator, run: Run, finite: bool
 ) -> SolveResult | None:
     """The isolated solutions of a system; None if it has no start system."""
-    own = replace(run, seed=int(rng.integers(2**31)), progress=None)
+    own = replace(run, seed=int(rng.integers(2**31)))
     try:
         return solve(facts.system, run=own, finite=finite, facts=facts)
     except StartError:

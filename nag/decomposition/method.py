@@ -75,6 +75,7 @@ def decompose_by(methods: Sequence[Method], task: Task) -> Decomposition:
     spent = PathCounts()
     for k, method in enumerate(methods):
         others = methods[k + 1 :]
+        task.run.tell(f"decomposing, {method.__name__.replace('_', ' ')}", 0, 0)
         attempt = method(task, lambda part, others=others: decompose_by(others, part))  # type: ignore[misc]
         spent += attempt.spent
         if attempt.answer is not None:

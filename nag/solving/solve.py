@@ -71,7 +71,7 @@ def solve(
         ValueError: if there is no such start system or no settings of that name.
     """
     check_kind(start)
-    run.tell("solve", 0, 1)
+    run.tell("solving", 0, 0)
     if system.imaginary:
         result = solve(as_real(system), start=start, run=run, finite=finite)
         return leave_out_conjugate(result, system)
@@ -126,6 +126,7 @@ def find_answer(
 ) -> SolveResult | None:
     """The answer of the first of some methods that has one; ``every``: also those after them."""
     for k, method in enumerate(methods):
+        task.run.tell(f"solving, {method.__name__.replace('_', ' ')}", 0, 0)
         answer = method(task, partial(solve_by, every[k + 1 :]))
         if answer is not None:
             return replace(answer, method=method.__name__)
@@ -263,7 +264,9 @@ AGAIN: tuple[Finder, ...] = (close_ends, doubtful_ends)
 def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult:
     """The zeros that paths from a start system lead to, and those that are found beside them."""
     run = task.run
+    run.tell(f"tracking {len(begin.points)} paths", 0, 0)
     paths = track(begin.homotopy, begin.points, run.settings, run.threads, known=begin.known)
+    run.tell(f"judging the ends of {len(begin.points)} paths", 0, 0)
     search = _look(PathSearch.of(task, task.problem, begin, reason, paths, task.rng))
     for find in AGAIN:
         if search.completeness is not Completeness.ALL:
