@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -72,12 +73,29 @@ def test_other_signals_end_both_as_they_end_any_process(number, tmp_path) -> Non
     assert not is_alive(child)
 
 
+def test_a_signal_that_is_ignored_at_the_start_ends_nothing(tmp_path) -> None:
+    ignoring = "signal.signal(signal.SIGHUP, signal.SIG_IGN)\n"
+    script = tmp_path / "run.py"
+    work = "sys.stdin.readline(); return nag.cli.running.CommandAnswer(['done'])"
+    script.write_text(SCRIPT.format(stage=work).replace("def work", f"{ignoring}def work"))
+    process = subprocess.Popen(
+        [sys.executable, str(script)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    process.stdout.readline()
+    process.send_signal(signal.SIGHUP)
+    assert process.communicate("go on\n", timeout=30) == ("done\n", None)
+    assert process.returncode == 0
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell of a dead parent")
 def test_no_child_is_left_by_a_parent_that_is_killed(tmp_path) -> None:
     process, child = start(tmp_path, STAGES["FLINT"])
     process.kill()
-    # The pipes are closed by then by both.
     process.communicate(timeout=30)
+    # A process that is being ended closes its pipes before it is gone; the stage takes for ever.
+    for _ in range(200):
+        if is_alive(child):
+            time.sleep(0.05)
     assert not is_alive(child)
 
 

@@ -132,9 +132,9 @@ class _Watch:
         """Wait for the child; the exit status."""
         woken, waking = os.pipe()
         os.set_blocking(waking, False)
-        ignored = signal.getsignal(signal.SIGINT) == signal.SIG_IGN
         for number in (*_ENDINGS, signal.SIGCHLD):
-            if number != signal.SIGINT or not ignored:
+            # Under nohup, or in the background of a script, some are to be ignored.
+            if number == signal.SIGCHLD or signal.getsignal(number) != signal.SIG_IGN:
                 signal.signal(number, lambda *_: None)
         signal.set_wakeup_fd(waking)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, _ENDINGS)
