@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import nag
 from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.factoring import factor_into_irreducibles
@@ -84,3 +85,19 @@ def test_double_components_far_from_the_origin_are_double(seed: int) -> None:
         for answer in answers
     )
     assert here == there and sum(m == 2 for _, _, m in here) == 10
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_multiple_zero_near_simple_ones_is_not_taken_for_simple(seed: int) -> None:
+    equations = [
+        "-49/2*x*y + 140*x*z - 3/100*z*w + 9/100*y",
+        "1860*x^2*w - 1/20*z^3",
+        "-200*x^2 + 1/100*x*z - 53/60*x*w + 3/10*y*z + 800*y + z",
+        "-47/100*y*z*w^3 + 10*y*w^4 - 46*z^4",
+    ]
+    answer = nag.decompose(equations, "x y z w", seed=seed)
+    found = sorted((c.dimension, c.degree, c.multiplicity) for c in answer.components)
+    assert found == [(0, 1, 1)] * 22 + [(0, 1, 4), (1, 1, 1)]
+    # By w = z^3/(37200 x^2) the last equation begins with z^4 there.
+    (multiple,) = (c for c in answer.components if c.multiplicity == 4)
+    assert np.allclose(multiple.points[0], [9 / 2450, (9 / 2450) ** 2 / 4, 0, 0], atol=1e-15)
