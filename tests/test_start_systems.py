@@ -119,6 +119,24 @@ def test_auto_takes_the_fewest_paths_and_says_why() -> None:
     assert "total degree 4" in reason and "multihomogeneous 2" in reason
 
 
+def test_a_mixed_volume_below_every_other_count_is_the_least_work() -> None:
+    far = target("x y", "x^40 - 3*x^21*y + 7*y^2 - 1", "y^3 + x^5*y - 2*x + 5")
+    start, reason = choose(far, "auto", (), np.random.default_rng(0), 1)
+    assert start.name == "polyhedral" and len(start.points) == 120
+    assert "multihomogeneous 130" in reason and "mixed volume 120" in reason
+
+
+def test_as_many_paths_of_products_of_linear_forms_are_more_work_than_those_of_monomials() -> None:
+    names = [f"x{i}" for i in range(1, 9)]
+    rows = [
+        f"16*{x} - {x}*(1 + " + " + ".join(f"{k}/{k + i}*x{i}" for i in range(1, 8)) + ") - 16"
+        for k, x in enumerate(names, 1)
+    ]
+    start, reason = choose(target(" ".join(names), *rows), "auto", (), np.random.default_rng(0), 1)
+    assert "multihomogeneous 128" in reason and "mixed volume 128" in reason
+    assert start.name == "polyhedral"
+
+
 def test_unknown_kinds_and_too_many_paths_are_refused() -> None:
     with pytest.raises(ValueError, match="auto, total"):
         choose(EIGENVALUES, "best", (), np.random.default_rng(0), 1)
