@@ -133,8 +133,3 @@ def image_of_chain(
     """
     source = ProductOfFactors(tuple(elements))
     return find_image_forms(source, 8, (study_quadric(),), most_degree, rng)
-
-
-def reference_pose() -> tuple[Fraction, ...]:
-    """The identity."""
-    return (Fraction(1), *[Fraction(0)] * 7)

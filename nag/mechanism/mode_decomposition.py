@@ -20,8 +20,6 @@ from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition
 
-Progress = Callable[[str, int, int], None]
-
 
 @dataclass(frozen=True)
 class ClassAnswer:

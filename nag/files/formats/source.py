@@ -49,11 +49,6 @@ class SourceFile:
         column = offset - self.text.rfind("\n", 0, offset)
         raise CaseError(line_of(self.file, f"line {line}, column {column}", message))
 
-    def fail_at_line(self, offset: int, message: str) -> NoReturn:
-        """Raise a `CaseError` about the line that ``offset`` is in."""
-        line = self.text.count("\n", 0, offset) + 1
-        raise CaseError(line_of(self.file, f"line {line}", message))
-
     def without(self, comment: re.Pattern[str]) -> SourceFile:
         """The same with comments blanked out, so that columns stay."""
         return replace(self, text=comment.sub(_blank, self.text))

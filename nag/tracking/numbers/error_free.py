@@ -28,21 +28,6 @@ def two_product(a, b):
     return p, fused(a, b, -p)
 
 
-def three_sum(a, b, c):
-    """``a + b + c`` as three numbers of decreasing size."""
-    t, u = two_sum(a, b)
-    s, v = two_sum(c, t)
-    x, y = two_sum(u, v)
-    return s, x, y
-
-
-def three_sum_rounded(a, b, c):
-    """``a + b + c`` as two numbers of decreasing size."""
-    t, u = two_sum(a, b)
-    s, v = two_sum(c, t)
-    return s, u + v
-
-
 def power_near_inverse_root(square):
     """The power of two nearest to the inverse square root of a positive double."""
     return 2.0 ** np.rint(-0.5 * math.log2(square))
