@@ -140,7 +140,7 @@ def watched(measured: Measured) -> ExitStack:
     def known(_: Any, states: Any, path: int) -> None:
         errors = states.errors[path]
         sizes = np.abs(states.point(path))[errors > 0] / errors[errors > 0]
-        measured.add("RESOLVED", doubles.RESOLVED, sizes)
+        measured.add("SLACK (coordinates over errors)", doubles.SLACK, sizes)
 
     def initial_forms(limit: Any, *_: Any) -> None:
         if limit is not None:

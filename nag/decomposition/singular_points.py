@@ -23,7 +23,7 @@ from nag.decomposition.factor import IntersectionError, Operand
 from nag.decomposition.intersection import intersect_factors
 from nag.decomposition.linear_hull import add_hull_equations, mark_simple
 from nag.decomposition.rank_drop import SetOfPoints, rank_drop
-from nag.numerics.coincidence import coincident
+from nag.numerics.coincidence import SPREAD, coincident
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.natural_coordinates import NaturalCoordinates
@@ -45,8 +45,6 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # More pairs of components are not intersected.
 MOST_PAIRS = 150
-# Decides: Errors of a point that it may be off a linear equation, and be a point of the component.
-SURELY = 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -408,7 +406,7 @@ def _judge_candidate(
 
 def _outside_hull(system: PolynomialSystem, x: np.ndarray, accuracy: float) -> bool:
     """Whether a point is further from the zeros of a linear equation than it may be off."""
-    error = SURELY * accuracy * (1 + float(np.linalg.norm(x)))
+    error = SPREAD * accuracy * (1 + float(np.linalg.norm(x)))
     for f in system.polynomials:
         if f.degree == 1:
             slopes = sum(abs(complex(c)) for e, c in f.terms.items() if any(e))

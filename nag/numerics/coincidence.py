@@ -24,9 +24,12 @@ HIT = 1e-8
 MISS = 1e-5
 # Decides: The same in errors of the end.
 BEYOND = 1e4
-
-# Decides: Distance of zeros that a point may stand for whose error is not known, of ends of lost
-# paths from what they may lead to, of solutions in two branches that are compared in more digits.
+# Decides: Errors that a point may be off what it is on, and within which other zeros may be the one
+# that it stands for: it is undecided then, or they are looked at once.
+SPREAD = 10.0
+# Decides: Distance of zeros that a point may stand for, in each coordinate where there are several,
+# whose error is not known; of ends of lost paths from what they may lead to, of solutions in two
+# branches that are compared in more digits.
 NEAR = 1e-6
 
 

@@ -32,10 +32,9 @@ VANISHING = 1e-13
 # uncertain.
 MULTIPLE = 1e-7
 # Decides, measured: What the estimate of an error in doubles may be too small by: what lies further
-# is something else, or gets more digits. Ends within it are one, and one of their paths jumped.
+# is something else, or gets more digits. Ends within it are one, and one of their paths jumped; a
+# coordinate beyond it is not zero.
 SLACK = 1e3
-# Decides, measured: A coordinate, over its error, that is not zero.
-RESOLVED = 1e3
 # Newton's method from a point next to a zero must arrive within this many steps.
 NEWTON_STEPS = 12
 # Doubles hold all whole numbers up to this.

@@ -16,6 +16,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.coincidence import NEAR
 from nag.numerics.digits import BITS
 from nag.numerics.doubles import EPS, SLACK
 from nag.numerics.precise_point import PrecisePoint
@@ -37,17 +38,14 @@ def widen_error(x: np.ndarray, accuracy: float) -> float:
     return max(SLACK * accuracy, LEAST) * (1 + float(np.abs(x).max(initial=0.0)))
 
 
-# Decides: Relative difference of the coordinates of zeros that a point of doubles may stand for,
-# where it is near several.
-ALIKE = 1e-6
 # Decides: Coordinates beside the largest that are none.
 NOTHING = 1e-60
 # Decides: Relative error of a zero that is known by its written digits, of a hundred.
 WRITTEN = 1e-90
-# Decides: Decimal logarithm of values beside their terms, of distances and of pivots that are zero
-# at zeros of 100 digits.
+# Decides, measured: Decimal logarithm of values beside their terms, of distances and of pivots that
+# are zero at zeros of 100 digits: all values of zeros lay below 5e-87.
 ZERO = -80.0
-# Decides, measured: The same as a number: all values of zeros lay below 5e-87.
+# That as a number.
 VANISHES = 10.0**ZERO
 # Bits in which the sizes of terms are added up.
 LEAST_BITS = 128
@@ -84,7 +82,7 @@ def choose_alike(zeros: Sequence[SingularEnd], x: np.ndarray) -> tuple[SingularE
     chosen = []
     for zero in zeros:
         sizes = np.maximum(np.abs(zero.point), np.abs(x))
-        same = np.maximum(ALIKE * sizes, NOTHING * sizes.max())
+        same = np.maximum(NEAR * sizes, NOTHING * sizes.max())
         if zero.precise is not None:
             same = np.maximum(same, zero.precise.radii)
         if (np.abs(zero.point - x) <= same).all():

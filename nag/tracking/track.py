@@ -15,7 +15,7 @@ import numpy as np
 
 from nag.errors import NagError
 from nag.numerics.coincidence import LEAST
-from nag.numerics.doubles import ARRIVED, RESOLVED, ROUGH, ROUNDED, SHARPEST, SLACK
+from nag.numerics.doubles import ARRIVED, ROUGH, ROUNDED, SHARPEST, SLACK
 from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.jumps import collisions, find_like_branches
@@ -211,7 +211,7 @@ def _all_are_found(homotopy: Homotopy, paths: Paths, most: int) -> bool:
     if len(regular) != most or len(collisions(homotopy, paths)):
         return False
     sizes = np.abs(paths.points[regular]).min(axis=1)
-    return bool((sizes > RESOLVED * paths.accuracy[regular]).all())
+    return bool((sizes > SLACK * paths.accuracy[regular]).all())
 
 
 def run_in_doubles(

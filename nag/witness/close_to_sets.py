@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.numerics.coincidence import coincident
+from nag.numerics.coincidence import SPREAD, coincident
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import Place, SingularEnd, analyse
@@ -22,10 +22,6 @@ from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre
 from nag.witness.slices import pad_rows
-
-# Decides: Errors of an end within which others are taken to stand for the same zeros, which are
-# looked at once.
-REACH = 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +60,7 @@ def find_nearby_zeros(
         error = max(accuracy, ROUNDED)
         # The coordinates of a limit either vanish or are known each by itself.
         known = error * (1 + np.full(len(x), np.linalg.norm(x)) if whole else np.abs(x))
-        if (np.abs(seen - x) <= REACH * known).all(axis=1).any():
+        if (np.abs(seen - x) <= SPREAD * known).all(axis=1).any():
             continue
         end = analyse(
             equations.polynomials, x, error if whole else known, rng, slices, patience=patience

@@ -18,7 +18,7 @@ from nag.algebra.number import Number, is_zero, number_text
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.coincidence import BEYOND, MISS, classify_arrivals
+from nag.numerics.coincidence import BEYOND, MISS, SPREAD, classify_arrivals
 from nag.numerics.digits import BITS, bits_of, doubles, in_bits, to_ball
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.natural_coordinates import NaturalCoordinates
@@ -36,10 +36,6 @@ from nag.witness.gauss_newton import polish
 from nag.witness.given_component import check_decomposition, in_doubles, round_point
 from nag.witness.slices import pad_rows
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
-
-# Decides: Distances, in what rounding may do to a point, within which the next zero makes it
-# undecided.
-SPREAD = 10.0
 
 
 class Membership(Enum):

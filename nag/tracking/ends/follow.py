@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.numerics.doubles import RESOLVED, ROUNDED
+from nag.numerics.doubles import ROUNDED, SLACK
 from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.inclusion import prove_end
 from nag.tracking.ends.limits import BEYOND, LEAST_EVIDENCE, Limit, Limits, digits_of_evidence
@@ -146,7 +146,7 @@ class States:
 
     def known_coordinates(self, path: int) -> np.ndarray:
         """Which coordinates exceed their rounding errors."""
-        return np.abs(self.point(path)) > RESOLVED * self.errors[path]
+        return np.abs(self.point(path)) > SLACK * self.errors[path]
 
 
 def _in_words(points: np.ndarray, words: int = 2) -> np.ndarray:
@@ -298,7 +298,7 @@ def _confirm_end(states: States, path: int, terms: Terms) -> bool:
 def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float, terms: Terms) -> bool:
     """Whether a regular end is at infinity to fewer digits than are needed, or only seems to be."""
     far = [j for j in homotopy.infinity if not states.known_coordinates(path)[j]]
-    if not far or float(RESOLVED * states.errors[path][far].max()) > need:
+    if not far or float(SLACK * states.errors[path][far].max()) > need:
         return bool(far)
     return not at_infinity(terms, states.found[path], far)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nag.machine_code.lanes import load, select_less, splat, store
-from nag.numerics.doubles import RESOLVED
+from nag.numerics.doubles import SLACK
 from nag.tracking.ends.branch import keep_series
 from nag.tracking.numbers.complex_numbers import largest
 
@@ -51,7 +51,7 @@ def _keep_safe(z, s, r):
     accepted = load(r.accepted, 0)
     lost = splat(0.0)
     for j in range(s.N):
-        error, met = splat(RESOLVED) * load(r.base_errors, j), load(r.met, j)
+        error, met = splat(SLACK) * load(r.base_errors, j), load(r.met, j)
         known = select_less(error, load(r.base_sizes, j), splat(1.0), splat(0.0))
         lost = largest(lost, met - known)
         store(r.met, j, select_less(half, accepted, largest(met, known), met))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nag.machine_code.lanes import fma, load, select_less, splat, square_root, store
-from nag.numerics.doubles import LARGEST, RESOLVED, SMALLEST
+from nag.numerics.doubles import LARGEST, SLACK, SMALLEST
 from nag.tracking.linear_algebra import PHASE, order_rows
 from nag.tracking.numbers.complex_numbers import largest
 from nag.tracking.numbers.error_free import power_near_inverse
@@ -134,7 +134,7 @@ def _lost_group(s, r):
             if s.group_of[j] == g:
                 error = load(r.errors, j)
                 total = fma(error, error, total)
-        lost = select_less(splat(1.0 / RESOLVED), square_root(total), splat(1.0), zero)
+        lost = select_less(splat(1.0 / SLACK), square_root(total), splat(1.0), zero)
         unknown = largest(unknown, lost)
     return unknown
 
@@ -158,7 +158,7 @@ def newton_correction(z, s, r, rough, close):
     substitute(z, s, r, r.noise)
     zero = splat(0.0)
     half = splat(0.5)
-    thousand = splat(RESOLVED)
+    thousand = splat(SLACK)
     eta = zero
     excess = zero
     known = zero
