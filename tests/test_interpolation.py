@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.groebner import ideal_of
 from nag.algebra.multipliers import multipliers
+from nag.algebra.number import Surd, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.interpolation.essential import maps
@@ -33,7 +34,12 @@ from nag.interpolation.vanishing import (
     primitive,
     start,
 )
-from nag.numerics.rational_relations import Echelon, TooFewDigitsError, recognise_rational
+from nag.numerics.rational_relations import (
+    Echelon,
+    TooFewDigitsError,
+    recognise_rational,
+    recognise_sum_of_roots,
+)
 from nag.tracking.run import Run
 
 laws = settings(max_examples=25)
@@ -84,6 +90,26 @@ def test_a_combination_of_independent_columns_is_found_exactly(seed, coefficient
 def test_rational_numbers_are_recognised(x) -> None:
     with flint.ctx.workdps(DIGITS + 20):
         assert recognise_rational(ball(x), DIGITS) == x
+
+
+@laws
+@given(rationals, rationals, rationals, rationals)
+def test_sums_of_square_roots_are_recognised(a, b, c, d) -> None:
+    roots = [square_root(Fraction(n)) for n in (2, 3, 6)]
+    x = a + b * roots[0] + c * roots[1] + d * roots[2]
+    with flint.ctx.workdps(4 * DIGITS + 20):
+        known = x.ball(14 * DIGITS) if isinstance(x, Surd) else ball(x)
+        known += flint.arb(0, f"1e-{4 * DIGITS}")
+        assert recognise_sum_of_roots(known, (1, 2, 3, 6), 4 * DIGITS) == x
+
+
+@pytest.mark.parametrize("value", [2, 3, 5])
+def test_other_roots_are_no_sums_of_these(value) -> None:
+    for digits in (20, 40, 80, 160):
+        with flint.ctx.workdps(digits + 20):
+            root = flint.arb(value).sqrt().sqrt() + flint.arb(0, f"1e-{digits}")
+            with pytest.raises(TooFewDigitsError):
+                recognise_sum_of_roots(root, (1, 2, 3, 6), digits)
 
 
 @pytest.mark.parametrize("value", [2, 3, 5])

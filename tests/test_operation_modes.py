@@ -17,6 +17,7 @@ from linkages import CASES
 
 import nag
 from nag.algebra.exact_ranks import null_space
+from nag.algebra.number import square_root
 from nag.cli import main
 from nag.decomposition.intersection import intersect_components
 from nag.errors import MechanismError
@@ -408,9 +409,87 @@ def test_what_is_no_robot_is_refused(
         nag.modes(make(), platform)
 
 
+ROOT_3 = square_root(Fraction(3))
+
+
+def at_120_degrees(*leg: tuple[str, dict]) -> Mechanism:
+    """A leg three times, turned about z."""
+    joints = []
+    for k, (c, s) in enumerate(
+        [(1, 0), (Fraction(-1, 2), ROOT_3 / 2), (Fraction(-1, 2), -ROOT_3 / 2)]
+    ):
+        bodies = ["base", *(f"L{k}{i}" for i in range(len(leg) - 1)), "platform"]
+        for i, (kind, own) in enumerate(leg):
+            turned = {
+                name: (c * x - s * y, s * x + c * y, z * 1) for name, (x, y, z) in own.items()
+            }
+            joints.append(Joint(f"J{k}{i}", kind, (bodies[i], bodies[i + 1]), **turned))
+    return Mechanism("base", tuple(joints))
+
+
+def rps_at_120_degrees() -> Mechanism:
+    return at_120_degrees(
+        ("revolute", {"point": (2, 0, 0), "axis": Y}),
+        ("prismatic", {"axis": (-1, 0, 3)}),
+        ("spherical", {"point": (1, 0, 3)}),
+    )
+
+
+def tsai_at_120_degrees() -> Mechanism:
+    return at_120_degrees(
+        ("universal", {"point": (3, 0, 0), "axis": Y, "second_axis": (2, 0, 1)}),
+        ("prismatic", {"axis": (-1, 0, 2)}),
+        ("universal", {"point": (1, 0, 4), "axis": (2, 0, 1), "second_axis": Y}),
+    )
+
+
+def radial_at_120_degrees() -> Mechanism:
+    return at_120_degrees(
+        ("universal", {"point": (2, 0, 0), "axis": X, "second_axis": Y}),
+        ("prismatic", {"axis": (-1, 0, 3)}),
+        ("universal", {"point": (1, 0, 3), "axis": Y, "second_axis": X}),
+    )
+
+
+@pytest.mark.parametrize(
+    ("make", "known"),
+    [
+        (rps_at_120_degrees, {(3, 7): 2}),
+        (tsai_at_120_degrees, {(3, 1): 4, (3, 11): 1}),
+        pytest.param(radial_at_120_degrees, {(3, 1): 7, (3, 4): 2}, marks=pytest.mark.slow),
+    ],
+)
+def test_robots_drawn_at_120_degrees_have_the_modes_of_rational_drawings(
+    make: Callable[[], Mechanism], known: dict[tuple[int, int], int]
+) -> None:
+    assert kinds(nag.modes(make())) == Counter(known)
+
+
+def test_forms_of_a_leg_with_square_roots_vanish_at_its_poses_exactly() -> None:
+    root_2 = square_root(Fraction(2))
+    leg = chain(
+        ("revolute", {"point": (root_2, 0, 1), "axis": (1, ROOT_3, 0)}),
+        ("prismatic", {"axis": (ROOT_3, -1, 3)}),
+        ("spherical", {"point": (1, root_2 + ROOT_3, 3)}),
+    )
+    elements = leg.elements()
+    image = image_of_chain(elements, np.random.default_rng(0))
+    assert image.cuts and [f.degree for f in image.forms] == [2]
+    rng = np.random.default_rng(1)
+    for _ in range(3):
+        values = {
+            e.factor: tuple(Fraction(int(c)) for c in rng.integers(-9, 10, len(e.generators)))
+            for e in elements
+            if e.factor is not None
+        }
+        pose = [x for part in displacement(elements, values, lambda c: c) for x in part]
+        assert all(f(pose) == 0 for f in image.forms)
+        assert any(f([*pose[:7], pose[7] + 1]) != 0 for f in image.forms)
+
+
 def test_irrational_robots_are_refused() -> None:
-    joints = [replace(j, point=("sqrt(3)", *j.point[1:])) for j in robot("3-rrr-planar").joints]
-    with pytest.raises(MechanismError, match="irrational"):
+    joints = [replace(j, point=("cos(pi/7)", *j.point[1:])) for j in robot("3-rrr-planar").joints]
+    with pytest.raises(MechanismError, match="no sums of square roots"):
         nag.modes(Mechanism("base", tuple(joints)))
 
 

@@ -50,9 +50,14 @@ class PrimeField:
     """Arithmetic modulo a prime below 2^64; numbers are integers, of any size where they are taken.
 
     A `nag.numerics.ball_ranks.Field`.
+
+    Attributes:
+        modulus: the prime.
+        flipped: numbers of which the other square root is taken.
     """
 
     modulus: int
+    flipped: frozenset[int] = frozenset()
 
     def of(self, c: Exact | int) -> int:
         """The image of an exact number; conjugate numbers may have each other's.
@@ -76,7 +81,7 @@ class PrimeField:
         root = _root_modulo(a % self.modulus, self.modulus)
         if root is None:
             raise ArithmeticError(f"{a} is no square modulo {self.modulus}")
-        return root
+        return -root % self.modulus if a in self.flipped else root
 
     def is_zero(self, a: int) -> bool:
         return a % self.modulus == 0

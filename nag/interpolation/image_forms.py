@@ -6,21 +6,28 @@ monomials vanish on the image, but for a probability of some 1e-17. Multiples of
 degrees are left out: their leading monomials are, by Gauss' elimination. What is left has a
 reduced basis, whose coefficients are recognised from their residues modulo as many primes as that
 takes, and has to vanish at points modulo one prime more.
+
+A map with square roots in its coefficients is taken modulo primes that have these roots. Where the
+roots of primes change sign, the image's reduced basis goes into its conjugates', so that the bases
+of all choices of signs together have the rational parts of each coefficient.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import islice, pairwise
-from math import isqrt
+from itertools import combinations, pairwise
+from math import isqrt, prod
 from typing import Protocol
 
 import numpy as np
 
-from nag.algebra.exact_ranks import LARGEST_PRIME, PrimeField, primes_below
+from nag.algebra.exact_ranks import PrimeField, fields_with_roots
+from nag.algebra.flint_numbers import to_rational
+from nag.algebra.number import Exact
 from nag.algebra.polynomial import Exponents, Polynomial
+from nag.algebra.surd import normal_sum, pow_inverse
 from nag.interpolation.vanishing import InterpolationError, monomials_of_degree, primitive
 
 # Points beyond the number of monomials: so many more conditions, each of which a form that does not
@@ -28,10 +35,19 @@ from nag.interpolation.vanishing import InterpolationError, monomials_of_degree,
 MORE_POINTS = 8
 # Primes for one coefficient; each gives it 31 bits for its numerator and as many below.
 MOST_PRIMES = 9
+# Roots of primes in the coefficients: each doubles the number of bases.
+MOST_ROOTS = 4
 
 
 class ModularMap(Protocol):
-    """A map to a projective space of which values modulo primes are known."""
+    """A map to a projective space of which values modulo primes are known.
+
+    Attributes:
+        roots: the primes whose square roots its coefficients are made of.
+    """
+
+    @property
+    def roots(self) -> frozenset[int]: ...
 
     def value(self, field: PrimeField, rng: np.random.Generator) -> Sequence[int]:
         """The image of a random point, in homogeneous coordinates."""
@@ -86,10 +102,14 @@ def find_image_forms(
         most_degree: the last degree that is looked at, whether they cut it out by then or not.
 
     Raises:
-        InterpolationError: if a coefficient takes more primes than `MOST_PRIMES`.
+        InterpolationError: if a coefficient takes more primes than `MOST_PRIMES`, or the
+            coefficients have more than `MOST_ROOTS` roots of primes in them.
         ZeroDivisionError: if the prime divides a denominator of the map's.
     """
-    field = _fields(1)[0]
+    if len(source.roots) > MOST_ROOTS:
+        names = ", ".join(f"sqrt({p})" for p in sorted(source.roots))
+        raise InterpolationError(f"forms are not found with so many roots as {names}")
+    field = _fields(source, 1)[0]
     value, tangents = source.tangents(field, rng)
     dimension = field.rank([value, *tangents]) - 1
     found = ImageForms(source, n, dimension, tuple(known), (), 0, False)
@@ -114,16 +134,23 @@ def add_degree(found: ImageForms, rng: np.random.Generator) -> ImageForms:
     return replace(found, cuts=_cuts(found, rng)) if more else found
 
 
-def _fields(count: int) -> list[PrimeField]:
-    """The first of the fields that values are taken in."""
-    return list(map(PrimeField, islice(primes_below(LARGEST_PRIME), count)))
+def _fields(source: ModularMap, count: int) -> list[PrimeField]:
+    """The first of the fields that values are taken in.
+
+    Raises:
+        InterpolationError: if there are not so many that have the map's roots.
+    """
+    found = fields_with_roots(source.roots, count=count)
+    if len(found) < count:
+        raise InterpolationError("no primes are found that have all the roots")
+    return list(found)
 
 
 def _without_multiples(found: ImageForms, degree: int) -> list[Exponents]:
     """The monomials of a degree that lead no multiple of the forms that are known."""
     monomials = monomials_of_degree(found.n, degree)[::-1]
     place = {e: i for i, e in enumerate(monomials)}
-    field = _fields(1)[0]
+    field = _fields(found.source, 1)[0]
     rows = []
     for f in (*found.known, *found.forms):
         terms = [(e, field.of(c)) for e, c in f.terms.items()]
@@ -138,24 +165,63 @@ def _without_multiples(found: ImageForms, degree: int) -> list[Exponents]:
 
 def _vanishing(
     found: ImageForms, degree: int, candidates: Sequence[Exponents], rng: np.random.Generator
-) -> list[dict[Exponents, Fraction]]:
+) -> list[dict[Exponents, Exact]]:
     """A reduced basis of the forms in these monomials that vanish on the image."""
-    modulus, residues = 1, []
-    fields = _fields(MOST_PRIMES + 1)
+    modulus = 1
+    residues: list[list[list[int]]] = []
+    fields = _fields(found.source, MOST_PRIMES + 1)
+    radicands = [prod(own) for own in _subsets(found.source.roots)]
     for field, other in pairwise(fields):
-        basis = _basis_modulo(field, found, degree, candidates, rng)
-        if not basis:
+        parts = _parts_modulo(field, found, degree, candidates, rng)
+        if not parts[0]:
             return []
-        if modulus > 1 and len(basis) != len(residues):
+        if modulus > 1 and len(parts[0]) != len(residues[0]):
             raise InterpolationError("forms are not the same modulo two primes")
-        residues = _chinese(residues, modulus, basis, field.modulus) if modulus > 1 else basis
+        if modulus > 1:
+            both = zip(residues, parts, strict=True)
+            parts = [_chinese(old, modulus, new, field.modulus) for old, new in both]
+        residues = parts
         modulus *= field.modulus
-        forms = _recognise_forms(residues, modulus, candidates)
+        forms = _recognise_forms(residues, radicands, modulus, candidates)
         if forms is not None and _hold(forms, found, degree, other, rng):
             return forms
     raise InterpolationError(
         f"forms of degree {degree} have coefficients of more than {31 * MOST_PRIMES} bits"
     )
+
+
+def _subsets(primes: Iterable[int]) -> list[tuple[int, ...]]:
+    """All of them, the empty one first."""
+    own = sorted(primes)
+    return [subset for size in range(len(own) + 1) for subset in combinations(own, size)]
+
+
+def _parts_modulo(
+    field: PrimeField,
+    found: ImageForms,
+    degree: int,
+    candidates: Sequence[Exponents],
+    rng: np.random.Generator,
+) -> list[list[list[int]]]:
+    """The rational parts of a reduced basis modulo a prime, for each product of roots."""
+    p, subsets = field.modulus, _subsets(found.source.roots)
+    bases = [
+        _basis_modulo(PrimeField(p, frozenset(flipped)), found, degree, candidates, rng)
+        for flipped in subsets
+    ]
+    if len({len(basis) for basis in bases}) > 1:
+        raise InterpolationError("forms are not the same for conjugate roots")
+    parts = []
+    for radicand in subsets:
+        factor = pow_inverse(len(subsets) * prod(map(field.root, radicand)) % p, p)
+        signs = [(-1) ** len({*radicand} & {*flipped}) * factor for flipped in subsets]
+        parts.append(
+            [
+                [sum(s * c for s, c in zip(signs, own, strict=True)) % p for own in columns]
+                for columns in (list(zip(*rows, strict=True)) for rows in zip(*bases, strict=True))
+            ]
+        )
+    return parts
 
 
 def _basis_modulo(
@@ -203,18 +269,24 @@ def _chinese(
 
 
 def _recognise_forms(
-    residues: Sequence[Sequence[int]], modulus: int, monomials: Sequence[Exponents]
-) -> list[dict[Exponents, Fraction]] | None:
-    """The forms of these coefficients; None if one is no residue of a short fraction."""
+    residues: Sequence[Sequence[Sequence[int]]],
+    radicands: Sequence[int],
+    modulus: int,
+    monomials: Sequence[Exponents],
+) -> list[dict[Exponents, Exact]] | None:
+    """The forms of these coefficients; None if a part is no residue of a short fraction."""
     forms = []
-    for row in residues:
-        terms = {}
-        for e, residue in zip(monomials, row, strict=True):
-            if residue:
-                fraction = _short_fraction(residue, modulus)
-                if fraction is None:
-                    return None
-                terms[e] = fraction
+    for rows in zip(*residues, strict=True):
+        terms: dict[Exponents, Exact] = {}
+        for e, own in zip(monomials, zip(*rows, strict=True), strict=True):
+            fractions = [_short_fraction(residue, modulus) for residue in own]
+            if None in fractions:
+                return None
+            total = normal_sum(
+                {r: to_rational(c) for r, c in zip(radicands, fractions, strict=True) if c}
+            )
+            if total:
+                terms[e] = total
         forms.append(terms)
     return forms
 
@@ -231,7 +303,7 @@ def _short_fraction(residue: int, modulus: int) -> Fraction | None:
 
 
 def _hold(
-    forms: Sequence[dict[Exponents, Fraction]],
+    forms: Sequence[Mapping[Exponents, Exact]],
     found: ImageForms,
     degree: int,
     field: PrimeField,
@@ -256,7 +328,7 @@ def _cuts(found: ImageForms, rng: np.random.Generator) -> bool:
     """Whether the gradients at a random point of the image leave its tangents alone."""
     if len(found.known) + len(found.forms) < found.codimension:
         return False
-    field = _fields(1)[0]
+    field = _fields(found.source, 1)[0]
     point = [int(x) for x in found.source.value(field, rng)]
     p = field.modulus
     rows = []

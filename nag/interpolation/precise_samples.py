@@ -62,14 +62,20 @@ class Source:
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def source_of_component(system: PolynomialSystem, component: WitnessSet) -> Source:
+def source_of_component(
+    system: PolynomialSystem, component: WitnessSet, roots: bool = False
+) -> Source:
     """The witness points of a component.
 
+    Args:
+        roots: whether coefficients may have square roots in them.
+
     Raises:
-        SourceError: if the coefficients are irrational, or the points are singular in a way that
-            deflation does not mend.
+        SourceError: if the coefficients are irrational in another way, or the points are singular
+            in a way that deflation does not mend.
     """
-    _check_rational(system)
+    if not (roots and all(f.algebraic for f in system.polynomials)):
+        _check_rational(system)
     natural = coordinates_of(system).without_scales
     own = natural.system(system)
     component = carry_component(component, natural, own)

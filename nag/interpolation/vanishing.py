@@ -17,8 +17,11 @@ import flint
 import numpy as np
 
 from nag.algebra.exact_ranks import coefficient_rows, first_independent_rows
+from nag.algebra.flint_numbers import to_fraction
 from nag.algebra.multipliers import order
+from nag.algebra.number import Exact
 from nag.algebra.polynomial import Polynomial, divides
+from nag.algebra.surd import Surd
 from nag.errors import ComponentError
 from nag.interpolation.point_cloud import (
     Cloud,
@@ -180,15 +183,19 @@ def _not_rational(degree: int) -> NotRationalError:
 
 
 def _split(
-    cloud: Cloud, known: Interpolated, candidates: Sequence[Exponents], digits: int
-) -> tuple[list[Exponents], list[tuple[Exponents, list[Fraction]]]]:
+    cloud: Cloud,
+    known: Interpolated,
+    candidates: Sequence[Exponents],
+    digits: int,
+    radicands: Sequence[int] = (1,),
+) -> tuple[list[Exponents], list[tuple[Exponents, list[Exact]]]]:
     """The candidates that are independent, after those known to be, and the others' relations."""
     together = [*known.standard, *candidates]
     points = cloud.doubles(cloud.points_for(len(together)), digits)[:, known.coordinates]
     if clearly_independent(monomials_in_doubles(points, together)):
         return together, []
     columns = columns_at(cloud, known.coordinates, together, digits, 0)
-    echelon = Echelon(len(columns[together[0]]), digits)
+    echelon = Echelon(len(columns[together[0]]), digits, radicands)
     standard, relations = [], []
     for e in together:
         relation = echelon.add(columns[e])
@@ -205,10 +212,17 @@ def leading_monomial(f: Polynomial) -> Exponents:
 
 
 def primitive(f: Polynomial) -> Polynomial:
-    """The multiple with coprime whole coefficients, the leading one positive."""
-    factor = Fraction(lcm(*(c.denominator for c in f.terms.values())))
-    whole = [int(c * factor) for c in f.terms.values()]
-    common = gcd(*whole)
+    """The multiple with coprime whole coefficients, the leading one positive.
+
+    Of sums of square roots the rational parts are whole numbers, and coprime together.
+    """
+    parts = [
+        part
+        for c in f.terms.values()
+        for part in (map(to_fraction, c.terms.values()) if isinstance(c, Surd) else [c])
+    ]
+    factor = Fraction(lcm(*(c.denominator for c in parts)))
+    common = gcd(*(int(c * factor) for c in parts))
     sign = 1 if f.terms[leading_monomial(f)] > 0 else -1
     return f * (sign * factor / common)
 
@@ -243,16 +257,21 @@ def _new_generators(
 
 
 def forms_of_degree(
-    cloud: Cloud, coordinates: Sequence[int], degree: int, known: Sequence[Polynomial]
+    cloud: Cloud,
+    coordinates: Sequence[int],
+    degree: int,
+    known: Sequence[Polynomial],
+    radicands: Sequence[int] = (1,),
 ) -> list[Polynomial]:
     """The homogeneous polynomials of a degree that vanish on the image, beside those known.
 
     Args:
         coordinates: the variables that they are homogeneous in.
         known: forms of lower degrees, whose leading monomials' multiples are left out.
+        radicands: square-free numbers, 1 first, whose roots span the field of coefficients.
 
     Raises:
-        NotRationalError: if coefficients are not rational.
+        NotRationalError: if coefficients are not in this field.
         SourceError: if points cannot be sampled.
     """
     k = len(coordinates)
@@ -263,7 +282,7 @@ def forms_of_degree(
     nothing = replace(start(coordinates), standard=())
     for digits in DIGITS:
         try:
-            standard, relations = _split(cloud, nothing, monomials, digits)
+            standard, relations = _split(cloud, nothing, monomials, digits, radicands)
         except TooFewDigitsError:
             continue
         found = []

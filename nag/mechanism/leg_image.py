@@ -13,11 +13,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 
 from nag.algebra.exact_ranks import PrimeField
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.surd import Surd
 from nag.interpolation.image_forms import ImageForms, find_image_forms
 from nag.mechanism.loop_product import Element
 from nag.mechanism.quaternion import DualQuaternion
@@ -51,6 +53,12 @@ class ProductOfFactors:
     """
 
     elements: tuple[Element, ...]
+
+    @cached_property
+    def roots(self) -> frozenset[int]:
+        """The primes whose square roots the generators are made of."""
+        entries = (c for e in self.elements for g in e.generators for part in g for c in part)
+        return frozenset(p for c in entries if isinstance(c, Surd) for p in c.primes())
 
     def value(self, field: PrimeField, rng: np.random.Generator) -> list[int]:
         """A random product modulo a prime."""

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.exact_ranks import null_space
+from nag.algebra.exact_ranks import null_space, roots_of
 from nag.algebra.given import is_a
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -74,7 +74,8 @@ def modes(mechanism: Any, platform: str | None = None, *, run: Run = DEFAULT_RUN
     coordinates that stand still in the pose are not seen, as a rod that turns about itself.
 
     Args:
-        mechanism: a `nag.Mechanism`, or a `nag.Case` of one, with rational coordinates.
+        mechanism: a `nag.Mechanism`, or a `nag.Case` of one, with coordinates that are rational or
+            sums of square roots.
         platform: name of the platform; by default the body of the most legs, three at least.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
@@ -316,10 +317,11 @@ def _with_equations(
         poses = model.study(np.array([point for point, _ in found]))
         motion = motion_of(poses, [_twists(model, *each, length) for each in found], length)
         mode = replace(mode, motion=motion)
-        linear = tuple(forms_of_degree(cloud, range(8), 1, ()))
+        radicands = roots_of(f.terms.values() for f in model.system.polynomials)
+        linear = tuple(forms_of_degree(cloud, range(8), 1, (), radicands))
         study = _reduce_form(study_quadric(), linear)
         known = (*linear, *([primitive(study)] if study else []))
-        quadratic = tuple(forms_of_degree(cloud, range(8), 2, known))
+        quadratic = tuple(forms_of_degree(cloud, range(8), 2, known, radicands))
         return replace(mode, linear=linear, quadratic=quadratic)
     except InterpolationError:
         return replace(mode, note="its linear or quadratic equations are not rational")
@@ -340,7 +342,7 @@ def _cloud(model: PlatformModel, component: WitnessSet, run: Run) -> Cloud:
     names = (COORDINATES[0], *system.variables)
     images = (*_pose(model), *Polynomial.variables(system.n)[7:])
     ambient = AmbientVariables.of(system, names, range(1, len(names)), images)
-    return Cloud(source_of_component(system, component), ambient, run.random(44), run)
+    return Cloud(source_of_component(system, component, True), ambient, run.random(44), run)
 
 
 def _reduce_form(form: Polynomial, linear: Sequence[Polynomial]) -> Polynomial:

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from nag.algebra.number import Number
+from nag.algebra.number import Irrational, Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
@@ -160,7 +160,8 @@ def platform_model(robot: ParallelRobot, rng: np.random.Generator) -> PlatformMo
     """The system of a platform's pose.
 
     Raises:
-        MechanismError: if a leg has loops of its own, or a joint is not given rationally.
+        MechanismError: if a leg has loops of its own, or a joint is given by other numbers than
+            sums of square roots.
         nag.interpolation.vanishing.InterpolationError: if forms have too long coefficients.
     """
     for leg in robot.legs:
@@ -177,10 +178,10 @@ def _check_leg(leg: Leg) -> None:
         raise MechanismError(f"leg {leg.name} has loops of its own; only serial chains are legs")
     for joint in leg.joints:
         vectors = (joint.point, joint.axis, joint.second_axis)
-        if not all(isinstance(x, Fraction) for v in vectors if v is not None for x in v):
+        if any(isinstance(x, Irrational) for v in vectors if v is not None for x in v):
             raise MechanismError(
-                f"joint {joint.name!r} has irrational coordinates; operation modes are found of "
-                "rational ones: legs at 120 degrees have them about the axis (1, 1, 1)"
+                f"joint {joint.name!r} has coordinates that are no sums of square roots; operation "
+                "modes are found of rational numbers and such sums"
             )
 
 

@@ -1,4 +1,6 @@
-"""Linear relations with rational coefficients among columns of numbers of many digits.
+"""Linear relations with exact coefficients among columns of numbers of many digits.
+
+Coefficients are rational, or sums of square roots out of a field that is known.
 
 Columns are reduced one after the other by the independent ones before them. With balls in place of
 numbers a column whose rest contains zero everywhere is a combination of those before it as far as
@@ -10,9 +12,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from itertools import chain
+from math import log10
 
 import flint
 
+from nag.algebra.flint_numbers import to_rational
+from nag.algebra.number import Exact
+from nag.algebra.surd import Surd, normal_sum
 from nag.numerics.ball_ranks import known_zero, regular_block
 from nag.numerics.digits import LOG10_2, SPARE, bits_of, in_bits
 
@@ -46,9 +52,11 @@ class Echelon:
 
     Attributes:
         digits: of the numbers in the columns; bits: that are computed with.
+        radicands: square-free numbers, whose roots coefficients are rational sums of.
     """
 
-    def __init__(self, rows: int, digits: int) -> None:
+    def __init__(self, rows: int, digits: int, radicands: Sequence[int] = (1,)) -> None:
+        self.radicands = tuple(radicands)
         self.digits, self.bits = digits, bits_of(digits + SPARE)
         self._rows = rows
         self._pivots: list[int] = []
@@ -63,13 +71,13 @@ class Echelon:
 
     def copy(self) -> Echelon:
         """The same columns; adding to the copy leaves these as they are."""
-        other = Echelon(self._rows, self.digits)
+        other = Echelon(self._rows, self.digits, self.radicands)
         other._pivots = list(self._pivots)
         other._lower, other._inverse = flint.arb_mat(self._lower), flint.arb_mat(self._inverse)
         other._upper = list(self._upper)
         return other
 
-    def add(self, column: Sequence[flint.arb]) -> list[Fraction] | None:
+    def add(self, column: Sequence[flint.arb]) -> list[Exact] | None:
         """Keep a column if it is independent of those kept; else its coefficients in them.
 
         Raises:
@@ -79,14 +87,14 @@ class Echelon:
         with in_bits(self.bits):
             return self._add(column)
 
-    def _add(self, column: Sequence[flint.arb]) -> list[Fraction] | None:
+    def _add(self, column: Sequence[flint.arb]) -> list[Exact] | None:
         tops, rest = self._reduce_column(column)
         if self._depends(column, rest.values()):
             return self._coefficients(tops)
         self._keep(tops, rest, max(rest, key=lambda i: rest[i].abs_lower()))
         return None
 
-    def relation(self, column: Sequence[flint.arb]) -> list[Fraction] | None:
+    def relation(self, column: Sequence[flint.arb]) -> list[Exact] | None:
         """The coefficients of a dependent column; None, and nothing is kept, if it is independent.
 
         Raises:
@@ -95,7 +103,7 @@ class Echelon:
         with in_bits(self.bits):
             return self._relation(column)
 
-    def _relation(self, column: Sequence[flint.arb]) -> list[Fraction] | None:
+    def _relation(self, column: Sequence[flint.arb]) -> list[Exact] | None:
         tops, rest = self._reduce_column(column)
         return self._coefficients(tops) if self._depends(column, rest.values()) else None
 
@@ -130,7 +138,7 @@ class Echelon:
             raise TooFewDigitsError(f"{self.digits} digits do not tell whether a column depends")
         return found
 
-    def _coefficients(self, tops: list[flint.arb]) -> list[Fraction]:
+    def _coefficients(self, tops: list[flint.arb]) -> list[Exact]:
         """Back substitution; the solution recognised."""
         values = list(tops)
         for k in reversed(range(len(values))):
@@ -138,7 +146,7 @@ class Echelon:
             values[k] = values[k] / upper[k]
             for i in range(k):
                 values[i] = values[i] - upper[i] * values[k]
-        return [recognise_rational(x, self.digits) for x in values]
+        return [recognise_sum_of_roots(x, self.radicands, self.digits) for x in values]
 
 
 def recognise_rational(x: flint.arb, digits: float) -> Fraction:
@@ -160,6 +168,40 @@ def recognise_rational(x: flint.arb, digits: float) -> Fraction:
     if digits < EVIDENCE or abs(found - middle) > radius:
         raise TooFewDigitsError(f"no rational number is recognised in {digits:.0f} digits")
     return found
+
+
+def recognise_sum_of_roots(x: flint.arb, radicands: Sequence[int], digits: float) -> Exact:
+    """The sum of rational multiples of square roots in a ball, if its size shows that it is there.
+
+    The shortest integer relation between the number and the roots, by lattice reduction.
+
+    Args:
+        radicands: square-free numbers, 1 first.
+        digits: those of a ball without a radius.
+
+    Raises:
+        TooFewDigitsError: if there is none.
+    """
+    if len(radicands) == 1 or x.contains(0):
+        return recognise_rational(x, digits)
+    radius = _fraction(x.rad())
+    digits = int(_digits(radius) if radius else digits)
+    with in_bits(bits_of(digits + SPARE)):
+        values = [x, *(flint.arb(r).sqrt() for r in radicands)]
+        scaled = [round(_fraction(v.mid()) * 10 ** max(0, digits)) for v in values]
+        rows = [[*(int(i == j) for j in range(len(values))), n] for i, n in enumerate(scaled)]
+        shortest = [int(n) for n in flint.fmpz_mat(rows).lll().tolist()[0]]
+        own, parts = -shortest[0], shortest[1:-1]
+        spent = sum(log10(1 + abs(n)) for n in shortest[:-1])
+        if own and spent + EVIDENCE <= digits:
+            terms = {r: flint.fmpq(n, own) for r, n in zip(radicands, parts, strict=True)}
+            found = normal_sum(terms)
+            bits = bits_of(digits + SPARE)
+            near = found.ball(bits) if isinstance(found, Surd) else to_rational(found)
+            # Digits are whole here: a little more than the radius.
+            if abs(near - x).lower() <= flint.arb(10) ** -digits:
+                return found
+    raise TooFewDigitsError(f"no sum of square roots is recognised in {digits:.0f} digits")
 
 
 def _fraction(x: flint.arb) -> Fraction:
