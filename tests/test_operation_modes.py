@@ -20,7 +20,7 @@ from nag.algebra.exact_ranks import null_space
 from nag.algebra.number import square_root
 from nag.cli import main
 from nag.decomposition.intersection import intersect_components
-from nag.errors import MechanismError
+from nag.errors import MechanismError, NagError
 from nag.files.cases import read_case
 from nag.mechanism.axes import cross
 from nag.mechanism.graph import Joint, Mechanism
@@ -491,6 +491,25 @@ def test_irrational_robots_are_refused() -> None:
     joints = [replace(j, point=("cos(pi/7)", *j.point[1:])) for j in robot("3-rrr-planar").joints]
     with pytest.raises(MechanismError, match="no sums of square roots"):
         nag.modes(Mechanism("base", tuple(joints)))
+
+
+def test_modes_that_take_longer_than_the_budget_are_not_looked_for() -> None:
+    found = nag.modes(robot("3-rps"), budget=0)
+    assert not found.complete and not found.modes
+    assert found.dimension_at_reference is None
+    assert found.answer == "no operation mode is known"
+    (note,) = found.notes
+    assert "a budget of 0 s" in note
+    with pytest.raises(NagError, match="budget"):
+        nag.modes(robot("3-rps"), budget=-1)
+
+
+def test_the_command_says_that_an_answer_is_incomplete_for_its_budget(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    case = str(CASES / "robots" / "3-rps.toml")
+    assert main(["modes", case, "--budget", "0"]) == 1
+    assert "INCOMPLETE" in capsys.readouterr().out
 
 
 def test_the_command_tells_bad_input_in_one_line(

@@ -11,10 +11,13 @@ from nag.cli.arguments import (
     add_running,
     only_assembled,
     read_case_file,
+    whole,
 )
 from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
+from nag.mechanism import MODES_BUDGET
 
 FORMAT = "nag-operation-modes"
+MOST_SECONDS = 1_000_000
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -27,6 +30,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help="the body whose poses are looked at (default: the one with the most legs between "
         "itself and the ground, three at least)",
+    )
+    parser.add_argument(
+        "--budget",
+        type=lambda text: whole(text, 0, MOST_SECONDS),
+        default=MODES_BUDGET,
+        metavar="SECONDS",
+        help="nothing is tracked where all paths that are estimated take longer, as counted by "
+        f"what a common processor does in that time (default: {MODES_BUDGET})",
     )
 
 
@@ -44,7 +55,9 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if case.mechanism is None:
         raise only_assembled(case, "nag modes")
     try:
-        found = modes(case.mechanism, options.platform, run=chosen_run(options))
+        found = modes(
+            case.mechanism, options.platform, budget=options.budget, run=chosen_run(options)
+        )
     except (MechanismError, InterpolationError) as error:
         raise UsageError(f"{options.case}: {error}") from None
     decomposition = found.decomposition
@@ -65,7 +78,10 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     }
     blocks = found.rows(), found.table(), found.mode_rows()
     tail = found.tail()
-    agreement = compare(decomposition, [t for t in case.truth if t.formulation], PLATFORM_ALONE)
+    known = [t for t in case.truth if t.formulation]
+    # Of modes that were not looked for nothing is compared.
+    looked = found.complete or bool(found.modes)
+    agreement = compare(decomposition, known, PLATFORM_ALONE) if looked else None
     if agreement is not None:
         tail.append(("known", agreement_text(agreement)))
     tail.append(("paths", paths_text(decomposition.paths)))

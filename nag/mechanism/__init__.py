@@ -24,9 +24,10 @@ of a joint, as a pitch, is a field of `graph.Joint` (where `networkx_graph` and 
 in `joint_types.VECTORS`, and `nag.files.mechanism_case` reads it.
 """
 
-# For whoever must not load them: seconds that the degree of a component may take, and names of the
-# formulations.
+# For whoever must not load them: seconds that the degree of a component may take, and operation
+# modes, and names of the formulations.
 BUDGET = 10
+MODES_BUDGET = 60
 FORMULATIONS = {
     "E": "Euler parameters, in the plane a cosine and a sine for each body",
     "H": "half-angles, slides and quaternions of the joints",

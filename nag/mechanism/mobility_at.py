@@ -30,7 +30,7 @@ from nag.mechanism.model import Model
 from nag.mechanism.moving_parts import MovingParts, NotClear, find_moving_parts
 from nag.mechanism.nearly_mobile import check_tolerance, find_near_motion, find_spoiled_motion
 from nag.mechanism.operation_modes import modes
-from nag.mechanism.path_estimates import fewest_estimated_paths
+from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
 from nag.mechanism.platform import platform_model
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.quaternion import R
@@ -45,10 +45,6 @@ from nag.witness.witness import Decomposition, WitnessSet
 SMOOTH = "one component passes through a smooth point, and is reduced there"
 ISOLATED = "an isolated configuration is a component"
 ALL_COMPONENTS = "a decomposition of all configurations"
-
-
-# Seconds that a path of a decomposition takes at least.
-LEAST_SECONDS = 1e-4
 
 
 class NoAssembly(MechanismError):

@@ -241,6 +241,8 @@ class OperationModes:
     @property
     def answer(self) -> str:
         """Modes counted by dimension and degree."""
+        if not self.modes and not self.complete:
+            return "no operation mode is known"
         counts = Counter((m.dimension, m.degree) for m in self.moving)
         kinds = [(count, f"of dimension {d}, degree {k}") for (d, k), count in counts.items()]
         text = count_text(len(self.moving), "operation mode")

@@ -20,7 +20,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import null_space, roots_of
-from nag.algebra.given import is_a
+from nag.algebra.given import check_size, is_a
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.decompose import decompose
@@ -36,6 +36,7 @@ from nag.interpolation.vanishing import (
     leading_monomial,
     primitive,
 )
+from nag.mechanism import MODES_BUDGET
 from nag.mechanism.inverse_kinematics import REACHED, reach_poses
 from nag.mechanism.leg_image import COORDINATES, MOST_DEGREE, norm_form, study_quadric
 from nag.mechanism.legs import parallel_robot
@@ -47,6 +48,7 @@ from nag.mechanism.modes_report import (
     Transition,
 )
 from nag.mechanism.motions import motion_of, screw_system, twists_at
+from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
 from nag.mechanism.platform import PlatformModel, platform_model
 from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
@@ -55,7 +57,7 @@ from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.membership import UndecidedError, components_through
 from nag.witness.projection import ProjectionError, project
 from nag.witness.real_points import real_points_near
-from nag.witness.witness import Decomposition, WitnessSet
+from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # General poses at which twists are compared.
 POSES = 3
@@ -66,7 +68,13 @@ UNITS = tuple(tuple(int(i == j) for j in range(8)) for i in range(8))
 
 
 @takes_run
-def modes(mechanism: Any, platform: str | None = None, *, run: Run = DEFAULT_RUN) -> OperationModes:
+def modes(
+    mechanism: Any,
+    platform: str | None = None,
+    *,
+    budget: float = MODES_BUDGET,
+    run: Run = DEFAULT_RUN,
+) -> OperationModes:
     """The operation modes of a parallel robot, from the platform's poses alone.
 
     Each leg is replaced by the equations of the poses that it lets the platform have, in Study
@@ -77,6 +85,8 @@ def modes(mechanism: Any, platform: str | None = None, *, run: Run = DEFAULT_RUN
         mechanism: a `nag.Mechanism`, or a `nag.Case` of one, with coordinates that are rational or
             sums of square roots.
         platform: name of the platform; by default the body of the most legs, three at least.
+        budget: seconds; where the paths that are estimated take more at the least, none is
+            tracked, and the answer has no modes and says why.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
@@ -88,11 +98,33 @@ def modes(mechanism: Any, platform: str | None = None, *, run: Run = DEFAULT_RUN
     [(3, 1, 'translation')]
     """
     given = mechanism.described if is_a(mechanism, "nag.files.cases", "Case") else mechanism
+    check_size(budget, "budget")
     run.tell("legs", 0, 4)
     model = platform_model(parallel_robot(given, platform), run.random(41))
+    paths = fewest_estimated_paths(model.system)
+    if paths * LEAST_SECONDS > budget:
+        note = f"up to {paths} paths, which take longer than a budget of {budget:g} s allows"
+        settings = run.settings
+        nothing = Decomposition(
+            model.system, (), PathCounts(), run.seed, settings, (), False, (note,)
+        )
+        return OperationModes(model, nothing, (), (), (), (note,))
     run.tell("modes", 1, 4)
     found = decompose(model.system, run=run)
     return describe_modes(model, found, run)
+
+
+def _no_answer(model: PlatformModel, run: Run, note: str) -> Decomposition:
+    return Decomposition(
+        system=model.system,
+        components=(),
+        paths=PathCounts(),
+        seed=run.seed,
+        settings=run.settings,
+        order=(),
+        complete=False,
+        notes=(note,),
+    )
 
 
 def decompose_poses(model: PlatformModel, run: Run) -> Decomposition:

@@ -21,6 +21,8 @@ from nag.errors import MechanismError
 # So many ways to spend what equations leave are followed at most, whatever time that takes: the
 # choice of a model must not depend on the machine.
 MOST_STATES = 2_000
+# Seconds that a path of a decomposition takes at least.
+LEAST_SECONDS = 1e-4
 
 
 class ModelError(MechanismError):
