@@ -8,7 +8,8 @@ whose comment begins with ``Decides, measured:``, with ``--decompose`` in decomp
 caller may choose stands beside its argument, or in `nag.tracking.settings.Settings`.
 
 Other values of all other constants give the same answers, sooner or later: sizes of steps and
-work, bounds of rounding, digits that are taken, where random numbers come from.
+work, bounds of rounding, digits that are taken and when more of them are, scales, sizes of boxes in
+which something is proved, where random numbers come from.
 """
 
 from __future__ import annotations

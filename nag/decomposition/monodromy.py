@@ -22,7 +22,7 @@ NEARER = 1e-3
 # Of more distances than FEW only those are computed that a projection does not show to be long, at
 # most so many at once.
 FEW, MOST_DISTANCES = 1_000, 100_000
-# Decides: Coordinates of a point, over its largest, that slices of its sizes take for larger ones.
+# Coordinates of a point, over its largest, that slices of its sizes take for larger ones.
 LEAST_SIZE = 1e-8
 NOTHING: Mapping[int, PointInWords] = MappingProxyType({})
 

@@ -32,7 +32,7 @@ Places = tuple[list[int], list[int]]
 
 # Decides: Decimal logarithm of a pivot over its error that makes it no zero.
 CLEAR = 0.5
-# Decides: Pivots, over the largest, of a block that doubles solve for; the rest is for all digits.
+# Pivots, over the largest, of a block that doubles solve for; the rest is for all digits.
 WELL = 1e-8
 
 

@@ -41,8 +41,8 @@ MOST_DEFLATIONS = 4
 FLAT = 1e-4
 # Roundings in such a step, times the condition.
 LOSS = 1e2
-# Decides: Part of the smallest singular value by which it may change as far from a zero as rounding
-# errors of the values say: more may be a double zero's, which is looked for in more digits.
+# Part of the smallest singular value by which it may change as far from a zero as rounding errors
+# of the values say: more may be a double zero's, which is looked for in more digits.
 CHANGED = 0.1
 # Sizes are very unequal if they, and 1, differ by more than two to this power.
 UNEQUAL = 10

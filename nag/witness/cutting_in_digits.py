@@ -31,7 +31,7 @@ from nag.witness.slices import pad_rows
 PROBED = 1e-6
 # How many digits larger slices are made than equations.
 FIRST = 40
-# Decides: Digits of coefficients from which on multiple zeros are told in digits from the first.
+# Digits of coefficients from which on multiple zeros are told in digits from the first.
 LONG = 12
 
 

@@ -40,9 +40,9 @@ FEWEST = 28
 DOUBLE_DOUBLE = 30
 # Error of a step that is solved in doubles, in roundings times the condition.
 STEP = 16.0
-# Decides: Error of residuals in double-double: a bound.
+# Error of residuals in double-double: a bound.
 RESIDUAL = 1e-31
-# Decides: Newton's last step in doubles; after a larger one points are found in balls.
+# Newton's last step in doubles; after a larger one points are found in balls.
 ARRIVED = 1e-6
 # Splits a double into halves of 26 digits: 2^27 + 1.
 SPLITTER = 134217729.0

@@ -6,8 +6,8 @@ import numpy as np
 
 from nag.witness.witness import Slice
 
-# Decides: Terms of a slice at points, over those of one that these move to, below which the latter
-# is scaled: else paths begin nearer to 1 than their parameter is told from it.
+# Terms of a slice at points, over those of one that these move to, below which the latter is
+# scaled: else paths begin nearer to 1 than their parameter is told from it.
 UNEVEN = 1e-5
 
 

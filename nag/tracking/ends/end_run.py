@@ -34,7 +34,7 @@ from nag.tracking.predictor import OVERLONG
 
 # How a path ended: it is lost where its rounding errors, or its steps, leave it nothing to go on.
 OPEN, REGULAR, LIMIT, LOST, TOO_LONG = range(5)
-# Decides: Rounding error times Newton's constant at which an arithmetic gives up.
+# Rounding error times Newton's constant at which an arithmetic gives up.
 LOSING = 1e-3
 # Size of the next terms of a series at t = 0 from which on Newton's method is tried there, in parts
 # of those of the last trial.

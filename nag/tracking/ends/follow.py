@@ -27,7 +27,7 @@ DIGITS = {2: 32, 4: 64, 8: 120}
 GAINED = 0.1
 # Decides: Residual below which `GAINED` is asked for.
 NEARLY = 1e-6
-# Decides: Rounding over the wanted residual that asks for more digits as well.
+# Rounding over the wanted residual that asks for more digits as well.
 NOISE = 1e-3
 # Part of t at which a limit is looked for next, where nothing is known of it, and the least.
 FURTHER, FURTHEST = 1e-3, 1e-8

@@ -14,11 +14,10 @@ from nag.numerics.digits import number_of_words, round_up
 from nag.numerics.newton import newton_step, subtract_step
 from nag.tracking.ends.terms import BITS, Terms
 
-# Decides: Rounding errors in the radius of the box in which Krawczyk's test proves one zero; it
-# must hold the errors of the values there.
+# Rounding errors in the radius of the box in which Krawczyk's test proves one zero; it must hold
+# the errors of the values there.
 WIDER = 64.0
-# Decides: Newton's steps in that radius, at least: the box need not be larger where these are
-# small.
+# Newton's steps in that radius, at least: the box need not be larger where these are small.
 STEPS = 16.0
 # Least part of the first that is taken; of a zero in twice the digits, its square.
 TINY = 1e-12

@@ -7,8 +7,8 @@ from nag.numerics.doubles import SLACK
 from nag.tracking.ends.branch import keep_series
 from nag.tracking.numbers.complex_numbers import largest
 
-# Decides: Rounding error times Newton's constant at which a point is kept for the next arithmetic
-# to start from.
+# Rounding error times Newton's constant at which a point is kept for the next arithmetic to start
+# from.
 SAFE = 1e-6
 # Rounding errors of the residuals that the error of a point stands for, and second derivatives of
 # equations of the usual degrees, both in parts of their terms.
