@@ -46,7 +46,7 @@ EMPTY, STEPPING, STARTING, CORRECTING = -1, 0, 1, 2
 OVERSTEPPED, REJECTED, UNFINISHED, ACCEPTED = range(4)
 # Why a path ended before t = 0, see `nag.tracking.paths.Reason`.
 ARRIVED, STEP_SIZE, STEPS, START, NOT_FINITE = 0, 1, 2, 3, 5
-# Decides, measured: Steps tried behind the safe point before a path that does not get on goes to
+# Decides: Steps tried behind the safe point before a path that does not get on goes to
 # more digits, where a step takes some forty times as long. Ends that are far out need most: of
 # chandra-10's 512 paths 110 arrive within 48, 350 within 120, 467 within these, 469 within 400.
 PATIENCE = 240
