@@ -25,7 +25,7 @@ from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.graph import Mechanism, check_mechanism
 from nag.mechanism.legs import parallel_robot
 from nag.mechanism.loops import gruebler_kutzbach, loop_structure
-from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
+from nag.mechanism.mobility_report import ALL_POSES, CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model
 from nag.mechanism.moving_parts import MovingParts, NotClear, find_moving_parts
 from nag.mechanism.nearly_mobile import check_tolerance, find_near_motion, find_spoiled_motion
@@ -358,8 +358,12 @@ def _with_components(
             f"more than a budget of {budget:g} s allows"
         )
         at_reference = problem.reference is not None and tuple(at) == tuple(problem.reference)
-        poses = _modes_through_reference(problem, budget, run) if at_reference else None
-        return replace(first, open=reason, by_poses=poses)
+        if not at_reference:
+            return replace(first, open=reason)
+        known = _components_by_poses(first, problem, budget, run)
+        if known is not None:
+            return replace(first, components=known, rests_on=ALL_POSES)
+        return replace(first, open=reason, by_poses=_modes_by_poses(problem, budget, run))
     through, doubt = _components(problem, zero_at(problem.system, at, first.local), run)
     if through is None and first.local.smooth:
         only = _with_only_component(first, problem, budget, run)
@@ -376,7 +380,33 @@ def _with_components(
     )
 
 
-def _modes_through_reference(
+def _components_by_poses(
+    first: MobilityReport, problem: Problem, budget: float, run: Run
+) -> tuple[tuple[int, int], ...] | None:
+    """Dimension and degree of the components through a parallel robot's reference, by its poses.
+
+    None for other mechanisms, where a leg is not regular there, and where they are not known within
+    the budget.
+    """
+    if problem.mechanism is None:
+        return None
+    try:
+        poses = problem_of(problem.mechanism.mechanism, formulation=PLATFORM_ALONE)
+    except NagError:
+        return None
+    if poses.reference is None or fewest_estimated_paths(poses.system) * LEAST_SECONDS > budget:
+        return None
+    local = local_dimension_near(poses.system, poses.reference, seed=run.seed)
+    seen = tuple(x + poses.free for x in (local.tangent_dimension or 0, local.lower, local.upper))
+    if seen != (first.tangent_dimension, first.lower, first.upper):
+        return None
+    through, _ = _components(poses, zero_at(poses.system, poses.reference, local), run)
+    if through is None:
+        return None
+    return tuple((c.dimension + poses.free, c.degree) for c in through)
+
+
+def _modes_by_poses(
     problem: Problem, budget: float, run: Run
 ) -> tuple[tuple[int, int], ...] | None:
     """Dimension and degree of the operation modes through a parallel robot's reference pose.

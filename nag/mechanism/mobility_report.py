@@ -22,6 +22,8 @@ from nag.witness.witness import WitnessSet
 
 # What must be the same of components in two formulations.
 Alike = Literal["dimensions", "counts", "degrees"]
+# What components are known by where the poses of a robot's platform stand for all configurations.
+ALL_POSES = "the platform's poses, in whose coordinates degrees count: all legs are regular there"
 
 
 class MobilityStatus(StrEnum):
@@ -306,7 +308,8 @@ def _components_text(report: MobilityReport) -> str:
             f"{report.least_degree} at least; {report.rests_on}"
         )
     listed = "; ".join(f"dimension {d}, degree {degree}" for d, degree in report.components)
-    return f"{len(report.components)} through the configuration: {listed}"
+    listed = f"{len(report.components)} through the configuration: {listed}"
+    return f"{listed}; by {ALL_POSES}" if report.rests_on == ALL_POSES else listed
 
 
 def _poses_text(modes: Sequence[tuple[int, int]]) -> str:
