@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from nag.files.cases import read_case
-from nag.solving.parameter import Solved, solve_family, solve_generic
+from nag.solving.parameter import Solved, solve_generic, solve_targets
 
 CASE = Path(__file__).resolve().parent.parent / "cases" / "benchmarks" / "nine-point.toml"
 CLASSES, ORDER = 1442, 6
@@ -53,7 +53,7 @@ def one_target(solved: Solved, seed: int, number: int, threads: int) -> tuple[fl
     """Seconds for random nine points, and whether all solutions were found and confirmed."""
     target = random_points(np.random.default_rng([seed, number, 9]))
     wall, processor = time.perf_counter(), time.process_time()
-    (result,) = solve_family(solved, [target], seed=seed, threads=threads)
+    (result,) = solve_targets(solved, [target], seed=seed, threads=threads)
     wall, processor = time.perf_counter() - wall, time.process_time() - processor
     print(
         f"  points {number}: {result.paths.regular} classes, {len(result.solutions)} solutions, "

@@ -21,7 +21,7 @@ from nag.errors import StartError
 from nag.files.solutions_export import export_text
 from nag.solving import solve_classes
 from nag.solving.kantorovich import Confirmation
-from nag.solving.parameter import solve_family, solve_generic
+from nag.solving.parameter import solve_generic, solve_targets
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solve_classes import ClassEnds, track_classes
 from nag.solving.start.scalings import nearest_scaling, random_scaling, scaling_weights
@@ -51,11 +51,11 @@ def test_loops_of_parameters_find_what_a_start_system_finds() -> None:
     expected = solve_generic(EVEN, seed=1)
     count = len(expected.points)
     assert expected.complete and count > 8
-    (reference,) = solve_family(expected, [TARGET])
+    (reference,) = solve_targets(expected, [TARGET])
     for given in (EVEN, symmetric(EVEN)):
         solved = solve_generic(given, start="parameter", count=count, seed=4)
         assert solved.complete and len(solved.points) == count
-        (result,) = solve_family(solved, [TARGET])
+        (result,) = solve_targets(solved, [TARGET])
         assert result.complete
         assert sets_agree(result.points, reference.points)
         assert len(result.real) == len(reference.real)
@@ -64,7 +64,7 @@ def test_loops_of_parameters_find_what_a_start_system_finds() -> None:
 def test_only_one_of_each_class_is_tracked() -> None:
     solved = solve_generic(symmetric(EVEN), seed=2)
     classes = len(solved.points) // 4
-    (result,) = solve_family(solved, [TARGET])
+    (result,) = solve_targets(solved, [TARGET])
     assert solved.classes.members.shape == (4, classes, 2)
     assert result.paths.tracked == result.paths.regular == classes
 
@@ -72,7 +72,7 @@ def test_only_one_of_each_class_is_tracked() -> None:
 def test_without_a_known_number_loops_prove_nothing() -> None:
     solved = solve_generic(symmetric(EVEN), seed=2)
     assert not solved.complete
-    (result,) = solve_family(solved, [TARGET])
+    (result,) = solve_targets(solved, [TARGET])
     assert not result.complete and "not known whether all" in result.notes[0]
 
 
@@ -93,7 +93,7 @@ def test_what_is_lost_on_one_way_is_found_on_another(monkeypatch: pytest.MonkeyP
     )
     solved = solve_generic(scaled, start="parameter", count=16, seed=1)
     assert solved.complete
-    (expected,) = solve_family(solved, [TARGET])
+    (expected,) = solve_targets(solved, [TARGET])
     ways = []
 
     def losing(*arguments: object) -> ClassEnds:
@@ -106,7 +106,7 @@ def test_what_is_lost_on_one_way_is_found_on_another(monkeypatch: pytest.MonkeyP
         return replace(ends, status=status)
 
     monkeypatch.setattr(solve_classes, "track_classes", losing)
-    (result,) = solve_family(solved, [TARGET])
+    (result,) = solve_targets(solved, [TARGET])
     assert len(ways) == 2 and result.complete
     assert sets_agree(result.points, expected.points)
 
@@ -115,7 +115,7 @@ def test_units_do_not_matter() -> None:
     lengths = family("x y", "a b c", "x^2 + y^2 - a", "x*y - b + c*x")
     solved = solve_generic(lengths, start="parameter", count=4, seed=1)
     for unit in (Fraction(1), Fraction(1, 10**8), Fraction(10**8)):
-        (result,) = solve_family(solved, [(25 * unit**2, 12 * unit**2 + 3 * unit**2, unit)])
+        (result,) = solve_targets(solved, [(25 * unit**2, 12 * unit**2 + 3 * unit**2, unit)])
         assert result.complete and len(result.solutions) == 4
         assert np.abs(result.points / float(unit) - [3, 4]).max(axis=1).min() < 1e-12
 
@@ -124,7 +124,7 @@ def test_solutions_that_meet_or_leave_are_not_counted() -> None:
     roots = family("x", "a b", "a*x^2 + x + b")
     solved = solve_generic(roots, start="parameter", count=2, seed=1)
     assert len(solved.points) == 2
-    far, double, plain = solve_family(
+    far, double, plain = solve_targets(
         solved,
         [
             (Fraction(0), Fraction(3)),

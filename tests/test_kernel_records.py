@@ -79,7 +79,7 @@ def test_the_arrays_of_a_homotopy_are_as_large_as_their_fields_say(
         sizes |= {"words": words, "orders": order, "terms": order + 1, "paths": paths}
         sizes |= {"entries": sizes["rows"] * sizes["N"], "inverses": records.MOST_INVERSES}
         sizes |= {"value_terms": len(tape.value_slot), "jacobian_terms": len(tape.jacobian_slot)}
-        sizes |= {"jacobian_blocks": len(tape.jacobian_place)}
+        sizes |= {"jacobian_blocks": len(tape.jacobian_place), "members": 1}
         for name, hint in get_type_hints(type(record), include_extras=True).items():
             if hint is not int:
                 shape = hint.__metadata__[0].split()

@@ -171,6 +171,11 @@ def write_everything(
     ask("singular", family)
     ask("singular", family, "--free", "a")
     ask("local", whole)
+    members = folder / "members.toml"
+    members.write_text(FAMILY.replace('"y^2', '"x*y - 1", "y^2') + '[family]\nparameters = ["a"]\n')
+    values = folder / "values.csv"
+    values.write_text("a\n1\n2\n")
+    ask("family", str(members), "--values", str(values))
     ask("mobility", linkage, "--curves", "--check")
     idle = str(CASES / "robots" / "3-sps-s.toml")
     ask("mobility", str(CASES / "mobility" / "k46.toml"), "--local")

@@ -24,6 +24,7 @@ def taylor_coefficients(homotopy: Homotopy, start: np.ndarray) -> np.ndarray:
     # The first step of a path corrects its start; the second one fails, as no more are allowed.
     batch = Batch(
         starts=np.ascontiguousarray(start, dtype=complex),
+        member=np.zeros(1, dtype=np.int64),
         count=1,
         first=0,
         stride=1,

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.solving.parameter import Solved, begin_of_family, solve_family, solve_generic
+from nag.solving.parameter import Solved, begin_of_family, solve_generic, solve_targets
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.tracking.homotopy import Homotopy
@@ -184,7 +184,7 @@ def measure(
     def solver(threads: int) -> SolveResult:
         if family is None:
             return solve(system, seed=seed, threads=threads)
-        return solve_family(_generic(family, seed, threads), [family.values], threads=threads)[0]
+        return solve_targets(_generic(family, seed, threads), [family.values], threads=threads)[0]
 
     if family is None:
         solver(1)

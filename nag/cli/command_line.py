@@ -103,6 +103,13 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "paths from a solved system.",
     ),
     (
+        "family",
+        "find the isolated solutions of many members of a family",
+        "Find the isolated solutions of a case's equations for many values of the parameters that "
+        "its [family] names: solved once for random ones, from where all members are tracked "
+        "together.",
+    ),
+    (
         "check",
         "test the statements of the founding papers, on a case or all",
         "Test what the founding papers state, one by one: exactly where exact algebra decides, "

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 # What NumPy's linear algebra reads, when it is loaded, of how many threads it is to have.
 LINEAR_ALGEBRA_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 # Options that name a file to be written.
-TARGETS = ("json", "csv", "html")
+TARGETS = ("json", "csv", "html", "points")
 Progress = Callable[[str, int, int], None]
 
 # Seconds between two updates of the line: often enough to look alive, too seldom to cost time.
@@ -232,8 +232,10 @@ def writing_to(option: str) -> Iterator[None]:
         raise UsageError(f"--{option}: {error}") from None
 
 
-def write_document(document: dict[str, Any] | str, target: str, option: str = "json") -> None:
-    """Write a JSON object, or a text, to the file that an option names.
+def write_document(
+    document: dict[str, Any] | str | bytes, target: str, option: str = "json"
+) -> None:
+    """Write a JSON object, a text, or bytes to the file that an option names.
 
     Raises:
         UsageError: if the file cannot be written.
@@ -241,7 +243,7 @@ def write_document(document: dict[str, Any] | str, target: str, option: str = "j
     from nag.files.written_file import write_target
     from nag.text.json_text import lay_out
 
-    text = document if isinstance(document, str) else lay_out(document) + "\n"
+    text = lay_out(document) + "\n" if isinstance(document, dict) else document
     with writing_to(option):
         write_target(target, text)
 

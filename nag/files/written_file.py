@@ -61,8 +61,8 @@ def check_target(path: str | os.PathLike[str]) -> None:
         raise TargetError(f"{target}: is not a file name: {error}") from None
 
 
-def write_target(path: str | os.PathLike[str], text: str) -> None:
-    """Write ``text`` as UTF-8 to ``path`` through a temporary file in the same directory.
+def write_target(path: str | os.PathLike[str], text: str | bytes) -> None:
+    """Write a text, as UTF-8, or bytes to ``path`` through a temporary file beside it.
 
     Whoever reads ``path`` sees the old content or the new, never a part. A symbolic link stays a
     link; an existing file keeps its permissions; a device or a pipe is written to directly.
@@ -71,16 +71,17 @@ def write_target(path: str | os.PathLike[str], text: str) -> None:
         TargetError: if it cannot be written; the old content is then untouched.
     """
     target = Path(path)
+    content = text.encode() if isinstance(text, str) else text
     temporary = None
     try:
         real = target.resolve()
         if _is_special(real):
-            with real.open("w", encoding="utf-8") as stream:
-                stream.write(text)
+            with real.open("wb") as stream:
+                stream.write(content)
             return
         temporary = _temporary(real)
-        with temporary.open("x", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
+        with temporary.open("xb") as stream:
+            stream.write(content)
             stream.flush()
             os.fsync(stream.fileno())
         with contextlib.suppress(FileNotFoundError):

@@ -6,7 +6,8 @@ branch solved, and their solutions joined without repeats, by `nag.numerics.bran
 `path_search` (what is asked, and what paths show) on `square_problem` (what is tracked),
 `path_ends` (what became of it) and `isolated_zero`; `missing_zeros` with `tropical_zeros` (what no
 path reached); `start` (systems that are solved already); `parameter` (families, tracked from one
-member to others) with `parameter_line`, `solution_classes` and `solve_classes`; `kantorovich`,
+member to others) with `parameter_line`, `solution_classes` and `solve_classes`; `family_members` on
+`member_lines` (many members together); `kantorovich`,
 `certificate` with `solution_claims`, and `certified_paths` prove.
 
 All lists stand in `solve`, in the order in which they are asked. A method is a function of a

@@ -39,12 +39,12 @@ from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
 
-__all__ = ["Family", "Solved", "solve_family", "solve_generic", "solve_member"]
+__all__ = ["Family", "Solved", "solve_generic", "solve_member", "solve_targets"]
 
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """A family solved for random parameters: what `solve_family` starts from.
+    """A family solved for random parameters: what `solve_targets` starts from.
 
     Attributes:
         values: the parameters, complex, shape ``(k,)``.
@@ -75,7 +75,7 @@ def solve_generic(
 
     Args:
         family: what to solve; of a symmetric one, one solution of each class is followed, now and
-            in `solve_family`.
+            in `solve_targets`.
         start: a start system as for `nag.solving.solve.solve`, or ``"parameter"``: from one
             solution, which Newton's method finds together with its parameters, by loops of the
             family's own parameters. That takes a few paths for each solution there is, and is what
@@ -111,7 +111,7 @@ def solve_generic(
 
 
 @takes_run
-def solve_family(
+def solve_targets(
     solved: Solved,
     targets: Sequence[Sequence[Number]],
     *,
@@ -180,7 +180,7 @@ def solve_member(
         )
     except MapError as error:
         raise StartError(f"[family]: {error}") from None
-    (result,) = solve_family(generic, [member.values], run=run)
+    (result,) = solve_targets(generic, [member.values], run=run)
     result = replace(result, system=system)
     if result.complete and member.solutions is not None:
         return _compare_with_count(result, member.solutions, task.facts)

@@ -29,6 +29,20 @@ def norms(points: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False)
+class Members:
+    """Factors of a homotopy's parts that differ from path to path.
+
+    Attributes:
+        factors: of each member ``(a, b)`` of each part, whose factor is ``a + t b``, shape
+            ``(M, parts, 2)``.
+        rest: what ``a`` lacks of twice the digits of doubles, shape ``(M, parts)``.
+    """
+
+    factors: np.ndarray
+    rest: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class Homotopy:
     """Polynomial rows, linear rows, and one patch for each group of coordinates.
 
@@ -40,6 +54,8 @@ class Homotopy:
         infinity: coordinates whose vanishing means that a point is at infinity.
         digits: decimal digits of the coefficients from which those of the rows were worked out
             exactly; None: they are the rows' own.
+        members: factors instead of those, of many homotopies of the same rows, which are tracked
+            together by `nag.tracking.track.track_members`, and by nothing else.
 
     The number of polynomial rows, linear rows and groups together is ``N``.
     """
@@ -50,6 +66,7 @@ class Homotopy:
     factors: Factors = ()
     infinity: tuple[int, ...] | None = None
     digits: int | None = None
+    members: Members | None = None
     _cache: dict[str, object] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:

@@ -25,10 +25,11 @@ class KernelEquations(NamedTuple):
     Each field says how many numbers it has. A coefficient of ``value`` or ``jacobian`` is as many
     doubles as the arithmetic has ``words``, of its real part and then of its imaginary part; all
     other numbers are pairs of doubles. ``factors``: of part ``p`` the numbers ``a`` and ``b`` in
-    ``a + t b``. The blocks of row ``k`` are ``value_begin[k] .. value_begin[k + 1] - 1``, and
-    likewise those of an entry of the Jacobian; ``value_real, jacobian_real``: 1 for blocks of real
-    coefficients. ``moves``: 1 if the factors of any part depend on t; ``moving``: for each part,
-    whether its factor is not 1; ``linear_moving``: for each linear row, whether it depends on t.
+    ``a + t b``, for each member if paths have factors of their own. The blocks of row ``k`` are
+    ``value_begin[k] .. value_begin[k + 1] - 1``, and likewise those of an entry of the Jacobian;
+    ``value_real, jacobian_real``: 1 for blocks of real coefficients. ``moves``: 1 if the factors of
+    any part depend on t; ``moving``: for each part, 0 if its factor is 1, 2 if it depends on t;
+    ``linear_moving``: for each linear row, whether it depends on t.
     Of the products, the Taylor coefficients of the first ``inner`` are kept for all orders.
     If ``toric`` is 1, each part is one term, t is real, and the factor of part ``p`` is
     ``exp(-weights[path * parts + p] t)`` instead.
@@ -68,7 +69,7 @@ class KernelEquations(NamedTuple):
     jacobian_real: Annotated[Wholes, "jacobian_blocks"]
     jacobian_slot: Annotated[Wholes, "jacobian_terms"]
     jacobian: Annotated[Reals, "jacobian_terms 2 words"]
-    factors: Annotated[Reals, "parts 4"] = NOTHING
+    factors: Annotated[Reals, "members parts 4"] = NOTHING
     moving: Annotated[Wholes, "parts"] = NONE
     A0: Annotated[Reals, "linear N 2"] = NOTHING
     A1: Annotated[Reals, "linear N 2"] = NOTHING
@@ -91,7 +92,8 @@ class Work(NamedTuple):
     coefficients, order 1 and up, of coordinates and inner products; ``partial``: those of all slots
     of the order at hand as far as lower orders give them, 0 for coordinates; ``change``: what its
     own coefficients add to those of inner products. ``factor``: of the parts at t; in a toric
-    system those, and minus the weights.
+    system those, and minus the weights. ``factor_at_end, rate``: what it is at t = 0, and its
+    derivative by t.
     ``matrix``: Jacobian, then its factors; ``pivots``: of these. ``matrix_slope``: derivative by t
     of its polynomial rows; ``slope``: a Taylor coefficient of the derivative of the rows by t
     alone. ``right``: right-hand side. ``patch``: linear forms that normalise.
@@ -115,6 +117,8 @@ class Work(NamedTuple):
     partial: Annotated[Reals, "value_slots 2"]
     change: Annotated[Reals, "inner_slots 2"]
     factor: Annotated[Reals, "parts 2"]
+    factor_at_end: Annotated[Reals, "parts 2"]
+    rate: Annotated[Reals, "parts 2"]
     matrix: Annotated[Reals, "N N 2"]
     pivots: Annotated[Reals, "N"]
     matrix_slope: Annotated[Reals, "rows N 2"]
@@ -221,7 +225,7 @@ def _jacobian_in_words(rows: CompiledRows, count: int) -> np.ndarray:
     return np.array([x for _, _, own in blocks for x in own])
 
 
-def _pairs(array: np.ndarray) -> np.ndarray:
+def pairs(array: np.ndarray) -> np.ndarray:
     """Complex doubles as real and imaginary parts in turn."""
     return np.ascontiguousarray(array, dtype=np.complex128).ravel().view(np.float64)
 
@@ -263,13 +267,13 @@ def _template(homotopy: Homotopy, count: int) -> Table:
                 value_start=tape.value_start,
                 value_real=_real_blocks(tape.value_start, value),
                 value_slot=tape.value_slot,
-                value=_pairs(value) if doubles else values_in_words(rows, count),
+                value=pairs(value) if doubles else values_in_words(rows, count),
                 jacobian_begin=np.searchsorted(tape.jacobian_place, np.arange(m * rows.N + 1)),
                 jacobian_part=tape.jacobian_part,
                 jacobian_start=tape.jacobian_start,
                 jacobian_real=_real_blocks(tape.jacobian_start, jacobian),
                 jacobian_slot=tape.jacobian_slot,
-                jacobian=_pairs(jacobian) if doubles else _jacobian_in_words(rows, count),
+                jacobian=pairs(jacobian) if doubles else _jacobian_in_words(rows, count),
             )
         )
     return rows._cache[key]
@@ -284,8 +288,11 @@ def equations(homotopy: Homotopy, count: int = 1, weights: np.ndarray | None = N
     key, toric = f"equations {count}", weights is not None
     if key in homotopy._cache and not toric:
         return homotopy._cache[key]
-    factors = np.array(homotopy.factors, dtype=np.complex128).reshape(-1, 2)
-    moving = (factors[:, 1] != 0) | (factors[:, 0] != 1)
+    factors = np.array(homotopy.factors, dtype=np.complex128).reshape(1, -1, 2)
+    if homotopy.members is not None:
+        factors = homotopy.members.factors
+    slopes = (factors[:, :, 1] != 0).any(axis=0)
+    moving = slopes + (slopes | (factors[:, :, 0] != 1).any(axis=0)).astype(np.int64)
     template = _template(homotopy, count)
     fields: dict[str, Any] = {}
     if toric:
@@ -294,13 +301,13 @@ def equations(homotopy: Homotopy, count: int = 1, weights: np.ndarray | None = N
     made = replaced(
         template,
         linear=len(homotopy.A0),
-        parts=len(factors),
-        moves=int((factors[:, 1] != 0).any()),
+        parts=factors.shape[1],
+        moves=int(slopes.any()),
         toric=int(toric),
-        factors=_pairs(factors),
-        moving=np.ones(len(factors), np.int64) if toric else moving.astype(np.int64),
-        A0=_pairs(homotopy.A0),
-        A1=_pairs(homotopy.A1),
+        factors=pairs(factors),
+        moving=np.ones(factors.shape[1], np.int64) if toric else moving,
+        A0=pairs(homotopy.A0),
+        A1=pairs(homotopy.A1),
         linear_moving=homotopy.A1.any(axis=1).astype(np.int64),
         **fields,
     )
@@ -315,5 +322,5 @@ def at_end(homotopy: Homotopy) -> Table:
     exponents = np.frexp(norms(homotopy.A0))[1]
     if not exponents.any():
         return made
-    scaled = np.ldexp(_pairs(homotopy.A0).reshape(len(exponents), -1), -exponents[:, None])
+    scaled = np.ldexp(pairs(homotopy.A0).reshape(len(exponents), -1), -exponents[:, None])
     return replaced(made, A0=scaled.ravel())

@@ -48,6 +48,7 @@ def refine(
     t: complex = 0.0,
     iterations: int = 3,
     twice: bool = False,
+    member: np.ndarray | None = None,
 ) -> Refined:
     """Newton's method from ``points`` for rows, slices ``A x = 0`` and patches.
 
@@ -62,6 +63,7 @@ def refine(
         t: where the homotopy is taken.
         iterations: number of Newton steps.
         twice: whether points are found to twice the digits of doubles.
+        member: of a homotopy with members, whose zeros are near the points, shape ``(P,)``.
 
     A point where the Jacobian is singular is returned with a large ``error`` and whatever
     Newton's method made of it; compare ``moved`` with what was expected.
@@ -78,6 +80,7 @@ def refine(
     if P:
         batch = Refinement(
             points=result,
+            member=np.zeros(P, dtype=np.int64) if member is None else member,
             count=P,
             iterations=iterations,
             before=before,

@@ -8,17 +8,16 @@ import numpy as np
 
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import scratch, splat, square_root, store
-from nag.machine_code.records import Complexes, Reals, Table, replaced
+from nag.machine_code.records import Complexes, Reals, Table, Wholes, replaced
 from nag.tracking.evaluation import (
     block_of_values,
-    factors_at,
     jacobian,
     line,
     products,
     weigh_block,
 )
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.kernel_arrays import KernelEquations, Work, values_in_words
+from nag.tracking.kernel_arrays import KernelEquations, Work, pairs, values_in_words
 from nag.tracking.linear_algebra import factorize, substitute, substitute_adjoint
 from nag.tracking.numbers.complex_numbers import ARITHMETICS, ComplexNumbers
 from nag.tracking.numbers.doubles import DOUBLES, ComplexDoubles
@@ -26,24 +25,30 @@ from nag.tracking.taylor import normalize
 
 
 class Doubled(NamedTuple):
-    """Slots and factors in double-double, and the coefficients of the values."""
+    """Slots and factors in double-double, and the coefficients of the values.
+
+    ``rest``: see `nag.tracking.homotopy.Members`; one member has none where paths share factors.
+    """
 
     t: Annotated[Reals, "words"]
     slots: Annotated[Reals, "value_slots 2 words"]
     factor: Annotated[Reals, "parts 2 words"]
     value: Annotated[Reals, "0"]
+    rest: Annotated[Reals, "0"]
 
 
 class Refinement(NamedTuple):
     """Points to be refined in place, and what is found out about them.
 
-    ``points``: shape (count, N). ``before, after``: smallest singular value of the Jacobian at the
-    first and the last point; ``error``: length of the last step; ``frobenius``: Frobenius norm of
-    the last Jacobian. ``further``: where ``twice`` is not 0, one more step, which is too small for
-    the points to show; points and steps together have twice the digits.
+    ``points``: shape (count, N); ``member``: whose factors each of them has. ``before, after``:
+    smallest singular value of the Jacobian at the first and the last point; ``error``: length of
+    the last step; ``frobenius``: Frobenius norm of the last Jacobian. ``further``: where ``twice``
+    is not 0, one more step, which is too small for the points to show; points and steps together
+    have twice the digits.
     """
 
     points: Complexes
+    member: Wholes
     count: int
     iterations: int
     before: Reals
@@ -58,14 +63,17 @@ def doubled_table(homotopy: Homotopy) -> Table:
     """What `newton_batch` needs in double-double besides the arrays of the homotopy."""
     value_slots = homotopy.N + 1 + homotopy.rows.tape.value_products
     made = scratch(Doubled, words=2, value_slots=value_slots, parts=len(homotopy.factors))
-    return replaced(made, value=values_in_words(homotopy.rows, 2))
+    rest = np.zeros(len(homotopy.factors), dtype=np.complex128)
+    if homotopy.members is not None:
+        rest = homotopy.members.rest
+    value = values_in_words(homotopy.rows, 2)
+    return replaced(made, value=value, rest=pairs(rest))
 
 
 def _residual(z, zz, s, w, d):
     """Minus the values of polynomial and linear rows in double-double, rounded at the end."""
     zero = splat(0.0)
     nothing = zz.exact(zero, zero)
-    factors_at(zz, s, d)
     products(zz, s, d, 0, s.value_products)
     for k in range(s.rows):
         total = nothing
@@ -85,7 +93,6 @@ def _write_rounded(z, zz, w, k, total):
 
 def _matrix(z, s, w):
     """Jacobian at the points, factorised; the squared Frobenius norm."""
-    factors_at(z, s, w)
     products(z, s, w, 0, s.products)
     jacobian(z, s, w)
     frobenius = splat(0.0)
@@ -121,10 +128,21 @@ def _smallest(z, s, w):
     return size
 
 
-def _put(s, w, batch, first):
+def _put(z, zz, s, w, d, batch, first):
     """The next eight points into the lanes; the last one again where there are fewer."""
+    z.write(w.slots, s.N, z.exact(splat(1.0), splat(0.0)))
+    zz.write(d.slots, s.N, zz.exact(splat(1.0), splat(0.0)))
     for lane in range(8):
         path = min(first + lane, batch.count - 1)
+        member = batch.member[path]
+        for p in range(s.parts):
+            q = member * s.parts + p
+            w.factor[16 * p + lane] = s.factors[4 * q]
+            w.factor[16 * p + 8 + lane] = s.factors[4 * q + 1]
+            d.factor[32 * p + lane] = s.factors[4 * q]
+            d.factor[32 * p + 8 + lane] = d.rest[2 * q]
+            d.factor[32 * p + 16 + lane] = s.factors[4 * q + 1]
+            d.factor[32 * p + 24 + lane] = d.rest[2 * q + 1]
         for j in range(s.N):
             w.slots[16 * j + lane] = batch.points[s.N * path + j].real
             w.slots[16 * j + 8 + lane] = batch.points[s.N * path + j].imag
@@ -167,7 +185,7 @@ def newton_batch(
     iterations = batch.iterations
     for first in range(0, count, 8):
         last = min(8, count - first)
-        _put(s, w, batch, first)
+        _put(z, zz, s, w, d, batch, first)
         normalize(z, s, w)
         length = square_root(_matrix(z, s, w))
         small = _smallest(z, s, w)

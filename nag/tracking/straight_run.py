@@ -31,6 +31,7 @@ from nag.tracking.predictor import (
 )
 from nag.tracking.taylor import (
     complete_slope,
+    factors_of_member,
     factors_or_powers_at,
     jacobian_and_slopes,
     normalize,
@@ -132,24 +133,19 @@ def _keep(z, w, k, x):
     z.write(w.base, k, z.choose(splat(0.5), load(w.accepted, 0), x, z.read(w.base, k)))
 
 
-def _put(s, w, lane, points, k):
-    for j in range(s.N):
-        x = points[s.N * k + j]
-        w.slots[16 * j + lane] = x.real
-        w.slots[16 * j + 8 + lane] = x.imag
-
-
 class Batch(NamedTuple):
     """Paths to be tracked in one batch, where their results go, and the settings.
 
     ``starts``: points at t = 1, shape (count, N), of which ``first, first + stride, ..`` are
-    tracked. ``points``: where they ended, at t = 0 if their ``reason`` is 0; ``safe``: their
+    tracked; ``member``: whose factors each of them has. ``points``: where they ended, at t = 0 if
+    their ``reason`` is 0; ``safe``: their
     points at ``safe_t``, which is ``radius``, or 1 for those that did not get there.
     ``error, steps, reason``: one for each path. The rest: see
     `nag.tracking.settings.Settings`; a ``radius`` of 0 stands for none.
     """
 
     starts: Complexes
+    member: Wholes
     count: int
     first: int
     stride: int
@@ -171,9 +167,18 @@ class Batch(NamedTuple):
     contraction: float
 
 
+def _put(s, w, lane, b, path):
+    for j in range(s.N):
+        x = b.starts[s.N * path + j]
+        w.slots[16 * j + lane] = x.real
+        w.slots[16 * j + 8 + lane] = x.imag
+    if s.toric == 0:
+        factors_of_member(s, w, lane, b.member[path])
+
+
 def _fill(s, w, lane, path, b):
     """Put a path into a lane."""
-    _put(s, w, lane, b.starts, path)
+    _put(s, w, lane, b, path)
     w.h[lane] = w.taken_h[lane] = w.first[lane] = w.theta[lane] = 0.0
     w.accuracy[lane] = w.growth[lane] = w.seen_radius[lane] = 0.0
     w.rounds[lane] = w.taken[lane] = w.straight[lane] = 0
@@ -364,7 +369,7 @@ def track_batch(z: ComplexDoubles, s: KernelEquations, w: Work, b: Batch) -> Non
     following = b.first
     busy = 0
     for lane in range(8):
-        _put(s, w, lane, b.starts, b.first)
+        _put(s, w, lane, b, b.first)
         w.state[lane] = EMPTY
         if following < b.count:
             _fill(s, w, lane, following, b)

@@ -12,11 +12,9 @@ from nag.numerics.doubles import UNIT
 from nag.tracking.evaluation import (
     block_of_jacobian,
     block_of_values,
-    factors_at,
     jacobian,
     line,
     linear_entries,
-    slope_of_factor,
     weigh_block,
 )
 from nag.tracking.linear_algebra import PHASE
@@ -24,10 +22,13 @@ from nag.tracking.linear_algebra import PHASE
 
 def factors_or_powers_at(z, s, w):
     """Factors of all parts at the lanes' t; powers of exp(t), and their exponents, if toric."""
-    if s.toric == 0:
-        factors_at(z, s, w)
-        return
     z.write(w.slots, s.N, z.exact(splat(1.0), splat(0.0)))
+    if s.toric == 0:
+        t = load(w.t, 0)
+        for p in range(s.parts):
+            a = z.read(w.factor_at_end, p)
+            z.write(w.factor, p, z.add_multiple(a, z.read(w.rate, p), t))
+        return
     for lane in range(8):
         first = w.path[lane] * s.parts
         for p in range(s.parts):
@@ -36,11 +37,21 @@ def factors_or_powers_at(z, s, w):
             w.factor[16 * p + 8 + lane] = -weight
 
 
-def _add_slope(z, s, part, x, slope):
+def factors_of_member(s, w, lane, member):
+    """The factors of a lane's own member at t = 0, and how they change with t."""
+    for p in range(s.parts):
+        first = 4 * (member * s.parts + p)
+        w.factor_at_end[16 * p + lane] = s.factors[first]
+        w.factor_at_end[16 * p + 8 + lane] = s.factors[first + 1]
+        w.rate[16 * p + lane] = s.factors[first + 2]
+        w.rate[16 * p + 8 + lane] = s.factors[first + 3]
+
+
+def _add_slope(z, s, w, part, x, slope):
     """Add a number times the derivative of a part's factor."""
-    if s.moving[part] == 0:
+    if s.moving[part] < 2:
         return slope
-    return z.gather(slope, x, slope_of_factor(z, s, part))
+    return z.gather(slope, x, z.read(w.rate, part))
 
 
 def _row(z, s, w, k, slots):
@@ -50,7 +61,7 @@ def _row(z, s, w, k, slots):
     for b in range(s.value_begin[k], s.value_begin[k + 1]):
         x = block_of_values(z, s, b, s.value, slots)
         total = z.add(total, weigh_block(z, s, w, s.value_part[b], x))
-        slope = _add_slope(z, s, s.value_part[b], x, slope)
+        slope = _add_slope(z, s, w, s.value_part[b], x, slope)
     return total, slope
 
 
@@ -133,7 +144,7 @@ def jacobian_and_slopes(z, s, w):
         for b in range(s.jacobian_begin[k], s.jacobian_begin[k + 1]):
             x = block_of_jacobian(z, s, b, w.slots)
             total = z.add(total, weigh_block(z, s, w, s.jacobian_part[b], x))
-            slope = _add_slope(z, s, s.jacobian_part[b], x, slope)
+            slope = _add_slope(z, s, w, s.jacobian_part[b], x, slope)
         z.write(w.matrix, k, total)
         z.write(w.matrix_slope, k, slope)
     linear_entries(z, s, w)

@@ -86,6 +86,32 @@ def track(
     return paths.mark_failed(collisions(homotopy, paths)) if distinct else paths
 
 
+def track_members(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    member: np.ndarray,
+    settings: Settings | str = "default",
+    threads: int = 1,
+) -> Paths:
+    """Track paths of many homotopies of the same rows together, once and in doubles alone.
+
+    Regular ends are proved as those of `track` are. Every other end has failed: paths to it are for
+    `track` to follow, in a homotopy of their own, and so are those that lead to one end.
+
+    Args:
+        homotopy: with ``members``.
+        starts: points at t = 1, shape ``(P, N)``.
+        member: whose factors each path has, shape ``(P,)``.
+        settings: `Settings`, or their name.
+        threads: number of threads; the result does not depend on it.
+    """
+    chosen = find_settings(settings)
+    member = np.ascontiguousarray(member, dtype=np.int64)
+    starts = homotopy.normalized(starts)
+    raw = run_in_doubles(homotopy, starts, chosen, threads, False, member=member)
+    return _judge_ends(homotopy, raw, member)[0]
+
+
 class RegularEnds(NamedTuple):
     """Finite regular zeros in which paths ended.
 
@@ -221,8 +247,13 @@ def run_in_doubles(
     threads: int,
     endgame: bool,
     weights: np.ndarray | None = None,
+    member: np.ndarray | None = None,
 ) -> StraightRun:
-    """Track paths once, in doubles alone; nothing is said of their ends."""
+    """Track paths once, in doubles alone; nothing is said of their ends.
+
+    With ``member``, shape ``(P,)``, each path has the factors of that one of the homotopy's
+    members.
+    """
     from nag.tracking import kernel_arrays, straight_run
 
     P = len(starts)
@@ -238,11 +269,13 @@ def run_in_doubles(
         return raw
     straight_run.track_lanes.prepare()
     arrays = kernel_arrays.equations(homotopy, weights=weights)
+    chosen = np.zeros(P, dtype=np.int64) if member is None else member
     batches = max(1, min(threads, P // PATHS_PER_THREAD))
 
     def batch(first: int) -> None:
         paths = straight_run.Batch(
             starts=starts,
+            member=chosen,
             count=P,
             first=first,
             stride=batches,
@@ -276,7 +309,9 @@ def run_in_doubles(
     return raw
 
 
-def _judge_ends(homotopy: Homotopy, raw: StraightRun) -> tuple[Paths, np.ndarray]:
+def _judge_ends(
+    homotopy: Homotopy, raw: StraightRun, member: np.ndarray | None = None
+) -> tuple[Paths, np.ndarray]:
     """Finite ends that Newton's method proves regular; the others have failed.
 
     Also which ends are regular ones of the homogenised system, shape ``(P,)``: whether those that
@@ -289,7 +324,8 @@ def _judge_ends(homotopy: Homotopy, raw: StraightRun) -> tuple[Paths, np.ndarray
     ended = np.flatnonzero(raw.reason == int(Reason.NONE))
     if len(ended):
         error = np.maximum(raw.error[ended], ROUNDED)
-        sharp = refine(homotopy, None, points[ended])
+        chosen = None if member is None else member[ended]
+        sharp = refine(homotopy, None, points[ended], member=chosen)
         # Newton's method proves a regular zero where its steps are far smaller than the singular
         # values, which hardly change on the way.
         near = (sharp.moved <= SLACK * error + LEAST) | (sharp.moved <= BASIN * sharp.smallest)

@@ -12,7 +12,7 @@ from nag.bench.reference import Reference, ReferenceError
 from nag.bench.verdicts import Answer, Components, compute_answer
 from nag.decomposition.decompose import decompose
 from nag.decomposition.singular_points import SingularSet, singular_locus
-from nag.solving.parameter import solve_family, solve_generic
+from nag.solving.parameter import solve_generic, solve_targets
 from nag.witness.moving import SliceError, witness_at
 from nag.witness.witness import Decomposition
 
@@ -95,7 +95,7 @@ def _of_family(problem: KnownProblem, seed: int, settings: str) -> Answer:
     assert points is not None
     count = points.case.solutions
     solved = solve_generic(points.family, start="parameter", count=count, **common)
-    moved, unmoved = solve_family(solved, points.targets, **common)
+    moved, unmoved = solve_targets(solved, points.targets, **common)
     found: Components = Counter((0, 1, s.multiplicity) for s in moved.solutions)
     facts = Counter({CARRIED: points.carried(moved, unmoved)})
     complete = moved.complete and unmoved.complete

@@ -4,7 +4,7 @@ What an exact change of all unknowns would hide, that the equations are those of
 what the family is solved by; it is changed within that. The points are turned, scaled, mirrored and
 put in another order, so that another one is the first; plane vectors among the unknowns are scaled
 and put in another order, the equations mixed. Then the family is solved as a user would: once for
-random parameters, and by `solve_family` for the moved points and for those of the case. The zeros
+random parameters, and by `solve_targets` for the moved points and for those of the case. The zeros
 for the former must be carried to those for the latter, to each of them one.
 """
 

@@ -126,6 +126,9 @@ class Target:
     @cached_property
     def sparsest(self) -> Target:
         """The same target with equations of fewer terms, as far as combinations have these."""
+        # Terms cancel exactly or not at all.
+        if any(isinstance(c, complex) for row in self.rows for c in row.values()):
+            return self
         rows = [Polynomial(self.n, dict(row)) for row in self.rows]
         found = of_fewest_terms(rows)
         if all(f is g for f, g in zip(rows, found, strict=True)):

@@ -1,0 +1,155 @@
+"""The command ``nag family``: the isolated solutions of many members of a case's family."""
+
+from __future__ import annotations
+
+import argparse
+import io
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from nag.cli.arguments import (
+    UsageError,
+    add_format,
+    add_parameters,
+    add_running,
+    read_case_file,
+)
+from nag.cli.running import (
+    CommandAnswer,
+    answer_of,
+    chosen_run,
+    name_case,
+    write_document,
+)
+from nag.solving.start import ASKED_FOR
+
+if TYPE_CHECKING:
+    from nag.solving.family_members import FamilySolutions
+
+FORMAT = "nag-family"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``nag family``."""
+    parser.add_argument("case", metavar="CASE", help="case file (TOML) with a [family]")
+    add_format(parser)
+    add_parameters(parser)
+    parser.add_argument(
+        "--values",
+        required=True,
+        metavar="FILE",
+        help="values of the parameters: a table (CSV) whose first line names them, a member a "
+        "line; or a NumPy array (.npy), shape (members, parameters)",
+    )
+    parser.add_argument(
+        "--points", metavar="FILE", help="write all solutions to FILE as NumPy arrays (.npz)"
+    )
+    parser.add_argument(
+        "--start",
+        choices=(*ASKED_FOR, "parameter"),
+        default="auto",
+        help="start system for the family at random parameters (default: auto, parameter where "
+        "the number of solutions is known)",
+    )
+    add_running(parser)
+
+
+def run(options: argparse.Namespace) -> CommandAnswer:
+    """All isolated solutions of many members."""
+    case = read_case_file(options.case, options.set, options.format)
+    member = case.family
+    if member is None:
+        raise UsageError(
+            f"{options.case}: has no [family]; name the parameters that differ there, as in "
+            '[family] parameters = ["a"]'
+        )
+    from nag.errors import StartError
+    from nag.files.member_values import read_member_values
+    from nag.solving.family_members import check_values, solve_members
+    from nag.solving.parameter import solve_generic
+    from nag.text.table import count_text
+
+    family = member.symmetric.original
+    given = [float(v) for v in member.values]
+    values = read_member_values(options.values, family.parameters, given)
+    values = check_values(family, values)
+    start, count = options.start, member.solutions
+    if start == "auto" and count is not None:
+        start = "parameter"
+    how = chosen_run(options)
+    try:
+        solved = solve_generic(family, start=start, count=count, run=how)
+    except StartError as error:
+        raise UsageError(f"{options.case}: {error}") from None
+    found = solve_members(solved, values, run=how)
+    if options.points is not None:
+        write_document(
+            _arrays(found, family.variables, family.parameters), options.points, "points"
+        )
+    real = [len(found.real(k)) for k in range(len(found))]
+    general = len(solved.points)
+    rows = [
+        ("members", str(len(found))),
+        ("solutions", f"{general} for general parameters" + _missing(solved.complete)),
+        ("complete", f"{int(found.complete.sum())} of {len(found)} members"),
+        ("real", _tally(real)),
+    ]
+    fewer = found.complete & (found.counts < general)
+    if fewer.any():
+        have = "has" if fewer.sum() == 1 else "have"
+        text = f"{count_text(int(fewer.sum()), 'member')} {have} fewer than {general} solutions"
+        rows.append(("fewer", text))
+    alone = int(found.one_by_one.sum())
+    if alone:
+        rows.append(
+            (
+                "by themselves",
+                f"{count_text(alone, 'member')}, not all paths to which end regularly",
+            )
+        )
+    incomplete = (~found.complete).nonzero()[0]
+    if len(incomplete):
+        more = " and more" if len(incomplete) > 5 else ""
+        rows.append(("open", f"members {', '.join(str(k + 1) for k in incomplete[:5])}{more}"))
+    fields = {
+        "format": FORMAT,
+        "variables": list(family.variables),
+        "parameters": list(family.parameters),
+        "solutions": general,
+        "members": [
+            {"solutions": int(n), "real": r, "complete": bool(c), "one_by_one": bool(o)}
+            for n, r, c, o in zip(found.counts, real, found.complete, found.one_by_one, strict=True)
+        ],
+    }
+    return answer_of(options, name_case(case), [rows], [], fields, bool(found.complete.all()))
+
+
+def _missing(complete: bool) -> str:
+    return "" if complete else "; that these are all is not known"
+
+
+def _tally(real: list[int]) -> str:
+    from nag.text.table import count_text
+
+    counts = sorted(Counter(real).items())
+    return ", ".join(f"{n} for {count_text(members, 'member')}" for n, members in counts)
+
+
+def _arrays(
+    found: FamilySolutions, variables: tuple[str, ...], parameters: tuple[str, ...]
+) -> bytes:
+    import numpy as np
+
+    stream = io.BytesIO()
+    np.savez(
+        stream,
+        variables=np.array(variables),
+        parameters=np.array(parameters),
+        values=found.values,
+        points=found.points,
+        status=found.status,
+        errors=found.errors,
+        one_by_one=found.one_by_one,
+        complete=found.complete,
+    )
+    return stream.getvalue()

@@ -1,0 +1,105 @@
+"""Values of a family's parameters for many members, from a table (CSV) or an array (NumPy)."""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NoReturn
+
+import numpy as np
+
+from nag.algebra.tokens import nearest, quote
+from nag.errors import InputError
+
+# Bytes of a file that is read.
+MOST_BYTES = 1 << 30
+
+
+def read_member_values(
+    path: str | os.PathLike[str], parameters: Sequence[str], given: Sequence[float]
+) -> np.ndarray:
+    """The parameters' values of each member, real or complex, shape ``(M, k)``.
+
+    Args:
+        path: a ``.npy`` file with an array of that shape, or a table whose first line names
+            parameters, in any order.
+        parameters: their names.
+        given: their values where a table has no column of one.
+
+    Raises:
+        InputError: if the file cannot be read or has something else in it; one line.
+    """
+    file = Path(path)
+    try:
+        if file.stat().st_size > MOST_BYTES:
+            _fail(path, f"is larger than {MOST_BYTES >> 30} GB; cut it in parts")
+        if file.suffix == ".npy":
+            return _read_array(file, len(parameters))
+        with file.open(encoding="utf-8", newline="") as stream:
+            return _read_table(file, csv.reader(stream), parameters, given)
+    except OSError as error:
+        _fail(path, error.strerror or str(error))
+    except UnicodeDecodeError:
+        _fail(path, "is no text; write a table with commas, or a NumPy array named .npy")
+    except csv.Error as error:
+        _fail(path, f"is no table: {error}")
+
+
+def _fail(path: object, text: str) -> NoReturn:
+    raise InputError(f"{path}: {text}")
+
+
+def _read_array(file: Path, k: int) -> np.ndarray:
+    try:
+        array = np.load(file, allow_pickle=False)
+    except (ValueError, EOFError):
+        _fail(file, "is no array of NumPy's; save one by numpy.save")
+    if not isinstance(array, np.ndarray) or array.dtype.kind not in "fiuc":
+        _fail(file, "holds no numbers; save an array of doubles")
+    if array.ndim != 2 or array.shape[1] != k:
+        _fail(file, f"has shape {array.shape}; of {k} parameters it must be (members, {k})")
+    return array
+
+
+def _read_table(
+    file: Path, lines: csv.Reader, parameters: Sequence[str], given: Sequence[float]
+) -> np.ndarray:
+    names = [name.strip() for name in next(lines, [])]
+    if not names:
+        _fail(file, f"is empty; its first line names parameters: {','.join(parameters)}")
+    for name in names:
+        if name not in parameters:
+            advice = nearest(name, parameters)
+            _fail(
+                file,
+                f"line 1: {quote(name)} is no parameter of the family{advice}; "
+                f"write {','.join(parameters)}",
+            )
+        if names.count(name) > 1:
+            _fail(file, f"line 1: {name!r} is there twice")
+    rows = []
+    for line in lines:
+        if not line:
+            continue
+        if len(line) != len(names):
+            _fail(file, f"line {lines.line_num}: {len(line)} values, not {len(names)}")
+        try:
+            rows.append([float(text) for text in line])
+        except ValueError:
+            wrong = next(text for text in line if not _is_number(text))
+            _fail(file, f"line {lines.line_num}: {quote(wrong)} is no number")
+    if not rows:
+        _fail(file, "has no values below its first line")
+    found = np.tile(np.array(given, dtype=float), (len(rows), 1))
+    found[:, [list(parameters).index(name) for name in names]] = rows
+    return found
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,324 @@
+"""Many members of a family, solved together.
+
+The family is solved once, for random parameters. From there all members are tracked in lanes, as
+many paths each as there are solutions, with coefficients of their own. Where these end in as many
+distinct regular zeros, Newton's method proves them, and there are no more; any other member is
+solved by itself, as `nag.solving.parameter.solve_targets` solves one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from nag.algebra.family import Family
+from nag.algebra.from_python import system
+from nag.errors import NagError, StartError
+from nag.numerics.coincidence import radii_of_balls
+from nag.solving.member_lines import MemberLines
+from nag.solving.parameter import Solved, solve_generic, solve_targets
+from nag.solving.start.family_monodromy import random_values
+from nag.tracking.paths import PathStatus
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.track import track, track_members
+
+__all__ = ["FamilySolutions", "solve_family", "solve_members"]
+
+# Members that are tracked together, and paths; neither changes an answer.
+MEMBERS, PATHS = 1000, 1 << 16
+# Bytes of the results of one call.
+MOST_BYTES = 1 << 34
+
+
+@dataclass(frozen=True, eq=False)
+class FamilySolutions:
+    """The isolated solutions of M members of a family.
+
+    Attributes:
+        start: the family solved for random parameters, from where all paths lead.
+        values: the members' parameters, shape ``(M, k)``.
+        points: solutions, complex, shape ``(M, S, n)``, NaN where a member has fewer than S.
+        status: what each is, shape ``(M, S)``: `PathStatus.REGULAR` or ``SINGULAR`` for a solution,
+            ``AT_INFINITY`` where a member is complete and has fewer isolated ones, ``FAILED`` where
+            that is not known.
+        errors: estimated relative errors of the points, shape ``(M, S)``; inf where there is none.
+        one_by_one: members that were solved by themselves, shape ``(M,)``.
+        complete: members all of whose isolated solutions are here, shape ``(M,)``.
+    """
+
+    start: Solved
+    values: np.ndarray
+    points: np.ndarray
+    status: np.ndarray
+    errors: np.ndarray
+    one_by_one: np.ndarray
+    complete: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    @property
+    def counts(self) -> np.ndarray:
+        """Numbers of distinct solutions, shape ``(M,)``."""
+        return (self.status <= PathStatus.SINGULAR).sum(axis=1)
+
+    def at(self, member: int) -> np.ndarray:
+        """The solutions of one member, shape ``(count, n)``."""
+        return self.points[member, self.status[member] <= PathStatus.SINGULAR]
+
+    def real(self, member: int) -> np.ndarray:
+        """The real ones among them, to within their errors, shape ``(count, n)``."""
+        found = self.status[member] <= PathStatus.SINGULAR
+        points = self.points[member, found]
+        radii = radii_of_balls(points, self.errors[member, found])
+        return points.real[np.linalg.norm(points.imag, axis=1) <= radii]
+
+
+@takes_run
+def solve_family(
+    equations: Any,
+    parameters: Sequence[Any],
+    values: Any,
+    variables: Any = None,
+    *,
+    start: str = "auto",
+    count: int | None = None,
+    known: tuple[Any, Any] | None = None,
+    run: Run = DEFAULT_RUN,
+) -> FamilySolutions:
+    """The isolated solutions of many systems that differ in the values of their parameters.
+
+    Args:
+        equations: as many as there are unknowns, as for `nag.system`.
+        parameters: names of the parameters, or sympy's symbols.
+        values: those of each member, real or complex, shape ``(M, k)``: the doubles that they are.
+        variables: names of the unknowns, in order; by default all other names that occur.
+        start: how the family is solved for random parameters, as for
+            `nag.solving.parameter.solve_generic`: a start system, or ``"parameter"``, by loops.
+        count: the number of solutions of a general member, if it is known; with loops and with
+            ``known`` no member is called complete without it.
+        known: values of the parameters, shape ``(k,)``, and regular solutions there, shape
+            ``(S, n)``, from which the family is solved instead.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+
+    Raises:
+        nag.NagError: if equations, parameters or values do not fit each other.
+        nag.StartError: if the family cannot be solved that way.
+
+    Reference: Morgan & Sommese, Coefficient-parameter polynomial continuation, 1989.
+
+    >>> import nag
+    >>> circles = nag.solve_family(["x^2 + y^2 = r", "x = a*y"], ["r", "a"], [[2, 1], [8, -1]])
+    >>> circles.points.shape, circles.complete.all()
+    ((2, 2, 2), np.True_)
+    >>> sorted(circles.real(0).round(9).tolist())
+    [[-1.0, -1.0], [1.0, 1.0]]
+    """
+    family = family_of(equations, parameters, variables)
+    wanted = check_values(family, values)
+    if known is None:
+        solved = solve_generic(family, start=start, count=count, run=run)
+    else:
+        solved = _solve_from_known(family, known, count, run)
+    return solve_members(solved, wanted, run=run)
+
+
+def family_of(equations: Any, parameters: Sequence[Any], variables: Any = None) -> Family:
+    """The family that equations and the names of parameters define.
+
+    Raises:
+        NagError: if equations and unknowns are not as many, or a parameter has a wrong name.
+    """
+    names = [str(name) for name in parameters]
+    if variables is None:
+        found = system(equations).variables
+        unknowns = [name for name in found if name not in names]
+        missing = [name for name in names if name not in found]
+        if missing:
+            raise NagError(f"parameters: {missing[0]!r} does not occur in the equations")
+    else:
+        unknowns = list(system("0", variables).variables)
+    made = system(equations, [*unknowns, *names])
+    if len(made.variables) > len(unknowns) + len(names):
+        raise NagError("equations: a family with complex coefficients is not supported")
+    return Family(tuple(unknowns), tuple(names), made.polynomials)
+
+
+def check_values(family: Family, values: Any) -> np.ndarray:
+    """Values of the parameters as an array of complex doubles, shape ``(M, k)``.
+
+    Raises:
+        NagError: if they are no finite numbers, or not as many as parameters.
+    """
+    k = len(family.parameters)
+    try:
+        array = np.asarray(values, dtype=np.complex128)
+    except (TypeError, ValueError):
+        raise NagError("values: are no numbers; give an array of shape (members, k)") from None
+    if array.ndim != 2 or array.shape[1] != k:
+        raise NagError(
+            f"values: have shape {array.shape}; give one of {k} parameters for each member, "
+            f"shape (members, {k})"
+        )
+    wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    if len(wrong):
+        raise NagError(f"values: those of member {wrong[0] + 1} are not all finite")
+    return array
+
+
+def _solve_from_known(
+    family: Family, known: tuple[Any, Any], count: int | None, run: Run
+) -> Solved:
+    """The family at random parameters, by paths from a member whose solutions are known."""
+    here = check_values(family, [known[0]])[0]
+    points = np.asarray(known[1], dtype=np.complex128)
+    if points.ndim != 2 or points.shape[1] != family.n or not np.isfinite(points).all():
+        raise NagError(f"known: solutions have shape {points.shape}, not (S, {family.n}), or holes")
+    from nag.solving.parameter_line import parameter_line
+
+    there = random_values(family, run.random())
+    line = parameter_line(family, here, there)
+    paths = track(line.homotopy, line.starts(points), run.settings, run.threads)
+    regular = paths.where(PathStatus.REGULAR)
+    if len(regular) < len(points):
+        lost = len(points) - len(regular)
+        raise StartError(f"known: {lost} of {len(points)} solutions are not regular, or none")
+    ends = line.affine(paths.points)
+    return Solved(family, there, ends, len(points) == count, f"{len(points)} known solutions")
+
+
+class _Block(NamedTuple):
+    """What became of some members' paths, see `FamilySolutions`; ``proved``: shape ``(m,)``."""
+
+    points: np.ndarray
+    errors: np.ndarray
+    proved: np.ndarray
+
+
+@takes_run
+def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> FamilySolutions:
+    """The members of a family that is solved for random parameters.
+
+    Args:
+        solved: by `nag.solving.parameter.solve_generic`.
+        values: the parameters of each member, shape ``(M, k)``.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+
+    Raises:
+        nag.NagError: if the values do not fit the family.
+    """
+    family, S = solved.family, len(solved.points)
+    values = check_values(family, values)
+    M = len(values)
+    if M * S * (16 * family.n + 9) > MOST_BYTES:
+        raise NagError(f"values: {M} members of {S} solutions are too many at once; give fewer")
+    points = np.full((M, S, family.n), np.nan, dtype=np.complex128)
+    status = np.full((M, S), PathStatus.FAILED, dtype=np.int8)
+    errors = np.full((M, S), np.inf)
+    proved = np.zeros(M, dtype=bool)
+    done = 0
+    for chunk, block in _track_all(solved, values, run):
+        points[chunk], errors[chunk], proved[chunk] = block
+        done += len(block.proved)
+        run.tell("members", done, M)
+    status[proved] = PathStatus.REGULAR
+    complete = proved & solved.complete
+    alone = np.flatnonzero(~proved)
+    for number, member in enumerate(alone.tolist()):
+        run.tell("members one by one", number, len(alone))
+        own = _solve_alone(solved, values[member], run)
+        points[member], status[member], errors[member], complete[member] = own
+    return FamilySolutions(solved, values, points, status, errors, ~proved, complete)
+
+
+def _track_all(solved: Solved, values: np.ndarray, run: Run) -> Iterator[tuple[slice, _Block]]:
+    """All members in chunks, each the same whatever the others are."""
+    S = len(solved.points)
+    size = max(1, min(MEMBERS, PATHS // max(S, 1)))
+    chunks = [slice(first, first + size) for first in range(0, len(values), size)]
+    lines = MemberLines(solved.family, solved.values)
+    work = partial(_track_chunk, lines, solved.points, settings=run.settings)
+    if run.threads == 1 or len(chunks) < 2:
+        made = (work(values[chunk], threads=run.threads) for chunk in chunks)
+        yield from zip(chunks, made, strict=True)
+        return
+    # What is made once is made before threads share it.
+    chunk = chunks[0]
+    yield chunk, work(values[chunk], threads=run.threads)
+    with ThreadPoolExecutor(run.threads) as pool:
+        rest = chunks[1:]
+        yield from zip(rest, pool.map(work, [values[chunk] for chunk in rest]), strict=True)
+
+
+def _track_chunk(
+    lines: MemberLines,
+    solutions: np.ndarray,
+    values: np.ndarray,
+    settings: Any = "default",
+    threads: int = 1,
+) -> _Block:
+    """Some members' paths; a member is proved if each of its paths has a regular end of its own."""
+    m, S, n = len(values), len(solutions), lines.family.n
+    line = lines.to(values)
+    starts = np.tile(line.starts(solutions), (m, 1))
+    member = np.repeat(np.arange(m, dtype=np.int64), S)
+    paths = track_members(line.homotopy, starts, member, settings, threads)
+    points = line.affine(paths.points).reshape(m, S, n)
+    errors = paths.accuracy.reshape(m, S)
+    proved = (paths.status.reshape(m, S) == PathStatus.REGULAR).all(axis=1)
+    proved &= np.isfinite(points).all(axis=(1, 2))
+    proved[proved] = _are_distinct(points[proved], errors[proved])
+    points[~proved], errors[~proved] = np.nan, np.inf
+    return _Block(points, errors, proved)
+
+
+def _are_distinct(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
+    """Which members' solutions are all distinct for certain, shape ``(m,)``.
+
+    Points that coincide have neighbours in a projection that do.
+    """
+    m, S, n = points.shape
+    flat = points.reshape(m * S, n)
+    radii = radii_of_balls(flat, errors.ravel()).reshape(m, S)
+    weights = np.exp(1j * np.arange(1, n + 1) ** 2) / np.sqrt(n)
+    keys = (points @ weights).real
+    order = np.argsort(keys, axis=1)
+    keys = np.take_along_axis(keys, order, axis=1)
+    widest = radii.max(axis=1, initial=0.0)
+    near = (np.diff(keys, axis=1) <= 2 * widest[:, None]).any(axis=1)
+    distinct = np.ones(m, dtype=bool)
+    for k in np.flatnonzero(near).tolist():
+        apart = np.linalg.norm(points[k, :, None] - points[k, None], axis=2)
+        np.fill_diagonal(apart, np.inf)
+        distinct[k] = not (apart <= radii[k][:, None] + radii[k][None]).any()
+    return distinct
+
+
+def _solve_alone(
+    solved: Solved, values: np.ndarray, run: Run
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, bool]:
+    """One member by itself: points, their status and errors, and whether these are all."""
+    S, n = len(solved.points), solved.family.n
+    points = np.full((S, n), np.nan, dtype=np.complex128)
+    status = np.full(S, PathStatus.FAILED, dtype=np.int8)
+    errors = np.full(S, np.inf)
+    if values.imag.any():
+        # Of complex parameters there is no exact system to reason about.
+        return points, status, errors, False
+    exact = [Fraction(v) for v in values.real.tolist()]
+    alone = replace(run, progress=None)
+    (result,) = solve_targets(replace(solved, classes=None), [exact], run=alone)
+    found = result.solutions[:S]
+    for i, each in enumerate(found):
+        points[i], errors[i] = each.point, each.accuracy
+        status[i] = PathStatus.REGULAR if each.multiplicity == 1 else PathStatus.SINGULAR
+    whole = result.complete and len(result.solutions) <= S
+    if whole:
+        status[len(found) :] = PathStatus.AT_INFINITY
+    return points, status, errors, whole

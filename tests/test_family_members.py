@@ -1,0 +1,229 @@
+"""Many members of a family, solved together: as each by itself, complete where that is known."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from systems import family
+
+import nag
+from nag.cli import main
+from nag.numerics.double_sums import ComplexSums, RealSums
+from nag.solving.family_members import solve_members
+from nag.solving.member_lines import MemberLines
+from nag.solving.parameter import solve_generic, solve_targets
+from nag.tracking.paths import PathStatus
+
+CONICS = family("x y", "a b c", "x^2 + a*x*y + b*y^2 - 1", "c*x^2 + (a^2 + b)*y - 2")
+SQUARES = family("x", "a b", "x^2 - 2*a*x + b")
+CASE = """
+title = "Conic and line"
+kind = "system"
+variables = ["x", "y"]
+equations = ["x^2 + y^2 - r", "x - a*y"]
+[parameters]
+r = 2
+a = 1
+[family]
+parameters = ["r", "a"]
+solutions = 2
+"""
+doubles = st.floats(-1e6, 1e6).filter(lambda x: x == 0 or abs(x) > 1e-60)
+
+
+def distances(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Of all points of one set from all of the other, relative to their sizes."""
+    apart = np.linalg.norm(first[:, None] - second[None], axis=2)
+    return apart / (1 + np.linalg.norm(first, axis=1))[:, None]
+
+
+def fractions(row: np.ndarray) -> list[Fraction]:
+    return [Fraction(v) for v in row.tolist()]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_members_have_the_solutions_that_each_has_by_itself(seed: int) -> None:
+    solved = solve_generic(CONICS, seed=seed)
+    values = np.random.default_rng(seed).standard_normal((25, 3))
+    found = solve_members(solved, values)
+    assert found.points.shape == (25, 4, 2) and found.complete.all()
+    for k, (own,) in enumerate(solve_targets(solved, [fractions(row)]) for row in values):
+        apart = distances(own.points, found.at(k))
+        assert apart.shape == (4, 4)
+        assert max(apart.min(axis=0).max(), apart.min(axis=1).max()) < 1e-12
+
+
+def test_answers_depend_neither_on_other_members_nor_on_threads() -> None:
+    solved = solve_generic(CONICS, seed=1)
+    values = np.random.default_rng(1).standard_normal((2100, 3))
+    one, two = (solve_members(solved, values, threads=threads) for threads in (1, 2))
+    backwards = solve_members(solved, values[::-1])
+    for name in ("points", "status", "errors", "one_by_one", "complete"):
+        assert np.array_equal(getattr(one, name), getattr(two, name), equal_nan=True)
+        turned = getattr(backwards, name)[::-1]
+        assert np.array_equal(getattr(one, name), turned, equal_nan=name == "points")
+
+
+def test_what_does_not_end_regularly_is_solved_by_itself() -> None:
+    # Two roots, a double root, and one that is as good as one in doubles.
+    values = [[2.0, 3.0], [1.0, 1.0], [1.0, 1.0 - 2.0**-50]]
+    found = solve_members(solve_generic(SQUARES, seed=2), values)
+    assert found.one_by_one.tolist()[:2] == [False, True]
+    assert found.complete.all() and found.counts.tolist() == [2, 1, 2]
+    assert found.status[1].tolist() == [PathStatus.SINGULAR, PathStatus.AT_INFINITY]
+    assert np.isnan(found.points[1, 1]).all() and np.isinf(found.errors[1, 1])
+    assert np.allclose(np.sort(found.at(2).real.ravel()), [1 - 2.0**-25, 1 + 2.0**-25], rtol=1e-14)
+
+
+def test_members_with_fewer_solutions_are_complete_without_the_others() -> None:
+    found = nag.solve_family("a*x^2 - 2*x + b", ["a", "b"], [[1, -3], [0, 4]], seed=1)
+    assert found.counts.tolist() == [2, 1] and found.complete.all()
+    assert found.at(1).tolist() == [[2]] and found.status[1, 1] == PathStatus.AT_INFINITY
+
+
+def test_points_of_a_curve_are_no_isolated_solutions() -> None:
+    # Where a = 0 both equations are the same line.
+    found = nag.solve_family(["x + y - 1", "a*(x^2 - y) + x + y - 1"], ["a"], [[0], [1]], seed=3)
+    assert found.complete.tolist()[1] and found.counts.tolist() == [0, 2]
+    assert found.one_by_one.tolist() == [True, False]
+
+
+def test_nothing_is_complete_where_the_family_is_not_known_to_be() -> None:
+    solved = solve_generic(CONICS, start="parameter", seed=1)
+    assert not solved.complete
+    values = np.random.default_rng(1).standard_normal((3, 3))
+    assert not solve_members(solved, values).complete.any()
+
+
+def test_a_known_member_is_a_start() -> None:
+    roots = nag.solve_family(
+        "x^2 - s", ["s"], [[4], [-9]], known=([1], [[1], [-1]]), count=2, seed=4
+    )
+    assert roots.complete.all()
+    assert sorted(roots.real(0).ravel().tolist()) == [-2, 2]
+    assert len(roots.real(1)) == 0 and np.allclose(abs(roots.at(1)), 3, rtol=1e-15)
+    with pytest.raises(nag.StartError, match="1 of 1 solutions are not regular"):
+        nag.solve_family("x^2 - s", ["s"], [[4]], known=([0], [[0]]))
+
+
+def test_parameters_may_be_complex_and_of_very_different_sizes() -> None:
+    values = np.array([[1e-9, 3e7], [2e5 + 1j, 1e-3j]])
+    found = nag.solve_family("a*x^2 - b", ["a", "b"], values, seed=5)
+    assert found.complete.all()
+    expected = np.sqrt(values[:, 1] / values[:, 0])
+    assert np.allclose(found.points[..., 0] ** 2, expected[:, None] ** 2, rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"values": [1.0]}, r"values: have shape \(1,\)"),
+        ({"values": [[float("nan")]]}, "values: those of member 1 are not all finite"),
+        ({"values": "ab"}, "values: are no numbers"),
+        ({"equations": ["x^2 - s", "x"]}, "2 equations for 1 unknowns"),
+        ({"parameters": ["t"]}, "parameters: 't' does not occur"),
+        ({"equations": ["x^2 - I*s"], "variables": ["x"]}, "complex coefficients"),
+    ],
+)
+def test_what_does_not_fit_is_said(change: dict, message: str) -> None:
+    asked = {"equations": "x^2 - s", "parameters": ["s"], "values": [[1]], **change}
+    with pytest.raises(nag.NagError, match=message):
+        nag.solve_family(**asked)
+
+
+def test_factors_of_members_are_those_of_the_exact_coefficients() -> None:
+    values = np.array([[0.1, 1 / 3, -7.0], [1e10, 1e-10, 3.7]])
+    lines = MemberLines(family("x", "a b c", "(a - b)^3*x^2 + (a*b*c - 1/7)*x + 1"), np.ones(3))
+    line = lines.to(values.astype(complex))
+    members, rows = line.homotopy.members, line.homotopy.rows
+    for row, factors, rest in zip(values, members.factors, members.rest, strict=True):
+        a, b, c = fractions(row)
+        wanted = {2: (a - b) ** 3, 1: a * b * c - Fraction(1, 7), 0: Fraction(1)}
+        found: dict[int, Fraction] = {}
+        sizes: dict[int, Fraction] = {}
+        for p, terms in rows.parts[0]:
+            for e, coefficient in terms.items():
+                if e[2] == 0:
+                    value = Fraction(factors[p, 0].real) + Fraction(rest[p].real)
+                    found[e[1]] = found.get(e[1], 0) + coefficient * value
+                    sizes[e[1]] = sizes.get(e[1], 0) + abs(coefficient * value)
+        scale = found[0] / wanted[0]
+        for e, value in wanted.items():
+            assert abs(found[e] - scale * value) <= Fraction(1, 10**29) * sizes[e]
+
+
+@given(a=doubles, b=doubles, c=doubles, d=doubles)
+def test_sums_of_two_doubles_have_twice_the_digits(a: float, b: float, c: float, d: float) -> None:
+    def exact(x: RealSums) -> Fraction:
+        return Fraction(float(x.high[0])) + Fraction(float(x.low[0]))
+
+    first, second = (ComplexSums.of(np.array([complex(*z)])) for z in ((a, b), (c, d)))
+    product, total = first * second, first + second
+    a, b, c, d = map(Fraction, (a, b, c, d))
+    size = abs(a * c) + abs(b * d) + abs(a * d) + abs(b * c)
+    assert abs(exact(product.real) - (a * c - b * d)) <= size / 10**30
+    assert abs(exact(product.imaginary) - (a * d + b * c)) <= size / 10**30
+    assert exact(total.real) == pytest.approx(a + c, rel=1e-30)
+    assert abs(exact(total.real) - (a + c)) <= (abs(a) + abs(c)) / 10**30
+
+
+def test_the_command_writes_arrays_and_counts(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, table = tmp_path / "case.toml", tmp_path / "values.csv"
+    case.write_text(CASE)
+    # A parameter without a column has the value of the case.
+    table.write_text("a\n1\n0.5\n-7\n")
+    words = ["family", str(case), "--values", str(table), "--quiet"]
+    points, document = tmp_path / "points.npz", tmp_path / "answer.json"
+    assert main([*words, "--points", str(points), "--json", str(document)]) == 0
+    assert "complete   3 of 3 members" in capsys.readouterr().out
+    with np.load(points, allow_pickle=False) as arrays:
+        assert arrays["points"].shape == (3, 2, 2) and arrays["complete"].all()
+        x, y = arrays["points"][2].T
+        assert np.allclose(x, -7 * y) and np.allclose(x**2 + y**2, 2)
+    assert [each["real"] for each in json.loads(document.read_text())["members"]] == [2, 2, 2]
+    array = tmp_path / "values.npy"
+    np.save(array, np.array([[0.0, 1.0], [1.0, 0.0]]))
+    words[3] = str(array)
+    assert main(words) == 0
+    assert "1 member has fewer than 2 solutions" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("", "is empty; its first line names parameters: r,a"),
+        ("r,b\n1,2\n", "line 1: 'b' is no parameter of the family"),
+        ("r,r\n1,2\n", "line 1: 'r' is there twice"),
+        ("r,a\n1\n", "line 2: 1 values, not 2"),
+        ("r\nx\n", "line 2: 'x' is no number"),
+        ("r\n", "has no values below its first line"),
+        ("r\ninf\n", "those of member 1 are not all finite"),
+    ],
+)
+def test_a_bad_table_is_one_line(
+    content: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, table = tmp_path / "case.toml", tmp_path / "values.csv"
+    case.write_text(CASE)
+    table.write_text(content)
+    assert main(["family", str(case), "--values", str(table)]) == 2
+    assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("content", [b"", b"not numpy", b"\x93NUMPY\x01\x00"])
+def test_a_bad_array_is_one_line(
+    content: bytes, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, array = tmp_path / "case.toml", tmp_path / "values.npy"
+    case.write_text(CASE)
+    array.write_bytes(content)
+    assert main(["family", str(case), "--values", str(array)]) == 2
+    assert "is no array of NumPy's" in capsys.readouterr().err
