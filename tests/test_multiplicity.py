@@ -101,3 +101,22 @@ def test_a_multiple_zero_near_simple_ones_is_not_taken_for_simple(seed: int) -> 
     # By w = z^3/(37200 x^2) the last equation begins with z^4 there.
     (multiple,) = (c for c in answer.components if c.multiplicity == 4)
     assert np.allclose(multiple.points[0], [9 / 2450, (9 / 2450) ** 2 / 4, 0, 0], atol=1e-15)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_multiple_zero_known_to_hundreds_of_digits_is_made_regular_by_deflation(
+    seed: int,
+) -> None:
+    equations = [
+        "-1375*x*y + 350*x*(z + 5) + 1/20*(z + 5)*w - 20*y",
+        "3/5*x^2*w + 6000*(z + 5)^3",
+        "-1/13750*x^2 - 3000/7*x*(z + 5) + 1/25000*x*w - 105/4*y*(z + 5) - 7/850*y"
+        " + 1700000/3*(z + 5)",
+        "-7/40000*y*(z + 5)*w^3 + 31/8*y*w^3 - 680/3*(z + 5)^3",
+    ]
+    answer = nag.decompose(equations, "x y z w", seed=seed)
+    # By w = -10000 (z + 5)^3 / x^2 the last equation begins with (z + 5)^3 there.
+    (multiple,) = (c for c in answer.components if c.multiplicity == 3)
+    assert multiple.status is nag.Status.IRREDUCIBLE and not multiple.note
+    x = -4 / 275
+    assert np.allclose(multiple.points[0], [x, -17 * x**2 / 1925, -5, 0], atol=1e-15)

@@ -50,6 +50,21 @@ def test_zeros_are_as_near_as_is_asked_for_and_said(k: int, digits: int) -> None
         assert off <= flint.arb(10) ** flint.arb(found.error)
 
 
+@pytest.mark.parametrize("m", [2, 3, 4])
+@pytest.mark.parametrize("k", [200, 310, 900])
+def test_a_multiple_zero_is_none_that_newtons_method_finds_however_near(m: int, k: int) -> None:
+    system = BallPolynomials.of(equations(f"x^{m} + 7*x^{m + 1}", "y^2 - 2 + x"))
+    start = [flint.arb(10) ** -k, exact_root(0)]
+    assert find_zero(system, list(map(flint.acb, start)), 100) is None
+
+
+def test_a_simple_zero_is_found_beside_others_that_are_nearer_than_its_digits() -> None:
+    system = BallPolynomials.of(equations(f"x^2 - x/10^{200}", "y - x"))
+    tiny = flint.arb(10) ** -310
+    found = find_zero(system, [flint.acb(tiny), flint.acb(tiny)], 100)
+    assert found is not None and found.error < -300
+
+
 def test_more_equations_or_fewer_than_unknowns_have_steps_as_well() -> None:
     x = [flint.acb(1, 2) / 3, flint.acb(5) / 7]
     more = newton_step(BallPolynomials.of(equations("x - 2", "y + 3", "x + y + 1")), x, 200)

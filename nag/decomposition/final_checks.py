@@ -12,18 +12,10 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
-from nag.numerics.ball_boxes import box_about
-from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.double_ranks import SINGULAR, numerical_corank
 from nag.numerics.zero_values import ON
 from nag.tracking.run import Run
-from nag.witness.close_points import (
-    CLOSE,
-    CLOSE_AFAR,
-    PointInWords,
-    close_pairs,
-    follow_slice,
-)
+from nag.witness.close_points import CLOSE, CLOSE_AFAR, close_pairs, follow_slice
 from nag.witness.confirm import is_confirmed, zero_in_digits
 from nag.witness.cutting import Equations
 from nag.witness.exact_points import SharpPoints, carry_radii, sharpen_points
@@ -109,14 +101,13 @@ def _coranks(equations: Equations, fibre: Fibre, rng: np.random.Generator) -> li
 
     Where the equations cut the component in regular points, and doubles say otherwise, as they do
     where coordinates differ much in size, digits decide; of points that are close to others, they
-    have, where a box in balls is proved to hold a simple zero: near a multiple one Newton's method
-    stands still as soon as what is left is below all digits.
+    have, where they prove a simple zero.
     """
     d, rows, result, regular = fibre.dimension, fibre.rows, [], not fibre.cut.deflated
     matrices = equations.evaluator.balanced_jacobians(fibre.x)
     singular = np.linalg.svd(matrices, compute_uv=False)
     for i, (point, s) in enumerate(zip(fibre.x, singular, strict=True)):
-        if regular and i in fibre.fine and _is_simple(fibre, fibre.fine[i]):
+        if regular and i in fibre.fine and zero_in_digits(fibre, i) is not None:
             result.append(d)
             continue
         corank = numerical_corank(s, len(point), SINGULAR)
@@ -124,12 +115,6 @@ def _coranks(equations: Equations, fibre: Fibre, rng: np.random.Generator) -> li
             corank = d
         result.append(corank)
     return result
-
-
-def _is_simple(fibre: Fibre, point: PointInWords) -> bool:
-    """Whether a simple zero of the fibre's equations is proved to be next to a point."""
-    system = BallPolynomials.of(fibre.cut.polynomials, fibre.rows)
-    return box_about(system, point.balls()) is not None
 
 
 @dataclass(frozen=True, eq=False)

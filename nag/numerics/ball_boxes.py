@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import flint
 import numpy as np
@@ -15,7 +15,13 @@ import numpy as np
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import in_bits
 from nag.numerics.doubles import NEWTON_STEPS
-from nag.numerics.newton import Functions, inverse_of, newton_step, newton_to_rest
+from nag.numerics.newton import (
+    Functions,
+    inverse_of,
+    newton_step,
+    newton_to_rest,
+    slopes_over,
+)
 
 # Bits of a word of the machine.
 WORD = 64
@@ -162,12 +168,7 @@ class BallOperator:
 
     def slopes(self, sides: Sequence[flint.arb]) -> flint.arb_mat:
         """Absolute values of the entries of ``1 - Y F'(X)`` for discs X of these radii."""
-        n = len(self.x)
-        with in_bits(self.bits):
-            discs = [flint.acb(d, d) for d in (flint.arb(0, r) for r in sides)]
-            box = [z + d for z, d in zip(self.x, discs, strict=True)]
-            rest = self.inverse * self.system.jacobian(box, self.bits) - _identity(n)
-            return flint.arb_mat(n, n, [abs(z) for z in rest.entries()])
+        return slopes_over(self.system, self.x, sides, self.inverse, self.bits)
 
     def image(self, slopes: flint.arb_mat, sides: Sequence[flint.arb]) -> list[flint.arb]:
         """Upper bounds of the distances of K(X) from ``x``, for discs X of these radii about it.
@@ -199,8 +200,3 @@ class BallOperator:
             if not any(2 * a < b for a, b in zip(image, last, strict=True)):
                 break
         return tuple(image)
-
-
-@lru_cache
-def _identity(n: int) -> flint.acb_mat:
-    return flint.acb_mat(n, n, [int(i == j) for i in range(n) for j in range(n)])

@@ -4,12 +4,17 @@ A step at an exact point x solves ``F'(x) s = F(x)``: by least squares where the
 equations than unknowns, the shortest where there are fewer. Values and slopes are balls, and so is
 the step: how wide it is says what rounding and conditions may have made of it. Where that governs a
 step, the next one is made in more bits; no other estimate of an error is needed.
+
+Short steps do not say that a zero is regular: beside a multiple one they are as short as what is
+left, which may be below all digits. A point has converged where Krawczyk's test proves, in a box
+about its last step, that the zero there is simple. That is decided here for all who ask for zeros.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import inf
 from typing import Protocol
 
@@ -27,6 +32,9 @@ STEPS = 60
 GAIN, FIRST_STEPS = 0.2, 3
 # An inverse by which a step gains so many digits, and this part of those that are left, is kept.
 FAST, LEFT = 12.0, 1 / 6
+# Sides of Krawczyk's box in those of the last step: in an image as much smaller the zero is nearer
+# to the new point than that step was long. And boxes that are tried, the next where the image says.
+BOX, BOXES = 4, 2
 # The part of all digits that a point has where a step that is no shorter than the last is rounding.
 RESTS = 0.3
 
@@ -41,7 +49,9 @@ class Functions(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Converged:
-    """Where Newton's method has led to.
+    """The regular zero that Newton's method has led to.
+
+    Of as many equations as unknowns it is proved to be one; of more, that no other is as near.
 
     Attributes:
         point: exact numbers.
@@ -119,6 +129,67 @@ def subtract_step(x: Sequence[flint.acb], step: Sequence[flint.acb], bits: int) 
         return [(a - b).mid() for a, b in zip(x, step, strict=True)]
 
 
+def slopes_over(
+    system: Functions,
+    x: Sequence[flint.acb],
+    sides: Sequence[flint.arb],
+    inverse: flint.acb_mat,
+    bits: int,
+) -> flint.arb_mat:
+    """Absolute values of the entries of ``1 - Y F'(X)`` for discs X of these radii about a point.
+
+    Of fewer equations than unknowns, whose zeros are no points, of ``1 - F'(X) Y``.
+
+    Args:
+        inverse: ``Y``, a matrix near the inverse Jacobian, exact.
+    """
+    with in_bits(bits):
+        discs = [flint.acb(d, d) for d in (flint.arb(0, r) for r in sides)]
+        jacobian = system.jacobian([z + d for z, d in zip(x, discs, strict=True)], bits)
+        wide = jacobian.nrows() < jacobian.ncols()
+        rest = (jacobian * inverse if wide else inverse * jacobian) - _identity(
+            min(jacobian.nrows(), jacobian.ncols())
+        )
+        return flint.arb_mat(rest.nrows(), rest.ncols(), [abs(z) for z in rest.entries()])
+
+
+@lru_cache
+def _identity(n: int) -> flint.acb_mat:
+    return flint.acb_mat(n, n, [int(i == j) for i in range(n) for j in range(n)])
+
+
+def _is_simple(
+    system: Functions,
+    x: Sequence[flint.acb],
+    step: Sequence[flint.acb],
+    inverse: flint.acb_mat,
+    bits: int,
+) -> bool:
+    """Whether there is a simple zero, and one only, a step of Newton's method from a point.
+
+    Each side of the box is a multiple of the step there, as coordinates may differ in their digits.
+    """
+    inverse = inverse.mid()
+    with in_bits(bits):
+        sides = [BOX * z.abs_upper() for z in step]
+        # Coordinates that do not move have a side as well, beside the others or the point.
+        least = max([*sides, flint.arb(0)])
+        if not least > 0:
+            least = max([flint.arb(1), *(abs(z).mid() for z in x)])
+        sides = [max(r, least * flint.arb(2) ** -bits).mid() for r in sides]
+        for _ in range(BOXES):
+            slopes = slopes_over(system, x, sides, inverse, bits)
+            if slopes.ncols() != len(sides):
+                return all(BOX * sum(row, flint.arb(0)) < 1 for row in slopes.tolist())
+            image = (slopes * flint.arb_mat(len(sides), 1, sides)).entries()
+            if all(BOX * a < r for a, r in zip(image, sides, strict=True)):
+                return True
+            if not all(a.is_finite() for a in image):
+                return False
+            sides = [max(r, 2 * BOX * a.upper()).mid() for a, r in zip(image, sides, strict=True)]
+    return False
+
+
 def find_zero(
     system: Functions,
     start: Sequence[flint.acb],
@@ -126,7 +197,7 @@ def find_zero(
     within: float = inf,
     gain: float = GAIN,
 ) -> Converged | None:
-    """The zero that Newton's method leads to from the middles of a point, to so many digits.
+    """The regular zero that Newton's method leads to from the middles of a point, to many digits.
 
     Args:
         digits: relative to the point's largest coordinate or to one.
@@ -135,8 +206,8 @@ def find_zero(
             logarithm. By two zeros that are close together each step halves the distance.
 
     Returns:
-        None if steps do not become shorter soon, or lead further away, or if the digits are more
-        than conditions leave of many bits.
+        None if steps do not become shorter soon, or lead further away, if the digits are more than
+        conditions leave of many bits, or if the zero is not proved to be simple.
     """
     x, size = list(map(middle, start)), max(0.0, log_norm(start))
     most = MOST_BITS + MOST_TIMES * bits_of(digits)
@@ -155,14 +226,21 @@ def find_zero(
                 return None
             bits, clear, inverse = 2 * bits, 2 * clear, None
             continue
-        x = subtract_step(x, step, max(bits, bits_of(digits) + MORE_BITS))
+        before, x = x, subtract_step(x, step, max(bits, bits_of(digits) + MORE_BITS))
         slow = count >= FIRST_STEPS and length > last - gain
         if (slow and not done) or not _is_within(x, start, size + within):
             return None
-        if done and (last < inf or length == -inf):
-            return Converged(x, error, inverse)
         rounded = max(size - LOG10_2 * bits, length - LOG10_2 * clear if new else -inf)
         lost = max(0.0, rounding - rounded)
+        if done and (last < inf or length == -inf):
+            if _is_simple(system, before, step, inverse, clear):
+                return Converged(x, error, inverse)
+            enough = min(most, _whole_bits(size - error + lost)) if error > -inf else most
+            if new and clear >= enough:
+                return None
+            # Other zeros may be nearer than slopes in so few bits tell.
+            bits, clear, inverse, last = max(bits, enough), max(clear, enough), None, length
+            continue
         left = length - size + digits
         # A first step that is short beside the point is by slopes as near to those at the zero.
         if min(last, size) - length < max(FAST, LEFT * left):

@@ -156,10 +156,10 @@ def with_roots(point: PointInWords, f: Polynomial) -> list[PointInWords]:
 def zero_from(
     polynomials: Sequence[Polynomial], rows: np.ndarray, start: PointInWords, digits: int
 ) -> PrecisePoint | None:
-    """The zero of a square system on a slice near a point, to so many digits.
+    """The regular zero of a square system on a slice near a point, to so many digits.
 
-    None if Newton's method does not converge at once to a zero that is far nearer than the next
-    one.
+    None if Newton's method does not converge at once to a simple zero that is far nearer than the
+    next one.
     """
     exact = BallPolynomials.of(polynomials, pad_rows(rows, 1 + len(start.words)))
     found = find_zero(exact, start.balls(), digits, np.log10(BASIN / start.curvature))

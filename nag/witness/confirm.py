@@ -65,10 +65,10 @@ def find_vanishing(fibre: Fibre, f: Polynomial) -> list[bool | None]:
 def zero_in_digits(
     fibre: Fibre, i: int, digits: int = POINT_DIGITS, spare: int = 2
 ) -> PrecisePoint | None:
-    """A point of a fibre, added unknowns included, to so many digits.
+    """A point of a fibre, added unknowns included, to so many digits: a regular zero of its cut.
 
     One that is close to others is known to ``spare`` times as many more as these differ by. None
-    where Newton's method does not lead to it.
+    where Newton's method does not lead to it, or it is not proved to be simple.
     """
     polynomials, z = fibre.cut.polynomials, fibre.points[i]
     if i not in fibre.fine:

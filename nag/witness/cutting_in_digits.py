@@ -167,7 +167,10 @@ def _find_cut(
             return Cut(n, system.total - n, subset, system.levels), z
         free = system.total - len(rows)
         q = dyadic(rng, (system.total, free))
-        m = free - regular_block(_times(_slopes(system.polynomials, z), q), free, ZERO).rank
+        m = (
+            free
+            - regular_block(_times(_slopes(system.polynomials, _none(z), z), q), free, ZERO).rank
+        )
         if not m or system.too_large(free, m):
             return None
         q1, q2 = q[:, :m], q[:, m:]
@@ -185,7 +188,7 @@ def _unknowns(
 
     That equations besides those that determine it hold as well is for the caller to see.
     """
-    slopes = _slopes(polynomials, z)
+    slopes = _slopes(polynomials, _none(z), z)
     matrix, right = _times(slopes, q2), _times(slopes, q1)
     block = regular_block(matrix, q2.shape[1], ZERO)
     if block.rank < q2.shape[1]:
@@ -198,9 +201,26 @@ def _unknowns(
     return [middle(-table[i][j]) for j in range(q1.shape[1]) for i in sorted(table)]
 
 
-def _slopes(polynomials: Sequence[Polynomial], z: list[flint.acb]) -> flint.acb_mat:
-    blank = np.zeros((0, 1 + len(z)), dtype=complex)
-    return BallPolynomials.of(polynomials, blank).jacobian(z, BITS).mid()
+def _slopes(
+    polynomials: Sequence[Polynomial], slices: np.ndarray, z: Sequence[flint.acb]
+) -> flint.acb_mat:
+    """The Jacobian at a zero of a hundred digits; what may vanish in these does.
+
+    Beside a multiple zero all slopes of an equation may be as small as what is left of the point.
+    """
+    with in_bits(BITS):
+        side = flint.arb(10) ** int(ZERO) * max([flint.arb(1), *(abs(c).mid() for c in z)])
+        disc = flint.acb(flint.arb(0, side.mid()), flint.arb(0, side.mid()))
+        near = BallPolynomials.of(polynomials, slices).jacobian([c + disc for c in z], BITS)
+        at = BallPolynomials.of(polynomials, slices).jacobian(z, BITS).mid()
+        pairs = zip(near.entries(), at.entries(), strict=True)
+        entries = [flint.acb(0) if wide.contains(0) else c for wide, c in pairs]
+        return flint.acb_mat(at.nrows(), at.ncols(), entries)
+
+
+def _none(z: Sequence[flint.acb]) -> np.ndarray:
+    """No slices."""
+    return np.zeros((0, 1 + len(z)), dtype=complex)
 
 
 def _times(slopes: flint.acb_mat, q: np.ndarray) -> list[list[flint.acb]]:
@@ -222,7 +242,7 @@ def _independent(
 ) -> list[int] | None:
     """As many equations as determine a point on slices; None if they do not."""
     n, need = len(x), len(x) - len(slices)
-    jacobian = BallPolynomials.of(polynomials, slices).jacobian(x, BITS).tolist()
+    jacobian = _slopes(polynomials, slices, x).tolist()
     matrix = []
     for i, row in enumerate(jacobian):
         size = _size(row)
