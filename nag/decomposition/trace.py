@@ -16,7 +16,7 @@ import numpy as np
 from nag.algebra.polynomial import ROUND_NUMBERS, Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.zero_sums import smallest_zero_sums
-from nag.solving.start.monodromy import CLEAR
+from nag.numerics.doubles import CLEAR
 from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres

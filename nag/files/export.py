@@ -32,9 +32,9 @@ from nag.files.json_values import (
     wrong,
 )
 from nag.files.written_file import write_target
+from nag.numerics.digits import WORDS
 from nag.numerics.zero_values import LEAST
 from nag.text.json_text import lay_out
-from nag.tracking.close_paths import WORDS
 from nag.witness.close_points import PointInWords
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre

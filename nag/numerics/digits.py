@@ -37,6 +37,10 @@ ROUNDING = 5.0
 SPARE = 20
 
 
+# Doubles that a number known beyond doubles is the sum of, where paths start from it.
+WORDS = 4
+
+
 def in_bits(bits: int) -> AbstractContextManager[object]:
     """A context in which FLINT's numbers have so many bits: it has no other way to be told."""
     return flint.ctx.workprec(bits)

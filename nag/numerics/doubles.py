@@ -35,6 +35,9 @@ MULTIPLE = 1e-7
 # is something else, or gets more digits. Ends within it are one, and one of their paths jumped; a
 # coordinate beyond it is not zero.
 SLACK = 1e3
+# Decides: Sum of second differences of a trace over the points' motion that is none of rounding: a
+# point is missing, or a path of the trace was lost.
+CLEAR = 1e-6
 # Newton's method from a point next to a zero must arrive within this many steps.
 NEWTON_STEPS = 12
 # Doubles hold all whole numbers up to this.

@@ -13,6 +13,7 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.number import Number
+from nag.numerics.digits import WORDS
 from nag.tracking.compiled import CompiledRows, Terms
 from nag.tracking.ends.follow import DIGITS, follow_whole
 from nag.tracking.homotopy import Homotopy
@@ -20,8 +21,8 @@ from nag.tracking.jumps import collisions
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings, find_settings
 
-# Words of a start point, and Newton's constant above which double-double is not tried first.
-WORDS, STEEP = 4, 1e11
+# Newton's constant above which double-double is not tried first.
+STEEP = 1e11
 
 
 def moving_rows(

@@ -16,12 +16,11 @@ import numpy as np
 
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import neighbours
-from nag.numerics.digits import bits_of, in_bits, number_of_words, to_ball, words_of_number
+from nag.numerics.digits import WORDS, bits_of, in_bits, number_of_words, to_ball, words_of_number
 from nag.numerics.newton import find_zero, inverse_of, newton_step, subtract_step
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.read_only import fixed_array
 from nag.text.json_text import real_or_null
-from nag.tracking.close_paths import WORDS
 from nag.witness.slices import pad_rows
 
 if TYPE_CHECKING:

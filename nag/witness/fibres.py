@@ -11,10 +11,10 @@ import numpy as np
 
 from nag.algebra.number import Number
 from nag.numerics.coincidence import coincident
+from nag.numerics.digits import WORDS
 from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.zero_values import ON
 from nag.text.json_text import pairs
-from nag.tracking.close_paths import WORDS
 from nag.tracking.homotopy import Homotopy, norms
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.run import Run

@@ -23,6 +23,7 @@ import numpy as np
 from nag.algebra.exact_ranks import LARGE
 from nag.errors import StartError
 from nag.numerics.digits import bits_of, in_bits
+from nag.numerics.doubles import CLEAR
 from nag.numerics.precise_point import POINT_DIGITS
 from nag.solving.start.coefficient_monodromy import (
     GenericSystem,
@@ -45,9 +46,6 @@ FINE_ROUNDING = 1e-50
 # Decides: Second difference of each point alone, in units of those, without which its absence could
 # not show.
 VISIBLE = 10.0
-# Decides: Sum of second differences over the points' motion that is none of rounding: a point is
-# missing, or a path of the trace was lost.
-CLEAR = 1e-6
 # Steps of Newton's method from doubles to 64 digits.
 STEPS = 5
 # Bits of the pencil's random numbers behind the point, and of the coefficients that their products
