@@ -104,11 +104,7 @@ def modes(
     paths = fewest_estimated_paths(model.system)
     if paths * LEAST_SECONDS > budget:
         note = f"up to {paths} paths, which take longer than a budget of {budget:g} s allows"
-        settings = run.settings
-        nothing = Decomposition(
-            model.system, (), PathCounts(), run.seed, settings, (), False, (note,)
-        )
-        return OperationModes(model, nothing, (), (), (), (note,))
+        return OperationModes(model, _no_answer(model, run, note), (), (), (), (note,))
     run.tell("modes", 1, 4)
     found = decompose(model.system, run=run)
     return describe_modes(model, found, run)
