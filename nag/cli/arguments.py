@@ -147,6 +147,16 @@ def add_tracking(parser: argparse.ArgumentParser) -> None:
         default="default",
         help="how carefully paths are tracked (default: default)",
     )
+    parser.add_argument(
+        "--resume",
+        metavar="DIR",
+        help="keep finished work in the folder DIR, and find there what an earlier run has done",
+    )
+    parser.add_argument(
+        "--executor",
+        metavar="NAME",
+        help="who tracks paths: processes:N, dask://ADDRESS or mpi (default: threads)",
+    )
     add_quiet(parser)
 
 

@@ -133,7 +133,7 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
     """
     begin(options)
     options.write, options.said = write, 0
-    with show_progress(options) as options.progress:
+    with show_progress(options) as options.progress, shared_work(options):
         answer = options.module.run(options)
     tell = getattr(options, "tell", None)
     try:
@@ -147,7 +147,8 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
 
     if tell is not None:
         tell("proof", 0, 0)
-    rows, proved = answer.proof()
+    with shared_work(options):
+        rows, proved = answer.proof()
     if tell is not None:
         tell.erase()
     write(["", *label_lines(rows)])
@@ -196,6 +197,29 @@ def show_progress(options: argparse.Namespace) -> Iterator[ProgressLine | TellPa
         progress_line(sys.stderr, options.quiet) as progress,
     ):
         yield progress
+
+
+@contextlib.contextmanager
+def shared_work(options: argparse.Namespace) -> Iterator[None]:
+    """Keep finished work in the folder of ``--resume``, and have it done by ``--executor``.
+
+    Raises:
+        nag.errors.InputError: if either cannot be had.
+    """
+    resume, executor = (getattr(options, name, None) for name in ("resume", "executor"))
+    if resume is None and executor is None:
+        yield
+        return
+    from nag.tracking.blocks import open_engine
+
+    with open_engine(resume, executor, options.progress) as engine:
+        yield
+    if engine is None or engine.ledger is None or not (engine.ledger.damaged or engine.ledger.used):
+        return
+    if engine.ledger.damaged or not options.quiet:
+        if options.progress is not None:
+            options.progress.erase()
+        sys.stderr.write(f"nag: {resume}: {engine.ledger.text}\n")
 
 
 def chosen_run(options: argparse.Namespace) -> Run:

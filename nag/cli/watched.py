@@ -220,7 +220,13 @@ class _Watch:
         if self._line.stage:
             words.append(f" ({self._line.stage_text()})")
         kept = "" if target is None else f"; {target} is as it was"
-        return "".join(words) + f"{kept}; what is printed above holds, the same command starts over"
+        folder = getattr(self._options, "resume", None)
+        how = "the same command starts over"
+        if "resume" in self._options:
+            how += "; with --resume DIR it would go on"
+        if folder is not None:
+            how = f"the same command goes on with what {folder} holds"
+        return "".join(words) + f"{kept}; what is printed above holds, {how}"
 
 
 def _memory_of(process: int) -> int:

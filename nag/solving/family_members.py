@@ -24,8 +24,10 @@ from nag.numerics.coincidence import radii_of_balls
 from nag.solving.member_lines import MemberLines
 from nag.solving.parameter import Solved, solve_generic, solve_targets
 from nag.solving.start.family_monodromy import random_values
+from nag.tracking import blocks
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.settings import Settings, find_settings
 from nag.tracking.track import track, track_members
 
 __all__ = ["FamilySolutions", "solve_family", "solve_members"]
@@ -243,6 +245,12 @@ def _track_all(solved: Solved, values: np.ndarray, run: Run) -> Iterator[tuple[s
     size = max(1, min(MEMBERS, PATHS // max(S, 1)))
     chunks = [slice(first, first + size) for first in range(0, len(values), size)]
     lines = MemberLines(solved.family, solved.values)
+    if blocks.in_blocks():
+        settings = find_settings(run.settings)
+        calls = [(lines, solved.points, values[chunk], settings) for chunk in chunks]
+        done = blocks.work_out(block_of_members, calls, "members", run.threads)
+        yield from ((c, _Block(**arrays)) for c, (arrays, _) in zip(chunks, done, strict=True))
+        return
     work = partial(_track_chunk, lines, solved.points, settings=run.settings)
     if run.threads == 1 or len(chunks) < 2:
         made = (work(values[chunk], threads=run.threads) for chunk in chunks)
@@ -254,6 +262,17 @@ def _track_all(solved: Solved, values: np.ndarray, run: Run) -> Iterator[tuple[s
     with ThreadPoolExecutor(run.threads) as pool:
         rest = chunks[1:]
         yield from zip(rest, pool.map(work, [values[chunk] for chunk in rest]), strict=True)
+
+
+def block_of_members(
+    lines: MemberLines,
+    solutions: np.ndarray,
+    values: np.ndarray,
+    settings: Settings,
+    threads: int = 1,
+) -> dict[str, np.ndarray]:
+    """Some members, see `_Block`."""
+    return _track_chunk(lines, solutions, values, settings, threads)._asdict()
 
 
 def _track_chunk(

@@ -56,6 +56,10 @@ class MemberLines:
     family: Family
     first: np.ndarray
 
+    def __getstate__(self) -> dict[str, object]:
+        """What it is made of; the rest is made again where it is wanted."""
+        return {"family": self.family, "first": self.first}
+
     @cached_property
     def _parts(self) -> list[_Part]:
         n, parts = self.family.n, []

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate
@@ -75,6 +75,18 @@ class CompiledRows:
 
     def __len__(self) -> int:
         return len(self.parts)
+
+    def __getstate__(self) -> dict[str, object]:
+        """The fields alone: what is kept besides holds addresses of this process."""
+        state = {each.name: getattr(self, each.name) for each in fields(self)}
+        return {**state, "_cache": {}}
+
+    @cached_property
+    def content_digest(self) -> bytes:
+        """The digest of all that results depend on."""
+        from nag.tracking.ledger import digest_of_fields
+
+        return digest_of_fields(self)
 
     @cached_property
     def part_count(self) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 
 import numpy as np
@@ -88,6 +88,18 @@ class Homotopy:
                 f"{len(self.rows)} polynomial rows, {len(A0)} linear rows and {len(self.groups)}"
                 f" patches do not make {N} rows"
             )
+
+    def __getstate__(self) -> dict[str, object]:
+        """The fields alone: what is kept besides holds addresses of this process."""
+        state = {each.name: getattr(self, each.name) for each in fields(self)}
+        return {**state, "_cache": {}}
+
+    @cached_property
+    def content_digest(self) -> bytes:
+        """The digest of all that results depend on."""
+        from nag.tracking.ledger import digest_of_fields
+
+        return digest_of_fields(self)
 
     @property
     def N(self) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from enum import IntEnum
 from fractions import Fraction
 
@@ -148,6 +148,36 @@ class Paths(ArrayTable):
     simple: np.ndarray
     balls: Mapping[int, Ball] = field(default_factory=dict)
     branches: Mapping[int, PathBranch] = field(default_factory=dict)
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """All of it as arrays, by name."""
+        plain = ("balls", "branches")
+        found = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in plain}
+        for path, ball in self.balls.items():
+            found[f"ball {path} centre"], found[f"ball {path} radii"] = ball.centre, ball.radii
+        for path, branch in self.branches.items():
+            found[f"branch {path} orders"] = np.array([branch.winding, *branch.orders])
+            found[f"branch {path} logs"] = branch.logs
+            found[f"branch {path} bends"] = branch.bends
+        return found
+
+    @classmethod
+    def from_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Paths:
+        """What `arrays` was made of; other names are passed over."""
+        balls: dict[int, Ball] = {}
+        branches: dict[int, PathBranch] = {}
+        for name, radii in arrays.items():
+            kind, _, rest = name.partition(" ")
+            if kind == "ball" and rest.endswith(" radii"):
+                path = int(rest.split()[0])
+                balls[path] = Ball(arrays[f"ball {path} centre"], radii)
+            elif kind == "branch" and rest.endswith(" orders"):
+                path = int(rest.split()[0])
+                winding, *orders = radii.tolist()
+                logs, bends = (arrays[f"branch {path} {part}"] for part in ("logs", "bends"))
+                branches[path] = PathBranch(winding, tuple(orders), logs, bends)
+        plain = {f.name: arrays[f.name] for f in fields(cls) if f.name in arrays}
+        return cls(**plain, balls=balls, branches=branches)
 
     def same(self, homotopy: Homotopy, i: int, j: int) -> bool:
         """Whether two ends coincide in all digits that they are known to.

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import wraps
+from os import PathLike
 from typing import Any
+from warnings import warn
 
 import numpy as np
 
@@ -26,6 +28,10 @@ class Run:
         threads: for path tracking; answers do not depend on them.
         settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking, or settings of one's own.
         progress: called with a stage's name, the step reached and the number of steps.
+        resume: a folder in which finished blocks of work are kept, and found again by whoever asks
+            the same; answers do not depend on it.
+        executor: who works blocks out: an executor of `concurrent.futures`, or ``"processes:4"``,
+            ``"dask://ADDRESS"``, ``"mpi"``; answers do not depend on it.
 
     Raises:
         nag.NagError: if one makes no sense; the message says which, and what would.
@@ -40,9 +46,17 @@ class Run:
     threads: int = 1
     settings: Settings | str = "default"
     progress: Progress | None = None
+    resume: str | PathLike[str] | None = None
+    executor: Any = None
 
     def __post_init__(self) -> None:
         check_running(self.seed, self.threads, self.settings, self.progress)
+        if self.resume is not None and not isinstance(self.resume, str | PathLike):
+            raise NagError(f"resume: {type(self.resume).__name__} is given; give a folder")
+        if self.executor is not None:
+            from nag.tracking.executor import check_executor
+
+            check_executor(self.executor)
         object.__setattr__(self, "seed", int(self.seed))
         object.__setattr__(self, "threads", int(self.threads))
 
@@ -80,6 +94,15 @@ def takes_run(function: Callable[..., Any]) -> Callable[..., Any]:
             if "run" in named:
                 raise NagError(f"{min(short)}: is given beside run; give one of them")
             named["run"] = Run(**short)
-        return function(*given, **named)
+        run = named.get("run")
+        if run is None or (run.resume is None and run.executor is None):
+            return function(*given, **named)
+        from nag.tracking.blocks import open_engine
+
+        with open_engine(run.resume, run.executor, run.tell) as opened:
+            result = function(*given, **named)
+        if opened is not None and opened.ledger is not None and opened.ledger.damaged:
+            warn(f"{run.resume}: {opened.ledger.text}", stacklevel=2)
+        return result
 
     return call

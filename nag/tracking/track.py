@@ -8,7 +8,7 @@ that prove to have jumped are tracked again.
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +16,7 @@ import numpy as np
 from nag.errors import NagError
 from nag.numerics.coincidence import LEAST
 from nag.numerics.doubles import ARRIVED, ROUGH, ROUNDED, SHARPEST, SLACK
-from nag.tracking import evaluations
+from nag.tracking import blocks, evaluations, kernel_arrays
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.jumps import collisions, find_like_branches
 from nag.tracking.known import NOTHING, KnownOfPaths
@@ -37,6 +37,8 @@ PROOF = 1e5
 RESIDUAL = 1e-29
 # Below so many paths a second thread costs more than it brings.
 PATHS_PER_THREAD = 64
+# Paths of a block in doubles; and so few that they are tracked again in less time than found.
+BLOCK, LEAST_BLOCK = 1024, 32
 
 
 def track(
@@ -217,7 +219,7 @@ def _follow_doubtful(
     threads: int,
 ) -> Paths:
     """The doubtful paths, followed in more digits."""
-    from nag.tracking.ends.follow import Unfinished, follow
+    from nag.tracking.ends.follow import Unfinished, follow_doubtful
 
     reached = raw.reason[doubtful] == Reason.NONE
     unfinished = Unfinished(
@@ -228,7 +230,7 @@ def _follow_doubtful(
         raw.safe_t[doubtful],
         starts[doubtful],
     )
-    return follow(homotopy, unfinished, settings, threads)
+    return follow_doubtful(homotopy, unfinished, settings, threads)
 
 
 def _all_are_found(homotopy: Homotopy, paths: Paths, most: int) -> bool:
@@ -254,7 +256,64 @@ def run_in_doubles(
     With ``member``, shape ``(P,)``, each path has the factors of that one of the homotopy's
     members.
     """
-    from nag.tracking import kernel_arrays, straight_run
+    if blocks.in_blocks() and len(starts) >= LEAST_BLOCK:
+        raw = _run_in_blocks(homotopy, starts, settings, threads, endgame, weights, member)
+    else:
+        raw = _run(homotopy, starts, settings, threads, endgame, weights, member)
+    # A step takes two values, and the Taylor coefficients of each order.
+    evaluations.count(raw.steps.sum() * (2 + settings.order))
+    return raw
+
+
+def _run_in_blocks(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    settings: Settings,
+    threads: int,
+    endgame: bool,
+    weights: np.ndarray | None,
+    member: np.ndarray | None,
+) -> StraightRun:
+    """The same in blocks, each of which may be known already, or be worked out elsewhere."""
+
+    def part(rows: np.ndarray | None, k: int) -> np.ndarray | None:
+        return None if rows is None else rows[k : k + BLOCK]
+
+    calls = [
+        (homotopy, starts[k : k + BLOCK], settings, endgame, part(weights, k), part(member, k))
+        for k in range(0, len(starts), BLOCK)
+    ]
+    # What is made ready for a homotopy is made, and counted, whoever tracks the paths.
+    kernel_arrays.equations(homotopy, weights=weights)
+    done = [arrays for arrays, _ in blocks.work_out(block_in_doubles, calls, "paths", threads)]
+    return StraightRun(**{name: np.concatenate([b[name] for b in done]) for name in done[0]})
+
+
+def block_in_doubles(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    settings: Settings,
+    endgame: bool,
+    weights: np.ndarray | None,
+    member: np.ndarray | None,
+    threads: int = 1,
+) -> dict[str, np.ndarray]:
+    """A block of paths in doubles, see `StraightRun`."""
+    raw = _run(homotopy, starts, settings, threads, endgame, weights, member)
+    return {each.name: getattr(raw, each.name) for each in fields(raw)}
+
+
+def _run(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    settings: Settings,
+    threads: int,
+    endgame: bool,
+    weights: np.ndarray | None,
+    member: np.ndarray | None,
+) -> StraightRun:
+    """Run the kernel."""
+    from nag.tracking import straight_run
 
     P = len(starts)
     raw = StraightRun(
@@ -304,8 +363,6 @@ def run_in_doubles(
     else:
         with ThreadPoolExecutor(batches) as pool:
             list(pool.map(batch, range(batches)))
-    # A step takes two values, and the Taylor coefficients of each order.
-    evaluations.count(raw.steps.sum() * (2 + settings.order))
     return raw
 
 

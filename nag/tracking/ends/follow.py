@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from nag.numerics.doubles import ROUNDED, SLACK
+from nag.tracking import blocks
 from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.inclusion import prove_end
 from nag.tracking.ends.limits import BEYOND, LEAST_EVIDENCE, Limit, Limits, digits_of_evidence
 from nag.tracking.ends.runs import CLOSE_ORDER, LAST_STEPS, MAX_STEPS, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
-from nag.tracking.evaluations import count_proof
+from nag.tracking.evaluations import count_evaluations, count_known, count_proof
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.kernel_arrays import equations
 from nag.tracking.newton import refine
 from nag.tracking.paths import Ball, PathBranch, Paths, PathStatus, Reason
 from nag.tracking.projective import ROUNDING
@@ -29,6 +31,8 @@ GAINED = 0.1
 NEARLY = 1e-6
 # Rounding over the wanted residual that asks for more digits as well.
 NOISE = 1e-3
+# Paths of a block.
+BLOCK = 16
 # Part of t at which a limit is looked for next, where nothing is known of it, and the least.
 FURTHER, FURTHEST = 1e-3, 1e-8
 
@@ -202,6 +206,48 @@ def follow(
             break
         pending = _follow_in(homotopy, states, pending, words, settings, threads)
     return _paths(homotopy, states)
+
+
+def follow_doubtful(
+    homotopy: Homotopy, unfinished: Unfinished, settings: Settings, threads: int = 1
+) -> Paths:
+    """The same, in blocks where these are kept or shared."""
+    if not blocks.in_blocks():
+        return follow(homotopy, unfinished, settings, threads)
+    columns = [getattr(unfinished, each.name) for each in fields(unfinished)]
+    calls = [
+        (homotopy, *(column[k : k + BLOCK] for column in columns), settings)
+        for k in range(0, len(unfinished.safe), BLOCK)
+    ]
+    ends = []
+    for arrays, here in blocks.work_out(block_of_ends, calls, "ends in more digits", threads):
+        if not here:
+            number, work = arrays["evaluations"].tolist()
+            count_known(number, work)
+            used = int(arrays["precision"].max(initial=0))
+            for words, digits in DIGITS.items():
+                if digits <= used:
+                    equations(homotopy, words)
+        ends.append(Paths.from_arrays(arrays))
+    return Paths.concatenate(ends)
+
+
+def block_of_ends(
+    homotopy: Homotopy,
+    ends: np.ndarray,
+    reached: np.ndarray,
+    regular: np.ndarray,
+    safe: np.ndarray,
+    t: np.ndarray,
+    starts: np.ndarray,
+    settings: Settings,
+    threads: int = 1,
+) -> dict[str, np.ndarray]:
+    """A block of paths that doubles left doubtful, and how many evaluations it took."""
+    unfinished = Unfinished(ends, reached, regular, safe, t, starts)
+    with count_evaluations() as spent:
+        found = follow(homotopy, unfinished, settings, threads)
+    return {**found.arrays(), "evaluations": np.array([spent.number, spent.work])}
 
 
 def follow_whole(

@@ -1,0 +1,156 @@
+"""Work cut into blocks: found in a ledger, worked out here, or elsewhere.
+
+A block is a pure function of its arguments, and their size depends on the problem alone. So it does
+not matter where and when a block is worked out, nor by how many.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
+from contextvars import ContextVar
+from dataclasses import dataclass
+from typing import Any
+
+from nag.tracking.ledger import Arrays, Ledger, key_of
+
+# A function of a block's arguments and of a number of threads.
+Work = Callable[..., Arrays]
+
+
+@dataclass(eq=False)
+class Engine:
+    """Where blocks are kept, and who works them out.
+
+    Attributes:
+        ledger: None where nothing is kept.
+        executor: one of `concurrent.futures`, or None: this process alone.
+        tell: called with a stage, the number of blocks done, and of all.
+    """
+
+    ledger: Ledger | None
+    executor: Executor | None
+    tell: Callable[[str, int, int], None] | None = None
+
+
+@contextlib.contextmanager
+def open_engine(
+    resume: Any, executor: Any, tell: Callable[[str, int, int], None] | None = None
+) -> Iterator[Engine | None]:
+    """Have all work inside kept in a folder, and shared by an executor; neither need be.
+
+    Args:
+        resume: the ledger's folder, or None.
+        executor: see `nag.tracking.executor.open_executor`.
+        tell: see `Engine`.
+
+    Raises:
+        nag.errors.InputError: if there can be no ledger there, or no such executor.
+    """
+    if (resume is None and executor is None) or _engine.get() is not None:
+        yield None
+        return
+    from nag.tracking.executor import check_executor, open_executor
+
+    check_executor(executor)
+    ledger = None if resume is None else Ledger.open(resume)
+    with open_executor(executor) as opened:
+        made = Engine(ledger, opened, tell)
+        token = _engine.set(made)
+        try:
+            yield made
+        finally:
+            _engine.reset(token)
+
+
+_engine: ContextVar[Engine | None] = ContextVar("engine", default=None)
+
+
+def in_blocks() -> bool:
+    """Whether work is to be cut into blocks at all: only where someone keeps or shares them."""
+    return _engine.get() is not None
+
+
+def work_out(
+    work: Work, calls: Sequence[tuple[Any, ...]], stage: str, threads: int = 1
+) -> list[tuple[Arrays, bool]]:
+    """Results of a function for several arguments, in their order, and which were made here.
+
+    Args:
+        work: a function of a module, so that other processes know it.
+        calls: its arguments, see `nag.tracking.ledger.add_content`.
+        stage: what it is called where progress is told.
+        threads: of what is worked out here.
+    """
+    chosen = _engine.get()
+    assert chosen is not None
+    results: list[tuple[Arrays, bool] | None] = [None] * len(calls)
+    keys: list[bytes] = []
+    if chosen.ledger is not None:
+        keys = [key_of(work, call) for call in calls]
+        for k, key in enumerate(keys):
+            found = chosen.ledger.find(key)
+            results[k] = None if found is None else (found, False)
+    missing = [k for k, result in enumerate(results) if result is None]
+    done = len(calls) - len(missing)
+    for k, arrays, here in _results(chosen, work, calls, missing, threads):
+        if chosen.ledger is not None:
+            chosen.ledger.keep(keys[k], arrays)
+        results[k] = arrays, here
+        done += 1
+        if chosen.tell is not None and len(calls) > 1:
+            chosen.tell(f"{stage}, blocks", done, len(calls))
+    return [result for result in results if result is not None]
+
+
+def _results(
+    chosen: Engine,
+    work: Work,
+    calls: Sequence[tuple[Any, ...]],
+    missing: Sequence[int],
+    threads: int,
+) -> Iterator[tuple[int, Arrays, bool]]:
+    """Blocks as they are done, and whether here; what is lost elsewhere is worked out here."""
+    left = list(missing)
+    if chosen.executor is not None and len(missing) > 1:
+        futures: dict[Future[Arrays], int] = {}
+        try:
+            for k in missing:
+                futures[chosen.executor.submit(_alone, work, calls[k])] = k
+        except (BrokenExecutor, RuntimeError):
+            # What was taken before that may still come.
+            chosen.executor = None
+        try:
+            for future in as_completed(futures):
+                error = future.exception()
+                if error is None:
+                    left.remove(futures[future])
+                    yield futures[future], future.result(), False
+                elif not _is_lost(error):
+                    raise error
+                elif isinstance(error, BrokenExecutor):
+                    chosen.executor = None
+        except BaseException:
+            for future in futures:
+                future.cancel()
+            raise
+    for k in left:
+        # A block is not cut into further ones.
+        token = _engine.set(None)
+        try:
+            arrays = work(*calls[k], threads=threads)
+        finally:
+            _engine.reset(token)
+        yield k, arrays, True
+
+
+def _alone(work: Work, call: tuple[Any, ...]) -> Arrays:
+    """A block in another process."""
+    return work(*call, threads=1)
+
+
+def _is_lost(error: BaseException) -> bool:
+    """Whether a worker was lost, and not the work: no one else's classes need be imported."""
+    names = {kind.__name__ for kind in type(error).__mro__}
+    return bool(names & {"BrokenExecutor", "KilledWorker", "CancelledError", "CommClosedError"})
