@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
 from contextvars import ContextVar
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from nag.tracking.ledger import Arrays, Ledger, key_of
+if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
 
-# A function of a block's arguments and of a number of threads.
-Work = Callable[..., Arrays]
+    from nag.tracking.ledger import Arrays, Ledger
+
+# A function of a block's arguments and of a number of threads, to arrays.
+Work = Callable[..., Any]
 
 
 @dataclass(eq=False)
@@ -52,6 +54,7 @@ def open_engine(
         yield None
         return
     from nag.tracking.executor import check_executor, open_executor
+    from nag.tracking.ledger import Ledger
 
     check_executor(executor)
     ledger = None if resume is None else Ledger.open(resume)
@@ -83,6 +86,8 @@ def work_out(
         stage: what it is called where progress is told.
         threads: of what is worked out here.
     """
+    from nag.tracking.ledger import key_of
+
     chosen = _engine.get()
     assert chosen is not None
     results: list[tuple[Arrays, bool] | None] = [None] * len(calls)
@@ -112,6 +117,8 @@ def _results(
     threads: int,
 ) -> Iterator[tuple[int, Arrays, bool]]:
     """Blocks as they are done, and whether here; what is lost elsewhere is worked out here."""
+    from concurrent.futures import BrokenExecutor, as_completed
+
     left = list(missing)
     if chosen.executor is not None and len(missing) > 1:
         futures: dict[Future[Arrays], int] = {}

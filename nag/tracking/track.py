@@ -16,7 +16,7 @@ import numpy as np
 from nag.errors import NagError
 from nag.numerics.coincidence import LEAST
 from nag.numerics.doubles import ARRIVED, ROUGH, ROUNDED, SHARPEST, SLACK
-from nag.tracking import blocks, evaluations, kernel_arrays
+from nag.tracking import blocks, evaluations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.jumps import collisions, find_like_branches
 from nag.tracking.known import NOTHING, KnownOfPaths
@@ -283,6 +283,8 @@ def _run_in_blocks(
         (homotopy, starts[k : k + BLOCK], settings, endgame, part(weights, k), part(member, k))
         for k in range(0, len(starts), BLOCK)
     ]
+    from nag.tracking import kernel_arrays
+
     # What is made ready for a homotopy is made, and counted, whoever tracks the paths.
     kernel_arrays.equations(homotopy, weights=weights)
     done = [arrays for arrays, _ in blocks.work_out(block_in_doubles, calls, "paths", threads)]
@@ -313,7 +315,7 @@ def _run(
     member: np.ndarray | None,
 ) -> StraightRun:
     """Run the kernel."""
-    from nag.tracking import straight_run
+    from nag.tracking import kernel_arrays, straight_run
 
     P = len(starts)
     raw = StraightRun(
