@@ -58,7 +58,8 @@ for module in {package}._HOME.values():
 for name, module in {package}._HOME.items():
     found = {{}}
     exec(f"from {package} import {{name}}", found)
-    assert found[name] is getattr(import_module(module), name), name
+    value = getattr(import_module(module), name)
+    assert value in (found[name], getattr(found[name], "__wrapped__", None)), name
 """
 
 

@@ -181,7 +181,6 @@ def write_everything(
     ask("mobility", str(CASES / "mobility" / "k46.toml"), "--local")
     ask("mobility", idle, "--budget", "0", "--of", "platform")
     ask("mobility", str(CASES / "spatial" / "bennett-rounded.toml"), "--tolerance", "1e-4")
-    ask("mobility", str(CASES / "robots" / "3-upu-wrist.toml"))
     ask("decompose", str(CASES / "bennett.toml"), "--modes", "all")
     for name in ("3-uu-locked", "3-rps"):
         ask("modes", str(CASES / "robots" / f"{name}.toml"))

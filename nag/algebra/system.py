@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -107,6 +107,26 @@ class PolynomialSystem:
     def text(self) -> list[str]:
         """The polynomials as text."""
         return [f.text(self.variables) for f in self.polynomials]
+
+    def __iter__(self) -> Iterator[Polynomial]:
+        return iter(self.polynomials)
+
+    def __len__(self) -> int:
+        return len(self.polynomials)
+
+    def __bool__(self) -> bool:
+        """True, also of no equations."""
+        return True
+
+    def to_sympy(self) -> list[Any]:
+        """The polynomials as sympy's expressions, exact, in symbols of the variables' names.
+
+        Raises:
+            nag.NagError: if sympy is not installed.
+        """
+        from nag.algebra.to_sympy import to_sympy_polynomials
+
+        return to_sympy_polynomials(self.polynomials, self.variables, self.imaginary)
 
     def document(self) -> dict[str, Any]:
         """The system as a JSON object."""

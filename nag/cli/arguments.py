@@ -127,7 +127,11 @@ def add_running(parser: argparse.ArgumentParser) -> None:
 
 def add_json(parser: argparse.ArgumentParser) -> None:
     """The option of every command that exports its answer."""
-    parser.add_argument("--json", metavar="FILE", help="write the answer to FILE as JSON")
+    parser.add_argument(
+        "--json",
+        metavar="FILE",
+        help="write the answer to FILE as JSON; - for standard output alone",
+    )
 
 
 def add_tracking(parser: argparse.ArgumentParser) -> None:

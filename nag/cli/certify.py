@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
-import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import add_quiet
@@ -14,12 +12,8 @@ from nag.cli.running import CommandAnswer
 
 if TYPE_CHECKING:
     from nag.numerics.claims import Claim
-    from nag.solving.certificate import SolutionsCertificate
-    from nag.solving.certified_paths import ProvedPaths
     from nag.solving.solutions import SolveResult
     from nag.text.table import Row
-    from nag.witness.certificate import DecompositionCertificate
-    from nag.witness.certified_loops import ProvedMonodromy
     from nag.witness.witness import Decomposition
 
 
@@ -42,6 +36,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     """What is proved of an export."""
     from nag.algebra.system import system_line
     from nag.files.json_values import read_file
+    from nag.questions import certify_result
     from nag.text.table import sheet
 
     found, title, lost = read_file(options.export, _read_result)
@@ -50,7 +45,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     return CommandAnswer(
         sheet(title, rows),
         proved.all_proved,
-        lambda: proved.certificate.document(proved.claims, proved.paths),
+        proved.document,
     )
 
 
@@ -62,86 +57,12 @@ def proof_asked_for(
         return None
 
     def prove() -> tuple[list[Row], bool]:
+        from nag.questions import certify_result
+
         proved = certify_result(found, options.certify_paths)
         return proved.rows, proved.all_proved
 
     return prove
-
-
-@dataclass(frozen=True)
-class Certified:
-    """What was proved of a result.
-
-    Attributes:
-        rows: labelled lines; all_proved: whether nothing was refuted or left open.
-        certificate, paths: of the points, and of the paths or loops, if they were asked for.
-        claims: how every statement of an export of the result stands.
-    """
-
-    rows: list[tuple[str, str]]
-    all_proved: bool
-    certificate: SolutionsCertificate | DecompositionCertificate
-    paths: ProvedPaths | tuple[ProvedMonodromy, ...] | None
-    claims: tuple[Claim, ...]
-
-
-def certify_result(
-    found: SolveResult | Decomposition, paths: bool = False, lost: Sequence[Claim] = ()
-) -> Certified:
-    """The certificate of a result, with ``paths`` also of the paths that lead to it.
-
-    Args:
-        lost: fields of an export that are not in what was read of it.
-    """
-    from nag.numerics.claims import claims_rows, nothing_against
-    from nag.solving.certificate import certify_solutions
-    from nag.solving.solutions import SolveResult
-    from nag.witness.certificate import certify_decomposition
-
-    started = time.perf_counter()
-    if isinstance(found, SolveResult):
-        certificate, prove = certify_solutions(found), _paths
-    else:
-        certificate, prove = certify_decomposition(found), _loops
-    claims = certificate.claims
-    rows = certificate.rows(time.perf_counter() - started)
-    proved, further, good, claims = prove(certificate) if paths else (None, [], True, claims)
-    claims = (*claims, *lost)
-    good = good and certificate.all_proved and nothing_against(claims)
-    return Certified([*rows, *further, *claims_rows(claims)], good, certificate, proved, claims)
-
-
-Further = tuple[Any, list[tuple[str, str]], bool, tuple["Claim", ...]]
-
-
-def _paths(certificate: SolutionsCertificate) -> Further:
-    """The proof of the paths to solutions, its lines, whether nothing was left open, statements."""
-    from nag.solving.certified_paths import PathsError, prove_paths
-    from nag.solving.solution_claims import claims_of_paths
-
-    found, started = certificate.result, time.perf_counter()
-    try:
-        proved = prove_paths(found)
-    except PathsError as error:
-        return None, [("paths", f"not proved: {error}")], False, certificate.claims
-    rows = proved.rows(len(found.solutions), time.perf_counter() - started)
-    simple = sum(s.multiplicity == 1 for s in found.solutions)
-    good = proved.distinct and not proved.lost and len(proved.solutions) >= simple
-    return proved, rows, good, claims_of_paths(certificate, proved.others)
-
-
-def _loops(certificate: DecompositionCertificate) -> Further:
-    """The proof of the loops of all components, its lines, whether all is proved, statements."""
-    from nag.decomposition.trace import linear_traces
-    from nag.witness.certified_loops import loops_rows, prove_all
-    from nag.witness.component_claims import claims_of_loops
-
-    found, started = certificate.decomposition, time.perf_counter()
-    proved = prove_all(found)
-    connected = [m.connected for m in proved]
-    claims = claims_of_loops(certificate, connected, linear_traces(found))
-    rows = loops_rows(proved, time.perf_counter() - started)
-    return proved, rows, all(connected), claims
 
 
 def _read_result(value: Any) -> tuple[SolveResult | Decomposition, str, list[Claim]]:

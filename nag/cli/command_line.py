@@ -139,6 +139,22 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "print the polynomial system of a case",
         "Print the polynomial system that `nag decompose` decomposes.",
     ),
+    (
+        "show",
+        "say what a file holds and what can be asked of it",
+        "Say what a case or an export holds, and which commands answer what of it. `nag FILE` does "
+        "the same.",
+    ),
+    (
+        "init",
+        "write a commented case to begin with",
+        "Write a commented case of a linkage, a mechanism or a system, to be edited.",
+    ),
+    (
+        "completion",
+        "print what a shell completes",
+        "Print a script with which bash, zsh or fish completes the commands and their options.",
+    ),
 )
 
 
@@ -192,6 +208,15 @@ def _abandon_output() -> None:
         os.close(sink)
 
 
+def show_file(words: Sequence[str]) -> Sequence[str]:
+    """The words of ``nag show``, if the name of a file stands where a command does."""
+    first = next(iter(words), "-")
+    known = first.startswith("-") or any(first == row[0] for row in COMMANDS)
+    # Commands have no dots, and no folders before them.
+    is_file = os.path.isfile(first) or "." in first or os.sep in first
+    return ["show", *words] if is_file and not known else words
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status.
 
@@ -209,6 +234,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         with contextlib.suppress(AttributeError):
             stream.reconfigure(errors="backslashreplace")
     watched = False
+    words = show_file(words)
     try:
         try:
             arguments = parser(words).parse_args(words)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, read_case_file, read_problem, whole
@@ -23,9 +22,9 @@ from nag.cli.witness_input import (
 if TYPE_CHECKING:
     import numpy as np
 
+    from nag.algebra.system import PolynomialSystem
     from nag.files.cases import Case
     from nag.interpolation.point_cloud import AmbientVariables, Cloud
-    from nag.interpolation.precise_samples import Source
     from nag.mechanism.problem import Problem
     from nag.witness.witness import WitnessSet
 
@@ -70,23 +69,16 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     """Equations of a component's image, and maps to the other variables."""
     if options.at is not None and options.component is not None:
         raise UsageError("--at: --component names a component already; give one of the two")
-    from nag.interpolation.image_ideal import image_ideal
+    from nag.interpolation.image_ideal import eliminate_component
     from nag.interpolation.precise_samples import SourceError
     from nag.interpolation.shown import checked_row, elimination_lines
-    from nag.interpolation.vanishing import InterpolationError, NotRationalError
+    from nag.interpolation.vanishing import InterpolationError
 
     try:
         case, cloud, top, tail, alike = _begin(options)
-        onto = _read_names(options.onto, cloud.ambient.system.variables)
+        onto = _read_names(options.onto, cloud.ambient.system)
         how = options.degree, options.polynomial, options.progress
-        try:
-            found = image_ideal(cloud, onto, *how)
-        except NotRationalError:
-            together = _possible_conjugates(cloud, alike, onto)
-            if len(together) < 2:
-                raise
-            found = image_ideal(cloud.with_further(list(together.values())[1:]), onto, *how)
-            found = replace(found, self_conjugate=None, together=tuple(sorted(together)))
+        found = eliminate_component(cloud, alike, onto, *how)
     except (SourceError, InterpolationError) as error:
         raise UsageError(f"{options.case}: {error}") from None
     complete = not found.note and not tail
@@ -96,46 +88,19 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     return answer_of(options, case, blocks, tail, found.document(), complete, said=said)
 
 
-def _possible_conjugates(
-    cloud: Cloud, alike: Mapping[int, WitnessSet], onto: tuple[int, ...] | None
-) -> dict[int, Source]:
-    """What points of components are sampled from, among which are all conjugates of the first one.
-
-    Conjugate ones over the rational numbers have the same dimension, degree and multiplicity, and
-    images of the same dimension.
-
-    Args:
-        alike: components with those numbers, the first one first, by their own numbers.
-    """
-    from nag.interpolation.precise_samples import source_of_component
-
-    found = {k: source_of_component(cloud.source.system, c) for k, c in alike.items()}
-    if onto is None:
-        return found
-    dimension = cloud.image_dimension(onto)
-    return {
-        k: source
-        for k, source in found.items()
-        if cloud.of_source(source).image_dimension(onto) == dimension
-    }
-
-
-def _read_names(text: str | None, variables: tuple[str, ...]) -> tuple[int, ...] | None:
+def _read_names(text: str | None, system: PolynomialSystem) -> tuple[int, ...] | None:
     """Indices of the variables that ``--onto`` names."""
-    from nag.algebra.tokens import nearest, quote
+    from nag.errors import NagError
+    from nag.questions import place_variables
 
     if text is None:
         return None
-    names = [name.strip() for name in text.split(",")]
-    for name in names:
-        if name not in variables:
-            raise UsageError(
-                f"--onto: {quote(name)} is not one of the variables{nearest(name, variables)}; "
-                "`nag model` prints them, --formulation E has Euler parameters"
-            )
-    if len(set(names)) < len(names):
-        raise UsageError("--onto: a variable is given twice")
-    return tuple(variables.index(name) for name in names)
+    try:
+        return place_variables([name.strip() for name in text.split(",")], system)
+    except NagError as error:
+        more = "; `nag model` prints them, --formulation E has Euler parameters"
+        unknown = "is not one of the variables" in str(error)
+        raise UsageError(f"--{error}{more if unknown else ''}") from None
 
 
 Labelled = list[tuple[str, str]]
@@ -152,6 +117,7 @@ def _begin(options: argparse.Namespace) -> Begun:
 
     from nag.interpolation.point_cloud import AmbientVariables, Cloud
     from nag.interpolation.precise_samples import SourceError, source_of_component
+    from nag.questions import list_alike
     from nag.report.model import body_rows
 
     rng = np.random.default_rng([options.seed, 4])
@@ -177,13 +143,7 @@ def _begin(options: argparse.Namespace) -> Begun:
     top = [numbered_row(number, component), *top]
     tail = [*doubt_rows(found), *([("open", component.note)] if component.note else [])]
     cloud = Cloud(source_of_component(system, component), ambient, rng, run)
-    others = enumerate(found.decomposition.components, 1)
-    alike = {number: component} | {k: c for k, c in others if _kind(c) == _kind(component)}
-    return found.case, cloud, top, tail, alike
-
-
-def _kind(component: WitnessSet) -> tuple[int, int, int]:
-    return component.dimension, component.degree, component.multiplicity
+    return found.case, cloud, top, tail, list_alike(found.decomposition, number)
 
 
 def _default_formulation(options: argparse.Namespace) -> str | None:

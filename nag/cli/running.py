@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 
 # What NumPy's linear algebra reads, when it is loaded, of how many threads it is to have.
 LINEAR_ALGEBRA_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-# Options that name a file to be written.
+# Options that name a file to be written, and what stands for standard output.
 TARGETS = ("json", "csv", "html", "points")
+STANDARD_OUTPUT = "-"
 Progress = Callable[[str, int, int], None]
 
 # Seconds between two updates of the line: often enough to look alive, too seldom to cost time.
@@ -132,12 +133,18 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
         nag.NagError: as the command does.
     """
     begin(options)
+    told = write
+    if getattr(options, "json", None) == STANDARD_OUTPUT:
+        # The document is all that is written there.
+        write = _write_nothing
     options.write, options.said = write, 0
     with show_progress(options) as options.progress, shared_work(options):
         answer = options.module.run(options)
     tell = getattr(options, "tell", None)
     try:
-        if answer.document is not None and options.json is not None:
+        if answer.document is not None and options.json == STANDARD_OUTPUT:
+            told(document_text(answer.document()).splitlines())
+        elif answer.document is not None and options.json is not None:
             write_document(answer.document(), options.json)
     finally:
         write(answer.lines)
@@ -170,7 +177,7 @@ def begin(options: argparse.Namespace) -> None:
     source = getattr(options, "case", None) or getattr(options, "export", "")
     for name in TARGETS:
         target = getattr(options, name, None)
-        if target is not None:
+        if target is not None and (name, target) != ("json", STANDARD_OUTPUT):
             check_option_target(name, target, source if isinstance(source, str) else "")
 
 
@@ -265,11 +272,21 @@ def write_document(
         UsageError: if the file cannot be written.
     """
     from nag.files.written_file import write_target
+
+    with writing_to(option):
+        written = document if isinstance(document, bytes) else document_text(document)
+        write_target(target, written)
+
+
+def document_text(document: dict[str, Any] | str) -> str:
+    """A JSON object, or a text, as it is written."""
     from nag.text.json_text import lay_out
 
-    text = lay_out(document) + "\n" if isinstance(document, dict) else document
-    with writing_to(option):
-        write_target(target, text)
+    return document if isinstance(document, str) else lay_out(document) + "\n"
+
+
+def _write_nothing(lines: Sequence[str]) -> None:
+    """Lines that are not printed."""
 
 
 def check_option_target(option: str, target: str, source: str = "") -> None:

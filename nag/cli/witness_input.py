@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from nag.algebra.number import Number
     from nag.witness.witness import Decomposition, WitnessSet
 
-# What is said of a component of an export on which paths fail.
-UNTESTED = "the trace of its points could not be tested"
 ONE_POINT = "give either the name of a point of the case or --at, and not both"
 Points = Mapping[str, tuple["Number", ...]]
 Check = Callable[[Sequence[str], Points], object]
@@ -130,13 +128,16 @@ def component_of(found: ReadComponents, number: int, option: str) -> WitnessSet:
     Raises:
         UsageError: if there is none, or its points are not all points of a set on its slice.
     """
-    components = found.decomposition.components
-    if not 1 <= number <= len(components):
-        have = {0: "there are no components", 1: "there is one component, number 1"}.get(
-            len(components), f"there are components 1 to {len(components)}"
-        )
-        raise UsageError(f"{option}: {number}: {have}")
-    return _with_tested_trace(found, number - 1)
+    from nag.errors import ComponentError
+    from nag.questions import check_trace, component_numbered
+
+    component = component_numbered(found.decomposition, number, option)
+    if not found.export:
+        return component
+    try:
+        return check_trace(found.decomposition, number - 1)
+    except ComponentError as error:
+        raise UsageError(f"{found.export}: {error}") from None
 
 
 def with_tested_traces(found: ReadComponents) -> ReadComponents:
@@ -145,38 +146,15 @@ def with_tested_traces(found: ReadComponents) -> ReadComponents:
     Raises:
         UsageError: if the points of one are not all points of a set on its slice.
     """
+    from nag.errors import ComponentError
+    from nag.questions import check_traces
+
     if not found.export:
         return found
-    whole = found.decomposition
-    components = [_with_tested_trace(found, k) for k in range(len(whole.components))]
-    notes = [
-        f"component {k + 1}: {UNTESTED}"
-        for k, (new, old) in enumerate(zip(components, whole.components, strict=True))
-        if new.note != old.note
-    ]
-    tested = replace(
-        whole,
-        components=tuple(components),
-        complete=whole.complete and not notes,
-        notes=(*whole.notes, *notes),
-    )
-    return replace(found, decomposition=tested)
-
-
-def _with_tested_trace(found: ReadComponents, index: int) -> WitnessSet:
-    from nag.decomposition.trace import linear_trace
-    from nag.witness.witness import Status
-
-    component = found.decomposition.components[index]
-    if not found.export or not component.dimension or component.status is not Status.IRREDUCIBLE:
-        return component
-    linear = linear_trace(found.decomposition.system, component, index)
-    if linear is False:
-        raise UsageError(
-            f"{found.export}: component {index + 1}: the sum of its points does not move linearly "
-            "with the slice; some of them are missing, or are those of others"
-        )
-    return component if linear else replace(component, status=Status.UNDECIDED, note=UNTESTED)
+    try:
+        return replace(found, decomposition=check_traces(found.decomposition))
+    except ComponentError as error:
+        raise UsageError(f"{found.export}: {error}") from None
 
 
 def add_point(parser: argparse.ArgumentParser, otherwise: str = "") -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from nag.algebra.groebner import dimension_and_degree
 from nag.algebra.polynomial import Exponents, Polynomial, divides
 from nag.interpolation.essential import VariableMap, essential_variables, maps
 from nag.interpolation.point_cloud import MORE_POINTS, Cloud, monomial_values
+from nag.interpolation.precise_samples import Source, source_of_component
 from nag.interpolation.proof import (
     FRESH_POINTS,
     Substitution,
@@ -26,6 +27,7 @@ from nag.interpolation.vanishing import (
     MOST_MONOMIALS,
     Interpolated,
     InterpolationError,
+    NotRationalError,
     TooManyMonomialsError,
     leading_monomial,
     monomials_of_degree,
@@ -35,6 +37,7 @@ from nag.interpolation.vanishing import (
 )
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.rational_relations import rank_of_columns
+from nag.witness.witness import WitnessSet
 
 # Where no degree is asked for, no higher one is looked at.
 MOST_DEGREE = 12
@@ -110,6 +113,22 @@ class ImageIdeal:
         """Names of the coordinates."""
         return tuple(self.variables[i] for i in self.coordinates)
 
+    @property
+    def equations(self) -> tuple[str, ...]:
+        """The generators as texts in the variables' names."""
+        return tuple(f.text(self.names) for f in self.generators)
+
+    def __repr__(self) -> str:
+        from nag.interpolation.shown import ideal_line
+
+        return ideal_line(self)
+
+    def __str__(self) -> str:
+        from nag.interpolation.shown import elimination_lines
+        from nag.text.table import label_lines
+
+        return "\n".join([*label_lines(self.rows()), *elimination_lines(self)])
+
     def rows(self) -> list[tuple[str, str]]:
         """What is said above the equations, as labelled texts."""
         from nag.interpolation.shown import head_rows
@@ -150,6 +169,54 @@ class ImageIdeal:
             else None,
             "note": self.note,
         }
+
+
+def eliminate_component(
+    cloud: Cloud,
+    alike: Mapping[int, WitnessSet],
+    coordinates: tuple[int, ...] | None = None,
+    degree: int | None = None,
+    polynomial_maps: bool = False,
+    progress: Callable[[str, int, int], None] | None = None,
+) -> ImageIdeal:
+    """The same as `image_ideal`, of all components of its kind where it is not rational by itself.
+
+    Args:
+        alike: components that may be its conjugates over the rational numbers, by their numbers, it
+            first; empty where they are not known.
+
+    Raises:
+        InterpolationError: if coefficients are not rational.
+        SourceError: if points cannot be sampled.
+    """
+    how = degree, polynomial_maps, progress
+    try:
+        return image_ideal(cloud, coordinates, *how)
+    except NotRationalError:
+        together = _possible_conjugates(cloud, alike, coordinates)
+        if len(together) < 2:
+            raise
+    found = image_ideal(cloud.with_further(list(together.values())[1:]), coordinates, *how)
+    return replace(found, self_conjugate=None, together=tuple(sorted(together)))
+
+
+def _possible_conjugates(
+    cloud: Cloud, alike: Mapping[int, WitnessSet], onto: tuple[int, ...] | None
+) -> dict[int, Source]:
+    """What points of components are sampled from, among which are all conjugates of the first one.
+
+    Conjugate ones over the rational numbers have the same dimension, degree and multiplicity, and
+    images of the same dimension.
+    """
+    found = {k: source_of_component(cloud.source.system, c) for k, c in alike.items()}
+    if onto is None:
+        return found
+    dimension = cloud.image_dimension(onto)
+    return {
+        k: source
+        for k, source in found.items()
+        if cloud.of_source(source).image_dimension(onto) == dimension
+    }
 
 
 def image_ideal(

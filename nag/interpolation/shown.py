@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from nag.text.table import join_words, label_lines
+from nag.text.table import count_text, join_words, label_lines, shorten_text
 
 if TYPE_CHECKING:
     from nag.interpolation.essential import VariableMap
@@ -25,6 +25,14 @@ PROOFS = {
 
 
 NO_OTHERS = "the equations have no other zeros but for sets of lower dimension"
+
+
+def ideal_line(found: ImageIdeal) -> str:
+    """What an elimination is at the prompt: one line."""
+    onto = ", ".join(found.names)
+    count = count_text(len(found.generators), "equation")
+    maps = count_text(len(found.maps), "map")
+    return shorten_text(f"<ImageIdeal onto {onto}: dimension {found.dimension}, {count}, {maps}>")
 
 
 def head_rows(found: ImageIdeal) -> list[tuple[str, str]]:

@@ -23,15 +23,12 @@ from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.graph import Mechanism, check_mechanism
-from nag.mechanism.legs import parallel_robot
 from nag.mechanism.loops import gruebler_kutzbach, loop_structure
 from nag.mechanism.mobility_report import ALL_POSES, CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model
 from nag.mechanism.moving_parts import MovingParts, NotClear, find_moving_parts
 from nag.mechanism.nearly_mobile import check_tolerance, find_near_motion, find_spoiled_motion
-from nag.mechanism.operation_modes import modes
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
-from nag.mechanism.platform import platform_model
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.quaternion import R
 from nag.mechanism.real_assemblies import real_doubt
@@ -358,12 +355,10 @@ def _with_components(
             f"more than a budget of {budget:g} s allows"
         )
         at_reference = problem.reference is not None and tuple(at) == tuple(problem.reference)
-        if not at_reference:
-            return replace(first, open=reason)
-        known = _components_by_poses(first, problem, budget, run)
+        known = _components_by_poses(first, problem, budget, run) if at_reference else None
         if known is not None:
             return replace(first, components=known, rests_on=ALL_POSES)
-        return replace(first, open=reason, by_poses=_modes_by_poses(problem, budget, run))
+        return replace(first, open=reason)
     through, doubt = _components(problem, zero_at(problem.system, at, first.local), run)
     if through is None and first.local.smooth:
         only = _with_only_component(first, problem, budget, run)
@@ -404,28 +399,6 @@ def _components_by_poses(
     if through is None:
         return None
     return tuple((c.dimension + poses.free, c.degree) for c in through)
-
-
-def _modes_by_poses(
-    problem: Problem, budget: float, run: Run
-) -> tuple[tuple[int, int], ...] | None:
-    """Dimension and degree of the operation modes through a parallel robot's reference pose.
-
-    None for other mechanisms, and where they are not known within the budget.
-    """
-    if problem.mechanism is None:
-        return None
-    mechanism = problem.mechanism.mechanism
-    try:
-        poses = platform_model(parallel_robot(mechanism, None), run.random(41)).system
-        if fewest_estimated_paths(poses) * LEAST_SECONDS > budget:
-            return None
-        found = modes(mechanism, run=run)
-    except NagError:
-        return None
-    if not found.decomposition.complete or found.dimension_at_reference is None:
-        return None
-    return tuple((m.dimension, m.degree) for m in found.modes if m.through_reference)
 
 
 def _with_only_component(

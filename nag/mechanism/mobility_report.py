@@ -8,7 +8,7 @@ References:
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, Literal
@@ -108,9 +108,6 @@ class MobilityReport:
         near: how a rigid mechanism would move if its loops were let open; None if that was not
             asked for.
         hint: at a rigid mechanism that may be meant to move; empty where there is none.
-        by_poses: dimension and degree of each operation mode of a parallel robot that passes
-            through the pose at a singular configuration, where ``components`` are not known; None
-            elsewhere, or where they are not known either.
     """
 
     space: str
@@ -135,7 +132,6 @@ class MobilityReport:
     moving: MovingParts | None = None
     near: NearMotion | None = None
     hint: str = ""
-    by_poses: tuple[tuple[int, int], ...] | None = None
 
     @property
     def local_dimension(self) -> int | None:
@@ -209,7 +205,6 @@ class MobilityReport:
         return [
             *self.local_rows(),
             ("components", _components_text(self)),
-            *([("by poses", _poses_text(self.by_poses))] if self.by_poses is not None else []),
             ("mobility", f"{self.status}: {self.sentence}"),
             *(self.moving.rows() if self.moving is not None else ()),
             *(self.near.rows() if self.near is not None else ()),
@@ -257,9 +252,6 @@ class MobilityReport:
             "degree_at_least": self.least_degree,
             "rests_on": self.rests_on,
             "open": self.open,
-            "by_poses": None
-            if self.by_poses is None
-            else [{"dimension": d, "degree": degree} for d, degree in self.by_poses],
             "moving": None if self.moving is None else self.moving.document(),
             "near": None if self.near is None else self.near.document(),
             "curves": [curve.document() for curve in self.curves],
@@ -310,13 +302,6 @@ def _components_text(report: MobilityReport) -> str:
     listed = "; ".join(f"dimension {d}, degree {degree}" for d, degree in report.components)
     listed = f"{len(report.components)} through the configuration: {listed}"
     return f"{listed}; by {ALL_POSES}" if report.rests_on == ALL_POSES else listed
-
-
-def _poses_text(modes: Sequence[tuple[int, int]]) -> str:
-    """What is said of the modes through a pose; each may be several motions of the legs."""
-    kinds = [f"{count} of dimension {d}, degree {k}" for (d, k), count in Counter(modes).items()]
-    text = count_text(len(modes), "operation mode")
-    return f"{text} of the platform through this pose, complex ones counted: {'; '.join(kinds)}"
 
 
 def _sentence(report: MobilityReport) -> str:

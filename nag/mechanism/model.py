@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, get_args
 
-from nag.algebra.given import check_choice, check_listed
+from nag.algebra.given import check_choice, check_listed, is_a
 from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -174,7 +174,7 @@ class Model:
 
 
 def model(
-    mechanism: Mechanism,
+    mechanism: Any,
     formulation: str = "auto",
     modes: Modes = REFERENCE,
     space: Space | None = None,
@@ -184,7 +184,8 @@ def model(
     The smallest is the one with the fewest estimated paths.
 
     Args:
-        mechanism: at least one of its joints must belong to a loop.
+        mechanism: a `nag.Mechanism`, or a `nag.Case` of one; at least one of its joints must belong
+            to a loop.
         formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
             components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
             for half-angles and other joint coordinates, ``"S"`` for rods as distances, ``"auto"``;
@@ -204,6 +205,7 @@ def model(
     >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
     True
     """
+    mechanism = mechanism.described if is_a(mechanism, "nag.files.cases", "Case") else mechanism
     check_mechanism(mechanism)
     check_listed(modes, "modes", "pairs of a joint's name and its mode")
     if space is not None:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.to_sympy import to_sympy_point
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.text.json_text import pairs, real_or_null
-from nag.text.table import count_text, one_line
+from nag.text.table import count_text, data_frame, one_line
 from nag.tracking.run import Run
 
 # Of exported results.
@@ -281,6 +282,48 @@ class SolveResult:
     def perhaps_infinite(self) -> bool:
         """Whether it has such points, or may have."""
         return self.positive_dimensional or len(self.on_doubtful) > 0
+
+    def __iter__(self) -> Iterator[Solution]:
+        return iter(self.solutions)
+
+    def __len__(self) -> int:
+        return len(self.solutions)
+
+    @overload
+    def __getitem__(self, index: int) -> Solution: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Solution, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> Solution | tuple[Solution, ...]:
+        return self.solutions[index]
+
+    def __bool__(self) -> bool:
+        """True, also where nothing was found: whether there is a result, not solutions."""
+        return True
+
+    def to_numpy(self) -> np.ndarray:
+        """The isolated solutions, complex, shape ``(k, n)``, to be written to."""
+        return self.points
+
+    def to_dataframe(self) -> Any:
+        """A row for each isolated solution: its coordinates, complex, and what is known of it.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        columns: dict[str, Any] = dict(zip(self.system.variables, self.points.T, strict=True))
+        for name in ("multiplicity", "real", "residual", "accuracy", "condition"):
+            columns[name] = [getattr(s, name) for s in self.solutions]
+        return data_frame(columns)
+
+    def to_sympy(self) -> list[dict[Any, Any]]:
+        """The isolated solutions as sympy has them: values, floats, by symbols.
+
+        Raises:
+            nag.NagError: if sympy is not installed.
+        """
+        return [to_sympy_point(self.system.variables, s.point) for s in self.solutions]
 
     def rows(self, most: int | None = None, columns: int | None = None) -> list[list[str]]:
         """Headings, and a row for each solution, the real ones first.

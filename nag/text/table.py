@@ -5,7 +5,10 @@ from __future__ import annotations
 import html
 import math
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from nag.errors import NagError
 
 # Length of a line; longer texts are wrapped.
 LINE = 100
@@ -133,3 +136,16 @@ def html_table(caption: str, rows: Sequence[Sequence[str]], note: str = "") -> s
         parts.append(f"<thead><tr>{cells(rows[0], 'th')}</tr></thead><tbody>{body}</tbody>")
     table = f"<table>{''.join(parts)}</table>"
     return f"{table}<p>{html.escape(printable(note))}</p>" if note else table
+
+
+def data_frame(columns: Mapping[str, Sequence[Any]]) -> Any:
+    """A ``pandas.DataFrame`` of these columns.
+
+    Raises:
+        nag.NagError: if pandas is not installed.
+    """
+    try:
+        import pandas
+    except ImportError:
+        raise NagError("to_dataframe: pandas is not installed; pip install pandas") from None
+    return pandas.DataFrame(dict(columns))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.text.json_text import pairs, real_or_null
-from nag.text.table import one_line
+from nag.text.table import data_frame, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
@@ -490,6 +490,35 @@ class Decomposition:
             for c in self.components
         )
         object.__setattr__(self, "components", known)
+
+    def __iter__(self) -> Iterator[WitnessSet]:
+        return iter(self.components)
+
+    def __len__(self) -> int:
+        return len(self.components)
+
+    @overload
+    def __getitem__(self, index: int) -> WitnessSet: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[WitnessSet, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> WitnessSet | tuple[WitnessSet, ...]:
+        return self.components[index]
+
+    def __bool__(self) -> bool:
+        """True, also of the empty set: whether there is an answer, not components."""
+        return True
+
+    def to_dataframe(self) -> Any:
+        """A row for each component: number, dimension, degree, multiplicity, status, orbit.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        facts = [c.facts(k) | {"orbit": c.orbit} for k, c in enumerate(self.components, 1)]
+        names = ("number", "dimension", "degree", "multiplicity", "status", "orbit")
+        return data_frame({name: [row[name] for row in facts] for name in names})
 
     @property
     def dimension(self) -> int:

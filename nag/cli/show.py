@@ -1,0 +1,129 @@
+"""The command ``nag show``: what a file holds, and what can be asked of it."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from typing import TYPE_CHECKING
+
+from nag.cli.arguments import read_case_file
+from nag.cli.running import CommandAnswer
+from nag.cli.witness_input import is_export
+
+if TYPE_CHECKING:
+    from nag.files.cases import Case
+    from nag.text.table import Row
+    from nag.witness.witness import Decomposition
+
+# What each command answers, by the kind of what it is asked of.
+QUESTIONS = {
+    "system": (
+        ("solve", "which isolated solutions are there?"),
+        ("decompose", "which curves, surfaces and points make up the solution set?"),
+        ("model", "what are the equations?"),
+    ),
+    "mechanism": (
+        ("mobility", "does it move, and with how many freedoms?"),
+        ("decompose", "which motions are there in all?"),
+        ("motion", "how does it really move? (one freedom; --html FILE shows it)"),
+        ("plot", "draw bodies and joints: --graph --out FILE.svg"),
+        ("model", "which equations, and in which formulations?"),
+    ),
+    "components": (
+        ("member", "which components does a point lie on? (--at POINT)"),
+        ("sample", "which random points does a component have? (--component K)"),
+        ("singular", "where is it singular, and where do components meet?"),
+        ("intersect", "where do two components meet? (--components I J)"),
+        ("eliminate", "which exact equations does a component have?"),
+        ("certify", "are its points proved?"),
+    ),
+    "solutions": (("certify", "are its solutions proved?"),),
+}
+LEGS = ("modes", "which operation modes has the platform of a parallel robot?")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``nag show``."""
+    parser.add_argument(
+        "case",
+        metavar="FILE",
+        help="case file, system in another program's format, or export of `nag decompose --json` "
+        "or `nag solve --json`",
+    )
+
+
+def run(options: argparse.Namespace) -> CommandAnswer:
+    """What a file holds."""
+    from nag.text.table import sheet
+
+    title, blocks, questions = _describe(options.case)
+    width = max(len(f"nag {name}") for name, _ in questions)
+    name = os.path.relpath(options.case) if os.path.isabs(options.case) else options.case
+    asked = [(f"nag {command}", text) for command, text in questions]
+    head = [f"ask: nag COMMAND {name}"]
+    return CommandAnswer(sheet(title, *blocks, head, asked, width=width))
+
+
+def _describe(path: str) -> tuple[str, list[list[str] | list[Row]], tuple[tuple[str, str], ...]]:
+    """Title, what is said below it, and questions."""
+    from nag.witness.witness import Decomposition
+
+    if not is_export(path):
+        return _describe_case(read_case_file(path))
+    from nag.questions import read
+
+    found = read(path)
+    title = os.path.basename(path)
+    if isinstance(found, Decomposition):
+        return title, _describe_components(found), QUESTIONS["components"]
+    from nag.report.solutions import solution_table
+
+    return title, [str(found).splitlines(), solution_table(found)], QUESTIONS["solutions"]
+
+
+def _describe_components(found: Decomposition) -> list[list[str] | list[Row]]:
+    from nag.witness.shown import component_table, remarks
+
+    notes = [("open", line) for line in remarks(found)]
+    return [str(found).splitlines(), component_table(found), notes]
+
+
+def _describe_case(
+    case: Case,
+) -> tuple[str, list[list[str] | list[Row]], tuple[tuple[str, str], ...]]:
+    from nag.algebra.system import system_line, values_text
+
+    rows: list[Row] = [("kind", case.kind)]
+    if case.mechanism is not None:
+        rows += [("", line) for line in str(case.mechanism).splitlines()]
+    elif case.system is not None:
+        rows.append(("system", system_line(case.system)))
+    if case.parameters:
+        rows.append(("set", f"{values_text(case.parameters, case.parameters.values())}: --set"))
+    if case.points:
+        rows.append(("points", ", ".join(point.name for point in case.points)))
+    rows += [
+        (
+            "known",
+            f"{t.count} of dimension {t.dimension}, degree {t.degree}: {t.source.strip()}",
+        )
+        for t in case.truth
+    ]
+    rows += [("note", note) for note in case.notes]
+    moving = case.mechanism is not None or case.assembly is not None
+    questions = QUESTIONS["mechanism" if moving else "system"]
+    if case.mechanism is not None and _is_robot(case):
+        questions = (*questions, LEGS)
+    return case.title, [rows], questions
+
+
+def _is_robot(case: Case) -> bool:
+    """Whether the mechanism has a body of several legs."""
+    from nag.errors import NagError
+    from nag.mechanism.legs import parallel_robot
+
+    try:
+        parallel_robot(case.mechanism)  # type: ignore[arg-type]
+    except NagError:
+        return False
+    return True

@@ -1,0 +1,105 @@
+"""Who begins gets a case to edit, is told what can be asked, and is helped to write it."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from linkages import CASES
+
+import nag
+from nag.cli import main
+from nag.cli.command_line import COMMANDS
+from nag.cli.completion import SHELLS, command_words
+from nag.cli.init import KINDS
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_case_to_begin_with_can_be_decomposed(
+    kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "mine.toml"
+    assert main(["init", kind, str(file)]) == 0
+    assert main(["init", kind]) == 0
+    assert file.read_text() in capsys.readouterr().out
+    assert nag.decompose(file).complete
+    assert main(["init", kind, str(file)]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("case", "command"),
+    [
+        ("bennett", "mobility"),
+        ("slider-crank", "solve"),
+        ("planar/four-bar", "motion"),
+        ("robots/3-rps", "modes"),
+    ],
+)
+def test_a_file_alone_says_what_can_be_asked_of_it(
+    case: str, command: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(CASES / f"{case}.toml")
+    assert main([path]) == 0
+    shown = capsys.readouterr().out
+    assert main(["show", path]) == 0
+    assert capsys.readouterr().out == shown
+    assert f"nag {command} " in shown and "ask: nag COMMAND" in shown
+
+
+def test_every_question_is_a_command() -> None:
+    from nag.cli.show import LEGS, QUESTIONS
+
+    asked = {name for rows in QUESTIONS.values() for name, _ in rows} | {LEGS[0]}
+    assert asked <= {row[0] for row in COMMANDS}
+
+
+def test_exports_are_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    found, solved = tmp_path / "found.json", tmp_path / "solved.json"
+    nag.write(nag.decompose("x^2 + y^2 - 1"), found)
+    nag.write(nag.solve("x^2 - 2"), solved)
+    for path, text in ((found, "nag sample"), (solved, "nag certify")):
+        assert main([str(path)]) == 0
+        assert text in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("word", ["missing.toml", "folder/missing"])
+def test_a_file_that_is_not_there_is_one_line(
+    word: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([word]) == 2
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1 and word in told
+
+
+@pytest.mark.parametrize("command", ["decompose", "mobility"])
+def test_a_document_goes_to_standard_output_alone(
+    command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, file = str(CASES / "bennett.toml"), tmp_path / "answer.json"
+    assert main([command, case, "--json", str(file), "--quiet"]) == 0
+    capsys.readouterr()
+    assert main([command, case, "--json", "-", "--quiet"]) == 0
+    assert json.loads(capsys.readouterr().out) == json.loads(file.read_text())
+
+
+def test_completion_knows_all_commands_and_their_choices() -> None:
+    words = command_words()
+    assert list(words) == [row[0] for row in COMMANDS]
+    assert "polyhedral" in words["solve"]["--start"] and words["init"][""] == KINDS
+
+
+@pytest.mark.parametrize("shell", SHELLS)
+def test_scripts_for_shells_are_written(shell: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["completion", shell]) == 0
+    script = capsys.readouterr().out
+    assert all(row[0] in script for row in COMMANDS)
+    if shell == "bash" and shutil.which("bash"):
+        ask = 'COMP_WORDS=(nag solve --start poly); COMP_CWORD=3; _nag; echo "${COMPREPLY[0]}"'
+        done = subprocess.run(
+            ["bash", "-c", f"{script}\n{ask}"], capture_output=True, text=True, check=True
+        )
+        assert done.stdout == "polyhedral\n" and not done.stderr

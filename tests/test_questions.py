@@ -1,0 +1,142 @@
+"""What the commands ask is asked in Python of whatever describes it, files among that."""
+
+from __future__ import annotations
+
+import ast
+import copy
+import json
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from linkages import CASES
+
+import nag
+
+CIRCLE_AND_LINE = "(x^2 + y^2 - 1)*(x - y)"
+NAG = Path(nag.__file__).parent
+
+
+@pytest.fixture(scope="module")
+def export(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("exports") / "found.json"
+    nag.write(nag.decompose(CIRCLE_AND_LINE), path)
+    return path
+
+
+def test_what_is_written_is_read_again_equal(export: Path, tmp_path: Path) -> None:
+    assert nag.read(export) == nag.decompose(CIRCLE_AND_LINE)
+    solved = nag.solve(["x^2 + y^2 - 1", "x - y"])
+    nag.write(solved, tmp_path / "solved.json")
+    assert nag.read(tmp_path / "solved.json") == solved
+    assert nag.read(CASES / "bennett.toml").kind == "mechanism"
+
+
+def test_files_cases_mechanisms_and_models_are_asked_alike() -> None:
+    path = CASES / "bennett.toml"
+    case = nag.read(path)
+    every = (path, str(path), case, case.mechanism)
+    for given in (*every, nag.model(path)):
+        assert [(c.dimension, c.degree) for c in nag.decompose(given)] == [(1, 2)]
+        assert nag.local(given).dimension == 1
+    for given in every:
+        assert nag.mobility(given).local_dimension == 1
+        assert nag.model(given).system == nag.model(path).system
+
+
+def test_components_are_asked_by_their_numbers(export: Path) -> None:
+    found = nag.read(export)
+    for given in (export, str(export), found, CIRCLE_AND_LINE):
+        line, circle = 1, 2
+        assert [c.degree for c in nag.member(given, ("3/5", "4/5")).on] == [2]
+        assert np.ptp(nag.sample(given, 4, line).points @ [1, -1]) < 1e-12
+        assert nag.sample(given, 3, circle, real=True).points.imag.max() == 0
+        assert [s.dimension for s in nag.singular(given, circle).sets] == [0, 0]
+        assert sum(c.degree for c in nag.intersect(given, line, circle)) == 2
+        assert nag.eliminate(given, component=circle, onto="x,y").equations == ("x^2 + y^2 - 1",)
+        if given is not CIRCLE_AND_LINE:
+            assert nag.certify(given)
+
+
+def test_points_go_by_names_mappings_and_numbers() -> None:
+    case = CASES / "slider-crank.toml"
+    names = [point.name for point in nag.read(case).points]
+    by_name = nag.local(case, names[0])
+    at = dict(zip(nag.read(case).system.variables, nag.read(case).points[0].at, strict=True))
+    assert by_name == nag.local(case, at) == nag.local(case, tuple(at.values()))
+    with pytest.raises(nag.NagError, match="give the name of one"):
+        nag.local(case)
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda: nag.solve("missing.toml"), "missing.toml"),
+        (lambda: nag.sample("x - y", component=2), "there is one component, number 1"),
+        (lambda: nag.sample("x - y", component=0), "component: 0"),
+        (lambda: nag.intersect("x - y", 1, 2), "second: 2"),
+        (lambda: nag.local("x^2 - 1"), "it has none with a name"),
+        (lambda: nag.certify("x^2 - 1"), "give what nag.solve or nag.decompose returns"),
+        (lambda: nag.write("x", "file"), "give what nag.decompose or nag.solve returns"),
+        (lambda: nag.eliminate("x - y", onto="z"), "'z' is not one of the variables"),
+        (lambda: nag.eliminate(["x", "y"]), "nothing to eliminate from"),
+    ],
+)
+def test_what_makes_no_sense_is_one_line(ask, message: str) -> None:
+    with pytest.raises(nag.NagError, match=message) as raised:
+        ask()
+    assert "\n" not in str(raised.value)
+
+
+def test_an_export_with_a_point_left_out_is_refused(export: Path, tmp_path: Path) -> None:
+    value = json.loads(export.read_text())
+    circle = value["components"][1]
+    circle["degree"] = 1
+    for key in ("points", "radii", "digits"):
+        del circle[key][1:]
+    circle["cut_by"] = [{"equations": 1, "points": 1, "unknowns": [[]]}]
+    changed = tmp_path / "changed.json"
+    changed.write_text(json.dumps(value))
+    with pytest.raises(nag.ComponentError, match="component 2: the sum of its points"):
+        nag.member(changed, (1, 0))
+
+
+def test_results_are_sequences_and_tables() -> None:
+    solved, found = nag.solve(["x^2 - 2", "y - x"]), nag.decompose(CIRCLE_AND_LINE)
+    assert len(solved) == 2 and list(solved) == list(solved.solutions) == [solved[0], solved[-1]]
+    assert len(found) == 2 and found[:1] == found.components[:1] and [*found] == [*found.components]
+    assert bool(nag.solve("x^2 + y^2 - 1")) and not len(nag.decompose(["1"]))
+    assert solved.to_numpy().shape == (2, 2) and solved.to_numpy().flags.writeable
+    for result in (solved, found):
+        again = pickle.loads(pickle.dumps(result))
+        assert again == copy.deepcopy(result) == result and "\n" not in repr(result)
+
+
+def test_results_are_frames_of_pandas() -> None:
+    pytest.importorskip("pandas", reason="pandas is not installed")
+    solved = nag.solve(["x^2 - 2", "y - x"]).to_dataframe()
+    assert list(solved.columns)[:3] == ["x", "y", "multiplicity"] and len(solved) == 2
+    found = nag.decompose(CIRCLE_AND_LINE).to_dataframe()
+    assert found["degree"].tolist() == [1, 2] and found["number"].tolist() == [1, 2]
+
+
+def test_polynomials_are_sympys_and_back() -> None:
+    sympy = pytest.importorskip("sympy")
+    system = nag.system(["x^2 - sqrt(2)*y + 1/3", "y^3 - (1 + sqrt(3)/2)*x"])
+    again = nag.system(system.to_sympy(), system.variables)
+    assert again == system
+    (first, _) = nag.solve(["x^2 - 2", "y - x"]).to_sympy()
+    assert abs(first[sympy.Symbol("x")] ** 2 - 2) < 1e-12
+
+
+def test_names_that_types_are_checked_by_are_those_that_are_there() -> None:
+    tree = ast.parse((NAG / "__init__.py").read_text("utf-8"))
+    (checked,) = (node for node in tree.body if isinstance(node, ast.If))
+    found = {
+        alias.name: statement.module
+        for statement in checked.body
+        if isinstance(statement, ast.ImportFrom)
+        for alias in statement.names
+    }
+    assert found == nag._HOME
