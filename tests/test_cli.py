@@ -123,7 +123,7 @@ def test_options_reach_the_decomposition(engine, case) -> None:
     words = ["--seed=3", "--threads=2", "--settings=careful", "--quiet"]
     assert main(["decompose", case, *words]) == 0
     (call,) = engine.calls
-    expected = {"seed": 3, "threads": 2, "settings": "careful", "progress": None, "symmetries": ()}
+    expected = nag.Run(seed=3, threads=2, settings="careful").short | {"symmetries": ()}
     assert call == expected
 
 
