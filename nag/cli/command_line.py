@@ -62,6 +62,12 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "they move.",
     ),
     (
+        "report",
+        "write all that is found of a mechanism to one page",
+        "Write one page of a mechanism: how it moves, a picture in which it does, the model and "
+        "why that one, all components, what they were compared with, and the answer as data.",
+    ),
+    (
         "plot",
         "draw real curves, joint angles, and bodies with joints",
         "Draw the real curves of components, projected to two variables; of a mechanism the angles "

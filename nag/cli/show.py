@@ -26,6 +26,7 @@ QUESTIONS = {
         ("mobility", "does it move, and with how many freedoms?"),
         ("decompose", "which motions are there in all?"),
         ("motion", "how does it really move? (one freedom; --html FILE shows it)"),
+        ("report", "all of this in one page: --html FILE"),
         ("plot", "draw bodies and joints: --graph --out FILE.svg"),
         ("model", "which equations, and in which formulations?"),
     ),

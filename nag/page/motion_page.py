@@ -53,8 +53,6 @@ def _with_frames(motion: Motion, title: str, file: str, frames: int) -> str:
     """The page with so many frames for each circuit, at most."""
     data = _page_data(motion, title, file, frames)
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
-    # Nothing in a script's text may end it.
-    safe = text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
     parts = {
         "title": escape(title),
         "subtitle": escape(subtitle(motion)),
@@ -62,10 +60,10 @@ def _with_frames(motion: Motion, title: str, file: str, frames: int) -> str:
         "test": _part("self_test.js"),
         "licence": _part("three.LICENSE").strip(),
         "three": _part("three.bundle.js"),
-        "data": safe,
+        "data": script_text(text),
         "viewer": _part("viewer.js"),
     }
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _read("page.html"))
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], page_part("page.html"))
 
 
 def subtitle(motion: Motion) -> str:
@@ -78,13 +76,19 @@ def subtitle(motion: Motion) -> str:
     return f"{', '.join(counts)}; {count_text(len(motion.circuits), 'circuit')}; {curve}"
 
 
-def _read(name: str) -> str:
+def script_text(text: str) -> str:
+    """JSON as it may stand in a page's script: nothing in it may end that."""
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+def page_part(name: str) -> str:
+    """A file that pages are made of."""
     return resources.files("nag.page").joinpath(name).read_text("utf-8")
 
 
 def _part(name: str) -> str:
     # In a page a script ends at its closing tag wherever that stands.
-    return re.sub(r"</(script|style)", r"<\\/\1", _read(name), flags=re.IGNORECASE)
+    return re.sub(r"</(script|style)", r"<\\/\1", page_part(name), flags=re.IGNORECASE)
 
 
 def _page_data(motion: Motion, title: str, file: str, frames: int) -> dict[str, Any]:
