@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from linkages import CASES
 from traced_curves import trace_loop
 
 import nag
@@ -431,3 +432,14 @@ def test_scenes_have_their_joints_at_the_points_of_the_case() -> None:
     assert [j.name for j in scene.joints] == ["A", "D", "G", "B", "C", "E", "F"]
     framework = scene_of(read_problem("planar/four-bar-kite"))
     assert framework.planar is not None
+
+
+def test_a_motion_of_one_unknown_and_no_equation_is_a_line() -> None:
+    found = nag.motion(CASES / "spatial" / "four-sliders.toml", samples=24)
+    (circuit,) = found.circuits
+    assert not circuit.closed and found.complete
+    table = found.table(circuit.number)
+    # All slides run evenly, and the loop closes.
+    for joint in ("A", "C", "D"):
+        steps = np.diff(table[joint])
+        assert np.ptp(steps) < 1e-12 < abs(steps[0])

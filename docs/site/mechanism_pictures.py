@@ -6,7 +6,6 @@ import contextlib
 import hashlib
 import os
 import signal
-import sys
 import time
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -46,11 +45,8 @@ def _make(case: Path, end: float) -> tuple[Path | None, Path | None]:
     left = min(ONE, end - time.time())
     if not page.is_file() and not none.is_file() and left > 1:
         began = time.time()
-        try:
-            with _at_most(left):
-                _write_page(case, page)
-        except Exception as error:  # a page is missing then, the site is not
-            print(f"{case.name}: no motion: {error!r}", file=sys.stderr)
+        with _at_most(left):
+            _write_page(case, page)
         if not page.is_file() and (left == ONE or time.time() - began < left):
             none.touch()
     return picture if picture.is_file() else None, page if page.is_file() else None

@@ -72,6 +72,7 @@ class Curve:
             rows.append(dict(zip(whole, coefficients[there].tolist(), strict=True)))
         monomials = sorted({e for row in rows for e in row})
         table = np.array([[row.get(e, 0.0) for e in monomials] for row in rows])
+        table = table.reshape(len(rows), len(monomials))
         evaluator = Evaluator(n, np.array(monomials, dtype=np.int64).reshape(-1, n), table)
         return evaluator, evaluator.placed_derivatives(n)
 

@@ -159,7 +159,8 @@ class ProjectiveClosure:
             across = np.einsum("pik,pi->pk", u[:, :, :rank], np.where(known[:, None], right, 0))
             step = np.einsum("pki,pk->pi", vh[:, :rank], across / s[:, :rank])
             moved = x - units * step
-            there = evaluator.residuals(np.where(np.isfinite(moved), moved, 0)).max(axis=1)
+            found = evaluator.residuals(np.where(np.isfinite(moved), moved, 0))
+            there = found.max(axis=1, initial=0.0)
             better = np.isfinite(moved).all(axis=1) & (there < residuals)
             x = np.where(better[:, None], moved, x)
             residuals = np.where(better, there, residuals)
