@@ -131,6 +131,9 @@ SPARSE: dict[str, tuple[str, ...]] = {
         "robots/3-upu-tsai", "robots/3-upu-wrist", "robots/3-uu-locked", "robots/exechon",
         "robots/hexapod", "robots/quadrupteron", "robots/tricept", "robots/tripteron",
     ),
+    "sparse-robots-with-roots": (
+        "robots/3-rps-120", "robots/3-upu-snu-120", "robots/3-upu-tsai-120",
+    ),
     "sparse-planar": ("planar/eight-bar", "planar/six-bar-placed"),
     "sparse-spatial": ("spatial/sarrus-kinematotropic", "spatial/universal-shaft"),
     "sparse-large": ("benchmarks/rhombus-chain-5",),
@@ -151,6 +154,10 @@ SOLVED: dict[str, tuple[str, ...]] = {
     ),
     "solved-hard": (
         "hard/cassou", "hard/chemequ", "hard/pb601", "hard/stewgou40", "benchmarks/reimer-5",
+    ),
+    "solved-polyhedral": (
+        "benchmarks/chandra-11", "benchmarks/degree-60", "benchmarks/eisen-60",
+        "benchmarks/heart", "benchmarks/kuramoto-6", "benchmarks/pw-1", "benchmarks/rps-10",
     ),
     "solved-large": ("benchmarks/cyclic-8",),
 }  # fmt: skip
