@@ -68,7 +68,7 @@ ODD: dict[str, list[Callable[[], Any]]] = {
     "mechanism": [
         lambda: nag.model(graph()),
         lambda: nag.model(None),
-        lambda: nag.model(case()),
+        lambda: nag.model("bennett"),
         lambda: nag.gruebler_kutzbach(None),
         lambda: nag.gruebler_kutzbach(graph()),
         lambda: nag.mobility(graph()),
@@ -203,6 +203,7 @@ ODD: dict[str, list[Callable[[], Any]]] = {
         lambda: D.intersect_equations(system(), line(), "x"),
         lambda: nag.system(None),
         lambda: nag.decompose(answer()),
+        lambda: nag.solve(roots()),
     ],
     "target": [
         lambda: D.witness_at(system(), line(), None),

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 from nag.algebra.bounded import Budget, Value, representable
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.from_sympy import is_sympy, symbol_names, sympy_value
-from nag.algebra.given import check_listed, check_type, value_text
+from nag.algebra.given import check_listed, check_type, is_a, value_text
 from nag.algebra.imaginary_unit import adjoin_unit, name_unit, reduce_unit
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
@@ -37,6 +37,9 @@ from nag.algebra.tokens import (
 from nag.errors import NagError
 
 __all__ = ["exact_number", "exact_vector", "system"]
+
+# What iterates, as sequences of equations do, and holds none.
+ANSWERS = (("nag.witness.witness", "Decomposition"), ("nag.solving.solutions", "SolveResult"))
 
 
 def exact_number(value: Any, place: str = "the number") -> Number:
@@ -195,7 +198,8 @@ def _list_equations(equations: Any, place: str) -> list[Any]:
         return list(equations.ravel())
     if matrix:
         return list(equations)
-    if not isinstance(equations, Iterable) or isinstance(equations, Mapping):
+    answer = any(is_a(equations, *kind) for kind in ANSWERS)
+    if answer or not isinstance(equations, Iterable) or isinstance(equations, Mapping):
         raise ExpressionError(
             f"{place}: something of type {type(equations).__name__} is given; give texts like "
             "'x^2 + y^2 = 1', sympy's expressions or nag.Polynomial, in a list"
