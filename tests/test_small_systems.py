@@ -183,7 +183,8 @@ def test_paths_that_end_at_too_few_zeros_are_followed_further_and_no_others() ->
             "3/400*x*y*z^3 + 9/10000*y*z^2*w^2 + 3/25*x^3*z - 1/500000*z^2*w^2 + 9/100*y^2 + 81",
             "-7/40000*x^2 + 37*x*z - 2/25*y^2 + 39/5000*z^2 - 350000*x + 2000",
             "-6*z^3*w^2 - 17/10000*x^2*y",
-        )
+        ),
+        start="multihomogeneous",
     )
     assert [s.multiplicity for s in result.solutions] == [1] * 66
     assert result.complete

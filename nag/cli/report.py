@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from nag.page.report_page import Section
     from nag.witness.witness import Decomposition
 
+BYTES_IN_A_MEGABYTE = 1_000_000
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag report`` has besides those of every command that runs a case."""
@@ -65,7 +67,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         ("mobility", lead),
         ("answer", answer),
         ("motion", why_not or "moves in the page"),
-        ("page", f"{options.html}, {len(page.encode()) / 1e6:.2f} MB"),
+        ("page", f"{options.html}, {len(page.encode()) / BYTES_IN_A_MEGABYTE:.2f} MB"),
     ]
     return CommandAnswer(sheet(case.title, rows, [run_row(options)]), complete)
 
