@@ -21,7 +21,9 @@ STAGES = {
 SCRIPT = """
 import os, signal, sys, time
 import nag.cli.model
+# As from a terminal, also where the tests run under nohup.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 def work(options):
     import flint, numpy, scipy.linalg
     print(os.getpid(), flush=True)
