@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import wraps
 from os import PathLike
-from typing import Any
+from typing import Any, TypeVar
 from warnings import warn
 
 import numpy as np
@@ -80,15 +80,17 @@ class Run:
             self.progress(stage, done, total)
 
 
+Answer = TypeVar("Answer")
+
 DEFAULT_RUN = Run()
 
 
-def takes_run(function: Callable[..., Any]) -> Callable[..., Any]:
+def takes_run(function: Callable[..., Answer]) -> Callable[..., Answer]:
     """Let ``seed=1, threads=2, ...`` stand for ``run=Run(seed=1, threads=2, ...)`` in calls."""
     names = frozenset(each.name for each in fields(Run))
 
     @wraps(function)
-    def call(*given: Any, **named: Any) -> Any:
+    def call(*given: Any, **named: Any) -> Answer:
         short = {name: named.pop(name) for name in names & named.keys()}
         if short:
             if "run" in named:
