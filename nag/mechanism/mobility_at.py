@@ -29,10 +29,11 @@ from nag.mechanism.model import Model
 from nag.mechanism.moving_parts import MovingParts, NotClear, find_moving_parts
 from nag.mechanism.nearly_mobile import check_tolerance, find_near_motion, find_spoiled_motion
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
-from nag.mechanism.problem import Problem, problem_of
+from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.quaternion import R
 from nag.mechanism.real_assemblies import real_doubt
 from nag.numerics.local_dimension import local_dimension_near
+from nag.numerics.second_order import is_blocked
 from nag.text.table import count_text
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expand_orbits
@@ -257,6 +258,9 @@ def _with_product(first: MobilityReport, problem: Problem, curve: FibreProduct) 
 def _local_report(problem: Problem, at: Sequence[Number], run: Run) -> MobilityReport:
     found = local_dimension_near(problem.system, at, seed=run.seed)
     free, tangent = problem.free, found.tangent_dimension
+    blocked = False
+    if found.dimension and not found.smooth and in_real_coordinates(problem) is problem:
+        blocked = is_blocked(problem.system, found.point, tangent or 0)
     return MobilityReport(
         **_count_freedoms(problem),
         tangent_dimension=None if tangent is None else tangent + free,
@@ -265,6 +269,7 @@ def _local_report(problem: Problem, at: Sequence[Number], run: Run) -> MobilityR
         components=None,
         open="",
         local=found,
+        blocked=blocked,
     )
 
 

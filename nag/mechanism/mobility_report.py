@@ -108,6 +108,8 @@ class MobilityReport:
         near: how a rigid mechanism would move if its loops were let open; None if that was not
             asked for.
         hint: at a rigid mechanism that may be meant to move; empty where there is none.
+        blocked: whether terms of second order prove that no real motion of its loops leaves the
+            configuration: what passes through it has no other real point nearby.
     """
 
     space: str
@@ -132,6 +134,7 @@ class MobilityReport:
     moving: MovingParts | None = None
     near: NearMotion | None = None
     hint: str = ""
+    blocked: bool = False
 
     @property
     def local_dimension(self) -> int | None:
@@ -177,6 +180,8 @@ class MobilityReport:
     def status(self) -> MobilityStatus:
         if self.local_dimension is None or self.tangent_dimension is None or not self.agrees:
             return MobilityStatus.UNDECIDED
+        if self.blocked and self.free == 0:
+            return MobilityStatus.SHAKY
         if self.local_dimension == 0:
             return MobilityStatus.SHAKY if self.tangent_dimension else MobilityStatus.RIGID
         dimensions = [d for d, _ in self.components or ()] if self.general is None else []
@@ -244,6 +249,7 @@ class MobilityReport:
             "upper": self.upper,
             "multiplicity": self.multiplicity,
             "overconstrained": self.overconstrained,
+            "blocked": self.blocked,
             "status": str(self.status),
             "meaning": self.sentence,
             "components": None
@@ -326,6 +332,13 @@ def _meaning(report: MobilityReport) -> str:
     mobility, tangent = report.local_dimension, report.tangent_dimension
     if status is MobilityStatus.RIGID:
         return "it does not move, not even infinitesimally"
+    if report.blocked and mobility:
+        moves = f"moves with {count_text(report.free, 'freedom')}, {report.free_of}, and no other"
+        return (
+            f"it {moves if report.free else 'does not move'}: by terms of second order no real "
+            f"motion leaves the configuration, though complex ones of dimension {mobility} pass "
+            f"through it; infinitesimally it has {count_text(tangent or 0, 'freedom')}"
+        )
     if status is MobilityStatus.SHAKY:
         return (
             "it does not move, but infinitesimally it does, with "

@@ -11,7 +11,8 @@ by `descent` and `sharpening`; `dual_space` (the dimension of its local ring), `
 and `series_zeros` (zeros beside it); `singular_point` on `local_structure` (all of it together);
 `zero_values` (what is zero at the zero that a point stands for); `branch_union` (what the branches
 of factored equations leave, joined without repeats); `local_dimension` on `located_zero` and
-`dimension_bounds` (the dimension at any point), and `tangent_cone`. Proofs: `krawczyk` on `discs`
+`dimension_bounds` (the dimension at any point), `tangent_cone`, and `second_order` (whether a real
+motion can leave a real point). Proofs: `krawczyk` on `discs`
 and `ball_boxes` (boxes that hold one zero), `certified_points` with `deflated_system`, and
 `rational_relations`; `claims` and `point_claims` (what exports say, against what is proved).
 """

@@ -1,0 +1,92 @@
+"""Real motions that terms of second order forbid, and none that there are."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from linkages import CASES
+
+import nag
+from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.mobility_report import MobilityStatus
+from nag.numerics.second_order import is_blocked
+
+Z = (0, 0, 1)
+
+
+def straight(steps: list[int]) -> Mechanism:
+    """A closed chain of bars that all lie in one line."""
+    places = np.cumsum([0, *steps[:-1]])
+    joints = tuple(
+        Joint(f"J{i}", "revolute", (f"L{i}", f"L{(i + 1) % len(steps)}"), (int(x), 0, 0), Z)
+        for i, x in enumerate(places)
+    )
+    return Mechanism("L0", joints)
+
+
+def signs_of_second_order(steps: list[int]) -> set[float]:
+    """Signs of the eigenvalues of sum s t^2 where sum s t = 0, of turns t against the first bar."""
+    free = np.array(steps[1:], dtype=float)
+    tangents = np.linalg.svd(free[None])[2][1:]
+    return set(np.sign(np.linalg.eigvalsh(tangents @ np.diag(free) @ tangents.T)).tolist())
+
+
+lengths = st.lists(st.integers(-5, 5).filter(bool), min_size=3, max_size=4).filter(
+    lambda steps: sum(steps) != 0
+)
+
+
+@settings(max_examples=25, deadline=None)
+@given(lengths)
+def test_a_straight_chain_stands_still_where_its_second_order_is_definite(steps) -> None:
+    steps = [*steps, -sum(steps)]
+    report = nag.mobility(straight(steps), detail="local")
+    assert (report.tangent_dimension, report.local_dimension) == (len(steps) - 2, len(steps) - 3)
+    assert report.blocked == (len(signs_of_second_order(steps)) == 1)
+
+
+@pytest.mark.parametrize("formulation", ["E", "H"])
+def test_a_stretched_four_bar_is_said_not_to_move(formulation: str) -> None:
+    case = nag.read_case(CASES / "mobility" / "four-bar-stretched.toml")
+    report = nag.mobility(case, formulation=formulation)
+    assert report.status is MobilityStatus.SHAKY and "it does not move" in report.sentence
+    assert report.document()["blocked"] and report.local_dimension == 1
+
+
+def test_a_joint_beside_a_blocked_loop_still_moves() -> None:
+    loop = nag.read_case(CASES / "mobility" / "four-bar-stretched.toml").mechanism
+    handle = Joint("E", "revolute", ("base", "handle"), (0, 1, 0), Z)
+    report = nag.mobility(Mechanism("base", (*loop.joints, handle)))
+    assert report.status is MobilityStatus.MOBILE
+    assert report.sentence.startswith("it moves with 1 freedom")
+    assert "and no other" in report.sentence
+
+
+@pytest.mark.parametrize(
+    ("equations", "blocked"),
+    [
+        (["x^2 + x*y + y^2"], True),
+        (["x^2 - 3*x*y + y^2"], False),
+        (["x^2 - y^3"], False),
+        (["x^2 - y^2", "x*y"], False),
+        (["x^2 - y^2 + z", "x^2 + 3*y^2 + x*z", "z"], True),
+        (["x^2 + 2*z^2 - y^2 + x*y", "3*y^2 - z^2 + y*z"], True),
+        (["x*y", "y*z", "x*z"], False),
+        (["x^4 + y^4"], False),
+    ],
+)
+def test_a_definite_combination_blocks_all_of_the_tangent_space(equations, blocked) -> None:
+    system = nag.system(equations)
+    origin = np.zeros(system.n)
+    corank = system.n - np.linalg.matrix_rank(
+        [[float(d([0] * system.n)) for d in row] for row in system.jacobian]
+    )
+    assert is_blocked(system, origin, int(corank)) is blocked
+
+
+@pytest.mark.parametrize("name", ["planar/four-bar-folding", "planar/four-bar-kite"])
+def test_where_real_motions_meet_nothing_is_blocked(name: str) -> None:
+    report = nag.mobility(nag.read_case(CASES / f"{name}.toml"), detail="through")
+    assert not report.blocked
