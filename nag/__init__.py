@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from nag.files.export import write_decomposition as write_decomposition
     from nag.files.solutions_export import read_solutions as read_solutions
     from nag.files.solutions_export import write_solutions as write_solutions
+    from nag.kinematics.driven_motion import driven_motion as driven_motion
     from nag.kinematics.motion import motion as motion
     from nag.mechanism.graph import Body as Body
     from nag.mechanism.graph import Joint as Joint
@@ -135,6 +136,7 @@ _HOME = {
     "mobility": "nag.mechanism.mobility_at",
     "model": "nag.mechanism.model",
     "modes": "nag.mechanism.operation_modes",
+    "driven_motion": "nag.kinematics.driven_motion",
     "motion": "nag.kinematics.motion",
     "read": "nag.questions",
     "read_case": "nag.files.cases",
@@ -154,6 +156,7 @@ _HOME = {
 # nothing of files.
 _TAKING_FILES = {
     "decompose",
+    "driven_motion",
     "mobility",
     "model",
     "modes",

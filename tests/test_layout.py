@@ -98,6 +98,7 @@ ASKED_FOR = {
     "nag.solving.solutions": {"nag.solving.shown"},
     "nag.real.curve": {"nag.real.shown"},
     "nag.kinematics.motion": {"nag.kinematics.shown"},
+    "nag.kinematics.driven_motion": {"nag.kinematics.shown"},
     "nag.numerics.singular_point": {"nag.numerics.local_structure"},
     "nag.numerics.local_dimension": {"nag.numerics.dimension_bounds"},
     "nag.numerics.deflation": {"nag.numerics.curves"},

@@ -12,7 +12,7 @@ import pytest
 import nag
 from nag.cli import main
 from nag.files.cases import CaseError, read_case
-from nag.files.robots.given_rotation import GivenFrame, turns_in_order
+from nag.mechanism.given_rotation import GivenFrame, turns_in_order
 
 HALF = "1.5707963267948966"
 

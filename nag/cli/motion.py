@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import math
 import os
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -21,10 +22,13 @@ from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case, wri
 from nag.errors import NagError
 
 if TYPE_CHECKING:
+    from nag.files.cases import Case
+    from nag.kinematics.driven_motion import DrivenMotion
     from nag.kinematics.motion import Motion
     from nag.mechanism.problem import Problem
 
-FORMAT = "nag-motion"
+FORMAT, DRIVEN_FORMAT = "nag-motion", "nag-driven-motion"
+MOST_VALUES = 1_000
 MOST_SAMPLES = 100_000
 MOST_CIRCUITS = 100_000
 
@@ -57,9 +61,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--drive",
         type=_drive,
+        action="append",
         metavar="JOINT=VALUE",
-        help="all assemblies on the circuits in which a joint's angle, in degrees, or slide has "
-        "this value; of all circuits, if none is asked for",
+        help="hold a joint's angle, in degrees, or slide at a value: of one freedom, all "
+        "assemblies on the circuits with it (all circuits, if none is asked for); of more, the "
+        "circuits of what is left, or its assemblies; may be repeated; of one joint, "
+        "JOINT=FIRST:LAST:COUNT drives it through so many values",
+    )
+    parser.add_argument(
+        "--pose",
+        type=_pose,
+        action="append",
+        metavar="BODY=X,Y,Z[,Q0,Q1,Q2,Q3]",
+        help="hold a body at a place of its frame, with a quaternion or turned as it is drawn, as "
+        "--csv writes them: all assemblies of an arm with its hand there; may be repeated",
     )
     parser.add_argument(
         "--csv",
@@ -74,17 +89,46 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _drive(text: str) -> tuple[str, Fraction]:
+@dataclass(frozen=True)
+class _Drive:
+    """A joint, and the values that it is held at, one after another."""
+
+    name: str
+    values: tuple[Fraction, ...]
+    is_range: bool
+
+
+def _drive(text: str) -> _Drive:
     name, equals, value = text.rpartition("=")
+    parts = value.split(":")
     try:
-        number = Fraction(value.strip())
+        numbers = [Fraction(part.strip()) for part in parts[:2]]
     except (ValueError, ZeroDivisionError):
-        number = None
-    if not equals or not name.strip() or number is None:
+        numbers = []
+    if not equals or not name.strip() or not numbers or len(parts) not in (1, 3):
         raise argparse.ArgumentTypeError(
-            f"{text[:40]!r} is not of the form JOINT=VALUE, a number like 30 or 45/2"
+            f"{text[:40]!r} is not of the form JOINT=VALUE, a number like 30 or 45/2, or "
+            "JOINT=FIRST:LAST:COUNT"
         )
-    return name.strip(), number
+    if len(parts) == 1:
+        return _Drive(name.strip(), (numbers[0],), False)
+    count = whole(parts[2], 2, MOST_VALUES)
+    first, last = numbers
+    values = tuple(first + (last - first) * i / (count - 1) for i in range(count))
+    return _Drive(name.strip(), values, True)
+
+
+def _pose(text: str) -> tuple[str, tuple[float, ...]]:
+    name, equals, numbers = text.rpartition("=")
+    try:
+        values = tuple(float(Fraction(x.strip())) for x in numbers.split(","))
+    except (ValueError, ZeroDivisionError, OverflowError):
+        values = ()
+    if not equals or not name.strip() or len(values) not in (3, 7):
+        raise argparse.ArgumentTypeError(
+            f"{text[:60]!r} is not of the form BODY=X,Y,Z or BODY=X,Y,Z,Q0,Q1,Q2,Q3"
+        )
+    return name.strip(), values
 
 
 def _circuit(text: str) -> str | int:
@@ -103,51 +147,50 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     case = read_case_file(options.case, options.set)
     if case.kind == "system":
         raise UsageError(f"{options.case}: is a polynomial system; only mechanisms have a motion")
-    from nag.kinematics.motion import motion
-    from nag.kinematics.shown import (
-        assembly_rows,
-        circuit_rows,
-        circuit_text,
-        crossing_text,
-        drive_text,
-        motion_rows,
-    )
 
     problem = problem_of_case(case, options.formulation or "auto")
-    asked = options.circuit or ("reference" if options.drive is None else "all")
-    which = asked if isinstance(asked, str) else "all"
+    drives = _with_radians(problem, options.drive or ())
+    ranges = [each for each in drives if len(each[1]) > 1]
+    if len(ranges) > 1:
+        raise UsageError(f"{options.case}: --drive: one joint is driven through values, not more")
+    held: dict[str, Any] = {
+        "drive": {name: values[0] for name, values in drives if len(values) == 1},
+        "pose": dict(options.pose or ()),
+        "samples": options.samples,
+        "run": chosen_run(options),
+    }
     try:
-        found = motion(
-            problem,
-            circuit=which,
-            samples=options.samples,
-            drive=None if options.drive is None else _in_radians(problem, *options.drive),
-            run=chosen_run(options),
-        )
-        if isinstance(asked, int):
-            own = tuple(a for a in found.assemblies if a.circuit == asked)
-            found = replace(found, circuits=(found.circuit(asked),), assemblies=own)
+        if ranges:
+            return _run_through(options, case, problem, ranges[0], held)
+        return _run_once(options, case, problem, held)
     except NagError as error:
         raise UsageError(f"{options.case}: {error}") from None
+
+
+def _run_once(
+    options: argparse.Namespace, case: Case, problem: Problem, held: dict[str, Any]
+) -> CommandAnswer:
+    """The motions as they are, or with joints or bodies held."""
+    from nag.kinematics.motion import motion
+    from nag.kinematics.shown import assembly_rows, drive_text, motion_rows
+
+    asked = options.circuit or ("reference" if not held["drive"] else "all")
+    found = motion(problem, circuit=asked if isinstance(asked, str) else "all", **held)
+    if isinstance(asked, int):
+        own = tuple(a for a in found.assemblies if a.circuit == asked)
+        found = replace(found, circuits=(found.circuit(asked),), assemblies=own)
     if options.csv is not None:
-        write_document(_table_text(found, options.angles), options.csv, "csv")
+        write_document(_table_text([found], options.angles), options.csv, "csv")
     tail = [("open", note) for note in found.notes]
     if options.html is not None and not found.circuits:
         tail.append(("page", f"{options.html} is not written: there is no motion to show"))
     elif options.html is not None:
         from nag.page.motion_page import motion_page
 
-        try:
-            page = motion_page(found, case.title, os.path.basename(case.path))
-        except NagError as error:
-            raise UsageError(f"{options.case}: {error}") from None
+        page = motion_page(found, case.title, os.path.basename(case.path))
         write_document(page, options.html, "html")
-    blocks: list[Any] = [motion_rows(found)]
-    for each in found.circuits:
-        head = [(f"circuit {each.number}", circuit_text(found, each))]
-        head += [("crossing", crossing_text(found, each, c)) for c in each.crossings]
-        blocks += [head, circuit_rows(found, each)]
-    if found.drive is not None:
+    blocks: list[Any] = [motion_rows(found), *_circuit_blocks(found)]
+    if found.drive is not None or found.held or found.poses:
         blocks.append([("driven", drive_text(found))])
         blocks.append(assembly_rows(found) if found.assemblies else [])
     fields = {
@@ -159,28 +202,89 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     return answer_of(options, name_case(case), blocks, tail, fields, found.complete)
 
 
-def _in_radians(problem: Problem, name: str, value: Fraction) -> tuple[str, float]:
+def _run_through(
+    options: argparse.Namespace,
+    case: Case,
+    problem: Problem,
+    drive: tuple[str, list[float]],
+    held: dict[str, Any],
+) -> CommandAnswer:
+    """What is left of a motion with a joint at one value after another."""
+    from nag.kinematics.driven_motion import driven_motion
+    from nag.kinematics.shown import continuation_rows, driven_rows, motion_rows
+
+    if options.circuit is not None:
+        raise UsageError(f"{options.case}: --circuit: leave it out where a joint is driven")
+    found = driven_motion(problem, *drive, **held)
+    if options.csv is not None:
+        write_document(_table_text(found.motions, options.angles, found), options.csv, "csv")
+    tail = [("open", f"value {i + 1}: {note}") for i, m in enumerate(found) for note in m.notes]
+    if options.html is not None:
+        from nag.page.motion_page import driven_page
+
+        page = driven_page(found, case.title, os.path.basename(case.path))
+        write_document(page, options.html, "html")
+    head = [row for row in motion_rows(found[0]) if row[0] in ("model", "mobility", "idle")]
+    blocks: list[Any] = [head, driven_rows(found), continuation_rows(found)]
+    fields = {
+        "format": DRIVEN_FORMAT,
+        "formulation": problem.formulation,
+        "samples": options.samples,
+        **found.document(),
+    }
+    return answer_of(options, name_case(case), blocks, tail, fields, found.complete)
+
+
+def _circuit_blocks(found: Motion) -> Iterator[Any]:
+    """The circuits, each with its crossings and its table."""
+    from nag.kinematics.shown import circuit_rows, circuit_text, crossing_text
+
+    for each in found.circuits:
+        head = [(f"circuit {each.number}", circuit_text(found, each))]
+        head += [("crossing", crossing_text(found, each, c)) for c in each.crossings]
+        yield head
+        yield circuit_rows(found, each)
+
+
+def _with_radians(problem: Problem, drives: Sequence[_Drive]) -> list[tuple[str, list[float]]]:
     """What is to be held, angles in radians."""
     from nag.kinematics.joint_values import joint_coordinates
     from nag.kinematics.scene import scene_of
     from nag.mechanism.problem import in_real_coordinates
 
-    each = joint_coordinates(scene_of(in_real_coordinates(problem)))
-    angle = any(c.name == name and c.kind == "angle" for c in each)
-    return name, math.radians(value) if angle else float(value)
+    if not drives:
+        return []
+    coordinates = joint_coordinates(scene_of(in_real_coordinates(problem)))
+    angles = {c.name for c in coordinates if c.kind == "angle"}
+    return [
+        (each.name, [math.radians(v) if each.name in angles else float(v) for v in each.values])
+        for each in drives
+    ]
 
 
-def _table_text(found: Motion, angles: str) -> str:
-    """All circuits as lines of numbers that read back to the same doubles."""
+def _table_text(motions: Sequence[Motion], angles: str, driven: DrivenMotion | None = None) -> str:
+    """All circuits as lines of numbers that read back to the same doubles.
+
+    Args:
+        driven: what the motions are those of; its value is the first column.
+    """
     import csv
     import io
 
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    for i, circuit in enumerate(found.circuits):
-        columns = found.table(circuit.number, angles=angles)
-        if not i:
-            writer.writerow(columns)
-        rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-        writer.writerows(rows)
+    headed = False
+    for i, found in enumerate(motions):
+        for circuit in found.circuits:
+            columns = found.table(circuit.number, angles=angles)
+            before = []
+            if driven is not None:
+                in_degrees = driven.coordinate.kind == "angle" and angles == "degrees"
+                value = driven.values[i]
+                before = [math.degrees(value) if in_degrees else value]
+            if not headed:
+                writer.writerow(["driven"] * len(before) + list(columns))
+                headed = True
+            for row in zip(*(column.tolist() for column in columns.values()), strict=True):
+                writer.writerow([*before, *row])
     return text.getvalue()

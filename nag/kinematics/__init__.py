@@ -4,6 +4,7 @@ Read in this order, bottom-up: `poses` (places and turns of bodies at many point
 on `poses` (bodies and joints of a mechanism, a linkage, a framework or a table, and where they are
 at points of its equations), `joint_values` (angles and slides), `walks` (how arcs of a real curve
 follow each other), `path` on `scene` and `walks` (one motion along them, evenly sampled),
-`turning_points` (where joints stand still), `driven` (assemblies at a value of a joint), `motion`
-(all that is said of a mechanism; `shown` for users).
+`turning_points` (where joints stand still), `driven` (joints held at values, bodies at places),
+`motion` (all that is said of a mechanism; `shown` for users) and `driven_motion` (one value of a
+joint after another).
 """

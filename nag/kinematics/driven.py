@@ -1,12 +1,17 @@
-"""Assemblies at a given value of one joint: all real ones on the circuits of a motion.
+"""Joints that are held at values, bodies at places, and the assemblies with them.
 
-Between two dead points next to each other a joint takes a value at most once, so that none is
-missed between samples.
+On the circuits of a motion all of them are found along these: between two dead points next to each
+other a joint takes a value at most once, so that none is missed between samples. Where the rest
+moves, or nothing does, they are solutions of the equations with the joints held
+(`nag.mechanism.holding`).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -14,10 +19,21 @@ from nag.errors import NagError
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values
 from nag.kinematics.path import Path
 from nag.kinematics.poses import Poses
-from nag.kinematics.scene import Scene
+from nag.kinematics.scene import Scene, scene_of
 from nag.kinematics.turning_points import STILL, Values
+from nag.mechanism.dh import DHEulerModel, DHModel, hold_rows
+from nag.mechanism.given_rotation import GivenFrame, given_point, given_quaternion, shortened
+from nag.mechanism.holding import HeldMechanism, held_model, hold_joint, place_body
+from nag.mechanism.model import Model
+from nag.mechanism.problem import Problem, problem_of
+from nag.mechanism.quaternion import conjugate, multiply
+from nag.real.real_pieces import find_real_points
 from nag.text.table import join_words
+from nag.tracking.run import Run
+from nag.witness.witness import WitnessSet
 
+# Decimals of values by which assemblies are put in order.
+DECIMALS = 9
 # Steps that narrow an interval in which a joint has a value, to nothing.
 STEPS = 60
 
@@ -35,21 +51,86 @@ class Drive:
     value: float
 
 
+@dataclass(frozen=True)
+class Pose:
+    """A body that is held by the ground.
+
+    Attributes:
+        body: its name.
+        place: of its frame's origin, as in a motion's table.
+        quaternion: of its frame, of any length but zero; None for that of the drawing.
+    """
+
+    body: str
+    place: tuple[float, float, float]
+    quaternion: tuple[float, float, float, float] | None = None
+
+
 @dataclass(frozen=True, eq=False)
 class DrivenAssembly:
     """An assembly at the value.
 
     Attributes:
-        circuit: number of the circuit that it is on.
+        circuit: number of the circuit that it is on; None if it is on none.
         arc: how far along that.
         values: angles, between -pi and pi, and slides, shape ``(coordinates,)``.
         poses: of the bodies, at this one configuration.
     """
 
-    circuit: int
-    arc: float
+    circuit: int | None
+    arc: float | None
     values: np.ndarray
     poses: Poses
+
+    def document(self) -> dict[str, Any]:
+        """The assembly as a JSON object."""
+        return {
+            "circuit": self.circuit,
+            "arc": self.arc,
+            "values": self.values.tolist(),
+            "positions": self.poses.places[:, 0].tolist(),
+            "quaternions": self.poses.turns[:, 0].tolist(),
+        }
+
+
+def read_drives(given: Any) -> tuple[Drive, ...]:
+    """Joints and values: a pair of them, or a dict of several.
+
+    Raises:
+        NagError: if it is neither.
+    """
+    if given is None:
+        return ()
+    pairs = list(given.items()) if isinstance(given, Mapping) else [given]
+    try:
+        return tuple(Drive(str(name), float(value)) for name, value in pairs)
+    except (TypeError, ValueError):
+        raise NagError(
+            "drive: give a joint and a value, ('A', 0.5), or a dict of several, {'A': 0.5, 'B': 1}"
+        ) from None
+
+
+def read_poses(given: Any) -> tuple[Pose, ...]:
+    """Bodies and their places: a dict of names to 3 or 7 numbers.
+
+    Raises:
+        NagError: if it is something else.
+    """
+    if given is None:
+        return ()
+    problem = "pose: give a dict of bodies, {'hand': (x, y, z)}, with a quaternion behind it or not"
+    if not isinstance(given, Mapping):
+        raise NagError(problem)
+    found = []
+    for body, numbers in given.items():
+        try:
+            x = tuple(float(each) for each in numbers)
+        except (TypeError, ValueError):
+            raise NagError(problem) from None
+        if len(x) not in (3, 7):
+            raise NagError(f"pose: {body!r} has {len(x)} numbers; give 3, or 7 with a quaternion")
+        found.append(Pose(str(body), x[:3], x[3:] or None))  # type: ignore[arg-type]
+    return tuple(found)
 
 
 def check_drive(scene: Scene, drive: Drive) -> int:
@@ -65,6 +146,69 @@ def check_drive(scene: Scene, drive: Drive) -> int:
     if not np.isfinite(drive.value):
         raise NagError("drive: the value has to be a finite number")
     return names.index(drive.coordinate)
+
+
+def hold(problem: Problem, drives: Sequence[Drive], poses: Sequence[Pose]) -> tuple[Problem, Scene]:
+    """What is left to be solved with joints at values and bodies at places, and what it shows.
+
+    Raises:
+        NagError: if a joint or a body is not there or cannot be held, or of what is given none can.
+    """
+    scene = scene_of(problem)
+    coordinates = joint_coordinates(scene)
+    chosen = [(coordinates[check_drive(scene, drive)], drive) for drive in drives]
+    made = problem.model
+    if isinstance(made, DHModel | DHEulerModel) and not poses:
+        angles = {each.joint: Fraction(drive.value) for each, drive in chosen}
+        held = problem_of(hold_rows(made.loop, angles))
+        return held, scene_of(held)
+    if not isinstance(made, Model):
+        raise NagError(
+            "drive: of linkages, frameworks and tables bodies cannot be placed, and joints of the "
+            "first two not be held; give a mechanism at a reference configuration"
+        )
+    mechanism = HeldMechanism(made.mechanism, {})
+    for each, drive in chosen:
+        freedom = each.name[len(each.joint) + 1 :] or each.kind
+        mechanism = hold_joint(mechanism, each.joint, freedom, Fraction(drive.value))
+    for pose in poses:
+        mechanism = place_body(mechanism, pose.body, _displacement(made, pose))
+    held = problem_of(held_model(mechanism))
+    # A tie that holds its body somewhere else is no joint that is seen.
+    joints = tuple(
+        j for j in scene.joints if j.type != "rigid" or j.name not in mechanism.displacements
+    )
+    return held, replace(scene_of(held), joints=joints)
+
+
+def _displacement(made: Model, pose: Pose) -> GivenFrame:
+    """Where a pose takes a body from where it is drawn."""
+    numbers = (*pose.place, *(pose.quaternion or ()))
+    if not all(np.isfinite(x) for x in numbers):
+        raise NagError(f"pose: the numbers of {pose.body!r} have to be finite")
+    origin = given_point([Fraction(x) for x in pose.place])
+    if pose.quaternion is None:
+        return GivenFrame(origin=origin)
+    try:
+        turned = given_quaternion([Fraction(x) for x in pose.quaternion]).quaternion
+    except NagError as error:
+        raise NagError(f"pose: the quaternion of {pose.body!r} {error}") from None
+    drawn = made.mechanism.orientation(pose.body)
+    return GivenFrame(shortened(multiply(turned, conjugate(drawn))), origin)
+
+
+def isolated_assemblies(
+    scene: Scene, components: Sequence[WitnessSet], run: Run
+) -> list[DrivenAssembly]:
+    """The real assemblies among components of dimension 0, in the order of their values."""
+    found = []
+    for component in components:
+        points = np.asarray(find_real_points(component, run=run).points)
+        poses = scene.lift(points)
+        values = joint_values(scene, poses)
+        for i in range(len(points)):
+            found.append(DrivenAssembly(None, None, values[i], poses.at(slice(i, i + 1))))
+    return sorted(found, key=lambda each: tuple(np.round(each.values, DECIMALS)))
 
 
 def assemblies_on(

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -11,7 +11,17 @@ import numpy as np
 from nag.algebra.given import check_choice
 from nag.decomposition.through import through_points
 from nag.errors import NagError
-from nag.kinematics.driven import Drive, DrivenAssembly, assemblies_on, check_drive
+from nag.kinematics.driven import (
+    Drive,
+    DrivenAssembly,
+    Pose,
+    assemblies_on,
+    check_drive,
+    hold,
+    isolated_assemblies,
+    read_drives,
+    read_poses,
+)
 from nag.kinematics.joint_values import joint_coordinates
 from nag.kinematics.path import Curve, Path, sample_path, singular_places
 from nag.kinematics.poses import Poses, pose_distances
@@ -20,6 +30,7 @@ from nag.kinematics.turning_points import TurningPoint, Values, values_along
 from nag.kinematics.walks import CurveWalk, points_of, walks_of
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
+from nag.numerics.local_dimension import local_dimension
 from nag.real.curve import RealCurve
 from nag.text.table import count_text, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -49,6 +60,10 @@ Which = Literal["reference", "all"]
 
 class MotionError(NagError):
     """What has no motion of one freedom, with the reason."""
+
+
+class FreedomsError(MotionError):
+    """What moves with two freedoms or more."""
 
 
 @dataclass(frozen=True)
@@ -175,6 +190,8 @@ class Motion:
         assemblies: with that at its value, on all the circuits.
         left_out: which components were not looked at as they have more freedoms; empty if none.
         notes: what is not known.
+        held: joints that are held at values, if the circuits are those of what is left.
+        poses: bodies that are held at places.
     """
 
     scene: Scene
@@ -190,6 +207,8 @@ class Motion:
     notes: tuple[str, ...]
     drive: Drive | None = None
     assemblies: tuple[DrivenAssembly, ...] = ()
+    held: tuple[Drive, ...] = ()
+    poses: tuple[Pose, ...] = ()
 
     @property
     def complete(self) -> bool:
@@ -207,6 +226,8 @@ class Motion:
     def sentence(self) -> str:
         """The mobility in one sentence."""
         freedoms = count_text(self.freedoms, "freedom")
+        if not self.freedoms:
+            return f"it does not move, counting predicts {self.counted}"
         return f"it moves with {freedoms}, counting predicts {self.counted}"
 
     def table(self, circuit: int = 1, *, angles: str = "degrees") -> dict[str, np.ndarray]:
@@ -262,19 +283,10 @@ class Motion:
                 {"dimension": c.dimension, "degree": c.degree, "multiplicity": c.multiplicity}
                 for c in self.components
             ],
-            "drive": None
-            if self.drive is None
-            else {"coordinate": self.drive.coordinate, "value": self.drive.value},
-            "assemblies": [
-                {
-                    "circuit": a.circuit,
-                    "arc": a.arc,
-                    "values": a.values.tolist(),
-                    "positions": a.poses.places[:, 0].tolist(),
-                    "quaternions": a.poses.turns[:, 0].tolist(),
-                }
-                for a in self.assemblies
-            ],
+            "drive": None if self.drive is None else asdict(self.drive),
+            "held": [asdict(each) for each in self.held],
+            "poses": [asdict(each) for each in self.poses],
+            "assemblies": [each.document() for each in self.assemblies],
             "circuits": [c.document(scene) for c in self.circuits],
         }
 
@@ -286,10 +298,14 @@ def motion(
     circuit: Which = "reference",
     samples: int = SAMPLES,
     formulation: str = "auto",
-    drive: tuple[str, float] | None = None,
+    drive: tuple[str, float] | Mapping[str, float] | None = None,
+    pose: Mapping[str, Sequence[float]] | None = None,
     run: Run = DEFAULT_RUN,
 ) -> Motion:
     """How a mechanism of one freedom really moves: all joints and bodies along each circuit.
+
+    With joints held at values, or bodies at places, of what is left: its circuits, or all its real
+    assemblies where nothing moves any more, as those of an arm whose hand is held.
 
     Args:
         mechanism: a mechanism, a case, a linkage, a framework or a table, or a problem of one.
@@ -297,8 +313,10 @@ def motion(
             one; ``"all"`` for those of all components of dimension one.
         samples: into how many even steps each circuit is divided.
         formulation: of a mechanism's model, as for `nag.model`.
-        drive: the name of an angle or slide and a value, in radians or a length, at which all
-            assemblies on the circuits are wanted.
+        drive: the name of an angle or slide and a value, in radians or a length, or a dict of
+            several; of one freedom, all assemblies on the circuits at which it has the value.
+        pose: by the names of bodies that the ground is to hold, the place of a body's frame as a
+            motion's table has it: ``(x, y, z)``, or with a quaternion behind it 7 numbers.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
@@ -312,8 +330,51 @@ def motion(
     """
     check_choice(circuit, "circuit", get_args(Which))
     problem = in_real_coordinates(problem_of(mechanism, formulation=formulation))
-    held = None if drive is None else Drive(*drive)
-    return motion_of(problem, circuit=circuit, samples=samples, drive=held, run=run)
+    drives, poses = read_drives(drive), read_poses(pose)
+    if poses or len(drives) > 1 or (drives and moves_widely(problem, run)):
+        return held_motion(problem, drives, poses, samples=samples, run=run)
+    held = drives[0] if drives else None
+    try:
+        return motion_of(problem, circuit=circuit, samples=samples, drive=held, run=run)
+    except FreedomsError:
+        if not drives:
+            raise
+        return held_motion(problem, drives, samples=samples, run=run)
+
+
+def moves_widely(problem: Problem, run: Run) -> bool:
+    """Whether a mechanism has two freedoms or more at its reference configuration."""
+    if not isinstance(problem.model, Model) or not problem.reference:
+        return False
+    return local_dimension(problem.system, problem.reference, seed=run.seed).lower > 1
+
+
+def held_motion(
+    problem: Problem,
+    drives: Sequence[Drive],
+    poses: Sequence[Pose] = (),
+    *,
+    samples: int = SAMPLES,
+    run: Run = DEFAULT_RUN,
+) -> Motion:
+    """The circuits of a mechanism with joints held at values and bodies at places.
+
+    Also all its real assemblies that do not move.
+
+    Args:
+        problem: in real coordinates.
+        drives: the joints.
+        poses: the bodies.
+        samples: as for `motion`.
+        run: how it is worked out.
+
+    Raises:
+        MotionError: if what is left moves with two freedoms or more, or has no real assembly.
+        NagError: as `nag.kinematics.driven.hold` does.
+    """
+    left, scene = hold(problem, drives, poses)
+    found, _ = _motion_on(left, scene, "all", samples, run, holding=True)
+    return replace(found, held=tuple(drives), poses=tuple(poses))
 
 
 def motion_of(
@@ -330,17 +391,58 @@ def motion_of(
     Args:
         curve_of: finds the real points of a component; by default `nag.real` does.
     """
+    scene = scene_of(problem)
+    drives = [] if drive is None else [drive]
+    for each in drives:
+        check_drive(scene, each)
+    which: Which = circuit if scene.from_reference else "all"
+    found, made = _motion_on(problem, scene, which, samples, run, curve_of=curve_of)
+    return _at_value(found, made, drive) if drive is not None else found
+
+
+def drive_circuits(
+    problem: Problem, drives: Sequence[Drive], *, samples: int = SAMPLES, run: Run = DEFAULT_RUN
+) -> list[Motion]:
+    """All circuits of a mechanism of one freedom, with the assemblies at each of some values."""
+    scene = scene_of(problem)
+    for each in drives:
+        check_drive(scene, each)
+    found, made = _motion_on(problem, scene, "all", samples, run)
+    return [_at_value(found, made, each) for each in drives]
+
+
+def _at_value(motion: Motion, made: Sequence[_FoundCircuit], drive: Drive) -> Motion:
+    """A motion with the assemblies on its circuits at a value of a joint."""
+    assemblies = [
+        assembly
+        for each in made
+        for assembly in assemblies_on(each.path, each.values, drive, each.circuit.number, each.end)
+    ]
+    return replace(motion, drive=drive, assemblies=tuple(assemblies))
+
+
+def _motion_on(
+    problem: Problem,
+    scene: Scene,
+    which: Which,
+    samples: int,
+    run: Run,
+    *,
+    holding: bool = False,
+    curve_of: Callable[[WitnessSet], RealCurve] | None = None,
+) -> tuple[Motion, list[_FoundCircuit]]:
+    """The circuits in a scene, and what they were made of.
+
+    Args:
+        holding: whether isolated assemblies are wanted as well, as joints or bodies are held.
+    """
     if not isinstance(samples, int) or not LEAST_SAMPLES <= samples <= MOST_SAMPLES:
         raise NagError(f"samples: give a whole number from {LEAST_SAMPLES} to {MOST_SAMPLES}")
-    scene = scene_of(problem)
-    if drive is not None:
-        check_drive(scene, drive)
     if not problem.system.n:
         raise MotionError("no equation has an unknown: nothing moves but what is in no loop")
-    which: Which = circuit if scene.from_reference else "all"
     decomposition = problem.decompose(run=run)
     notes = [] if decomposition.complete else [f"components: {'; '.join(decomposition.notes)}"]
-    found, left_out, others = _choose_components(problem, decomposition, which, run, notes)
+    found, left_out, others = _choose_components(problem, decomposition, which, run, notes, holding)
     curve_of = curve_of or (lambda component: _real_curve(component, run))
     curves = []
     for i, component in enumerate(found):
@@ -353,31 +455,29 @@ def motion_of(
         if not curve.complete
     ]
     circuits = _circuits(problem, scene, curves, which, samples)
-    if not circuits and not notes:
+    isolated: list[DrivenAssembly] = []
+    if holding:
+        points = [c for c in others.components if c.dimension == 0]
+        isolated = isolated_assemblies(scene, points, run)
+    if not circuits and not notes and not holding:
         raise MotionError(_no_motion(curves, left_out))
     finished = _with_crossings(circuits, others, found, run)
-    assemblies = [
-        assembly
-        for each in circuits
-        if drive is not None
-        for assembly in assemblies_on(each.path, each.values, drive, each.circuit.number, each.end)
-    ]
     made = problem.model
-    return Motion(
+    motion = Motion(
         scene,
         tuple(found),
         tuple(curves),
         tuple(finished),
         made.reason,
-        1 + problem.free,
+        int(bool(found) or not holding) + problem.free,
         made.gruebler_kutzbach,
         _idle(problem, run),
         which,
         left_out,
         tuple(notes),
-        drive,
-        tuple(assemblies),
+        assemblies=tuple(isolated),
     )
+    return motion, circuits
 
 
 def _real_curve(component: WitnessSet, run: Run) -> RealCurve:
@@ -392,8 +492,13 @@ def _choose_components(
     which: Which,
     run: Run,
     notes: list[str],
+    holding: bool,
 ) -> tuple[list[WitnessSet], str, Decomposition]:
-    """The components to look at, what is left out of them, and all that there are."""
+    """The components to look at, what is left out of them, and all that there are.
+
+    Args:
+        holding: whether there need not be any, as assemblies are wanted that do not move.
+    """
     expanded = expand_orbits(decomposition)
     if which == "reference":
         name = ("the reference configuration", tuple(problem.reference or ()))
@@ -409,11 +514,11 @@ def _choose_components(
         where = ""
     curves = [c for c in own if c.dimension == 1]
     largest = max((c.dimension for c in own), default=0)
-    if not curves and not notes:
+    if not curves and not notes and not (holding and largest <= 1):
         if largest > 1:
-            raise MotionError(
+            raise FreedomsError(
                 f"it moves with {count_text(largest + problem.free, 'freedom')} {where}".rstrip()
-                + "; a motion is that of a mechanism with one: hold joints (type rigid)"
+                + "; a motion is that of a mechanism with one: hold joints (--drive JOINT=VALUE)"
             )
         raise MotionError(f"it does not move {where}".rstrip() + "; see nag mobility")
     larger = sum(c.dimension > 1 for c in own)

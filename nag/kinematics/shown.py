@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nag.kinematics.driven_motion import DrivenMotion, range_of
 from nag.kinematics.joint_values import Coordinate, joint_coordinates
 from nag.kinematics.motion import Circuit, Crossing, Motion
 from nag.kinematics.turning_points import STILL, TurningPoint, Values
@@ -122,24 +123,67 @@ def _never_moving(motion: Motion) -> list[str]:
 
 
 def assembly_rows(motion: Motion) -> list[str]:
-    """The table of assemblies with a joint held: a line for each."""
-    assert motion.drive is not None
+    """The table of assemblies with joints or bodies held: a line for each."""
     coordinates = joint_coordinates(motion.scene)
-    rows = [["assembly", "circuit", *(c.name for c in coordinates)]]
+    circuit = ["circuit"] if motion.drive is not None else []
+    rows = [["assembly", *circuit, *(c.name for c in coordinates)]]
     for number, each in enumerate(motion.assemblies, start=1):
         values = zip(coordinates, each.values, strict=True)
         texts = [value_text(c, value) for c, value in values]
-        rows.append([str(number), str(each.circuit), *texts])
+        rows.append([str(number), *(str(each.circuit) for _ in circuit), *texts])
     return align(rows)
 
 
 def drive_text(motion: Motion) -> str:
-    """What is held, and how many assemblies there are."""
-    drive = motion.drive
-    assert drive is not None
-    each = next(c for c in joint_coordinates(motion.scene) if c.name == drive.coordinate)
+    """What is held, and how many assemblies there are that do not move."""
+    coordinates = {c.name: c for c in joint_coordinates(motion.scene)}
+    drives = motion.held if motion.drive is None else (motion.drive,)
+    texts = []
+    for drive in drives:
+        each = coordinates.get(drive.coordinate)
+        value = value_text(each or Coordinate("", "", "angle"), drive.value)
+        texts.append(f"{drive.coordinate} at {value}")
+    for pose in motion.poses:
+        numbers = (*pose.place, *(pose.quaternion or ()))
+        texts.append(f"{pose.body} at ({', '.join(f'{x:.6g}' for x in numbers)})")
+    return f"{', '.join(texts)}{_assemblies_text(motion)}"
+
+
+def _assemblies_text(motion: Motion) -> str:
     count = count_text(len(motion.assemblies), "real assembly", "real assemblies")
-    return f"{each.name} at {value_text(each, drive.value)}: {count}"
+    if not motion.circuits or motion.drive is not None:
+        return f": {count}"
+    return f"; {count} besides that do not move" if motion.assemblies else ""
+
+
+def driven_rows(driven: DrivenMotion) -> list[str]:
+    """The table of a joint driven through values: a line for each."""
+    rows = [[driven.coordinate.name, "circuits", "lengths", "assemblies"]]
+    for value, motion in zip(driven.values, driven.motions, strict=True):
+        moving = () if motion.drive is not None else motion.circuits
+        lengths = ", ".join(f"{c.length:.4g}" for c in moving)
+        shown = value_text(driven.coordinate, value)
+        rows.append([shown, str(len(moving)), lengths, str(len(motion.assemblies))])
+    return align(rows, left=(2,))
+
+
+def continuation_rows(driven: DrivenMotion) -> list[tuple[str, str]]:
+    """How circuits go on from value to value: a labelled line for each."""
+    rows = []
+    for number, each in enumerate((c for c in driven.continuations if c.moves), start=1):
+        last = each.first + len(each.members) - 1
+        ends = [value_text(driven.coordinate, driven.values[i]) for i in (each.first, last)]
+        lengths = [f"{x:.4g}" for x in range_of(driven.motions, each)]
+        where = f"from {ends[0]} to {ends[1]}" if last > each.first else f"at {ends[0]} only"
+        rows.append((f"circuit {number}", f"{where}, length {' to '.join(dict.fromkeys(lengths))}"))
+    return rows
+
+
+def driven_text(driven: DrivenMotion) -> str:
+    """What is seen at the prompt."""
+    values = count_text(len(driven), "value")
+    rows = [("model", driven.motions[0].reason), *continuation_rows(driven)]
+    return lines_of(f"{driven.coordinate.name} driven through {values}", rows)
 
 
 def motion_text(motion: Motion) -> str:

@@ -5,9 +5,10 @@ Read in this order, bottom-up: `graph` on `joint_types` (the data), `networkx_gr
 `model` (the choice, by `path_estimates`); the formulations `planar` and `euler` (each with its loop
 equations), and `half_angles` and `rods` on `joint_factors` and `loop_product` (their loop
 equations); `assembly_modes`, `mode_classes` and `mode_decomposition`; `configuration` (all bodies),
-and `unreduced` (all constraints, for checks). Other ways to give one are `framework` (with
-`framework_model`, `isotropic` and `framework_decomposition`), `dh` and `linkage`, on
-`assembly` and `real_assemblies`. `problem` is what all of these come down to, and cases and
+`holding` on `given_rotation` (joints held at values, bodies put elsewhere), and `unreduced` (all
+constraints, for checks). Other ways to give one are `framework` (with `framework_model`,
+`isotropic` and `framework_decomposition`), `dh` and `linkage`, on `assembly` and
+`real_assemblies`. `problem` is what all of these come down to, and cases and
 equations with them, and what `nag.decompose` and `nag.solve` ask; `coordinates` carries its
 components over to Euler parameters, `other_equations` are those that must say the same.
 `mobility_at` with `mobility_report` and `bonds` says how one moves, `moving_parts` what of it, and

@@ -17,7 +17,7 @@ the base, its frame the global one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import acos, degrees, sqrt
 from typing import Any
@@ -33,6 +33,7 @@ from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import zero_length
 from nag.mechanism.configuration import arithmetic_of, as_entries
 from nag.mechanism.euler import independent_equations, parameter_names, sign_changes
+from nag.mechanism.given_rotation import turn_about
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.joint_factors import NOTHING, ONE, UNIT, ZERO, Charts, Factor
 from nag.mechanism.loop_product import Closure, Element, closure_of
@@ -249,6 +250,26 @@ def dh_model(loop: DHLoop) -> DHModel:
     charts = Charts.of([e.factor for e in closure.kept if e.factor is not None])
     equations = independent_polynomials(closure.polynomials(charts.values.__getitem__))
     return DHModel(loop, closure, charts, replace(charts.system(()), polynomials=tuple(equations)))
+
+
+def hold_rows(loop: DHLoop, angles: Mapping[str, Number]) -> DHModel:
+    """The closure equations of a table with some of its open joints at angles.
+
+    Args:
+        loop: the table.
+        angles: by the joints' names, in radians; rounded to 16 digits where they are no multiples
+            of pi/12.
+
+    Raises:
+        DHError: as `dh_model` does.
+    """
+    rows = []
+    for row in loop.rows:
+        if row.name in angles:
+            turn = turn_about((ZERO, ZERO, ONE), angles[row.name]).quaternion
+            row = replace(row, theta=(turn[0], turn[3]))
+        rows.append(row)
+    return dh_model(DHLoop(tuple(rows)))
 
 
 def assemble_table(loop: DHLoop) -> Mechanism:

@@ -12,10 +12,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from math import prod
+from types import MappingProxyType
 from typing import Any
 
 from nag.algebra.combinations import of_fewest_variables
@@ -47,7 +48,13 @@ from nag.mechanism.loop_product import (
 )
 from nag.mechanism.loops import Loop, LoopStructure, loop_bases
 from nag.mechanism.path_estimates import intersection_number, intersection_numbers
-from nag.mechanism.quaternion import conjugate, multiply, norm_squared, scale
+from nag.mechanism.quaternion import (
+    DualQuaternion,
+    conjugate,
+    multiply,
+    norm_squared,
+    scale,
+)
 from nag.numerics.read_only import fixed_mapping
 
 # Dimension of what two joints, or one of three freedoms, range over.
@@ -83,8 +90,10 @@ class HalfAngleModel:
             body to its second.
         system: the equations; one group of variables for each factor; points where a factor's norm
             vanishes are excluded.
-        reference: the reference configuration; empty in other assembly modes.
+        reference: the reference configuration; empty in other assembly modes, and of joints that
+            are held elsewhere.
         modes: the assembly modes.
+        displacements: of joints that are held elsewhere, as `LoopClosures.of` takes them.
     """
 
     structure: LoopStructure
@@ -94,9 +103,11 @@ class HalfAngleModel:
     system: PolynomialSystem
     reference: tuple[Number, ...]
     modes: Modes
+    displacements: Mapping[str, DualQuaternion] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "elements", fixed_mapping(self.elements))
+        object.__setattr__(self, "displacements", fixed_mapping(self.displacements))
 
     def coordinates(self, point: Sequence[Any]) -> dict[str, tuple[tuple[Any, ...], ...]]:
         """For each joint, by name, homogeneous coordinates of its factors at a solution.
@@ -155,7 +166,7 @@ class HalfAngleModel:
             turned[child] = unit
             euler[child] = multiply(unit, reference[child])
         for joint in structure.joints:
-            if slide_directions(joint):
+            if slide_directions(joint) or joint.name in self.displacements:
                 place = [convert(x) for x in joint.point]
                 there = move_place(relative[joint.name], place)
                 slides[joint.name] = difference(there, place)
@@ -173,6 +184,7 @@ class LoopClosures:
         kept: the factors whose coordinates are the unknowns, in their order.
         modes: the assembly modes.
         stopped: where bases were left that might have been better, how many were looked at.
+        displacements: of joints that are held elsewhere.
     """
 
     structure: LoopStructure
@@ -181,20 +193,32 @@ class LoopClosures:
     kept: tuple[Factor, ...]
     modes: Modes
     stopped: str = ""
+    displacements: Mapping[str, DualQuaternion] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, structure: LoopStructure, modes: Modes = REFERENCE) -> LoopClosures:
+    def of(
+        cls,
+        structure: LoopStructure,
+        modes: Modes = REFERENCE,
+        displacements: Mapping[str, DualQuaternion] = MappingProxyType({}),
+    ) -> LoopClosures:
         """Those with the fewest paths each.
+
+        Args:
+            structure: the mechanism's part with loops.
+            modes: the assembly modes.
+            displacements: of joints, by name, a constant displacement of the second body against
+                the first, from the reference configuration, that comes before what is free.
 
         Raises:
             ValueError: if a loop has nothing of its own to eliminate, or nothing is left.
         """
-        elements, chosen, stopped = _choose_closures(structure, dict(modes))
+        elements, chosen, stopped = _choose_closures(structure, dict(modes), displacements)
         lost = {f for c in chosen for f in c.lost}
         kept = tuple(f for f in _in_order(chosen) if f not in lost)
         if not kept:
             raise NagError(_too_short(len(structure.joints)))
-        return cls(structure, tuple(chosen), elements, kept, modes, stopped)
+        return cls(structure, tuple(chosen), elements, kept, modes, stopped, displacements)
 
     def estimated_paths(self, space: Space) -> int:
         """What `nag.mechanism.path_estimates.estimated_paths` says of equations as they look.
@@ -225,8 +249,9 @@ class LoopClosures:
             charts,
             self.elements,
             charts.system(equations),
-            () if self.modes else charts.reference,
+            () if self.modes or self.displacements else charts.reference,
             self.modes,
+            self.displacements,
         )
 
 
@@ -246,7 +271,9 @@ def _equations(closure: Closure, charts: Charts) -> Sequence[Polynomial]:
 
 
 def _choose_closures(
-    structure: LoopStructure, modes: dict[str, int]
+    structure: LoopStructure,
+    modes: dict[str, int],
+    displacements: Mapping[str, DualQuaternion],
 ) -> tuple[dict[str, tuple[Element, ...]], list[Closure], str]:
     """For some basis of the loops: what each of them eliminates, with the fewest paths.
 
@@ -263,7 +290,7 @@ def _choose_closures(
                 stopped = f"choosing stopped after {bases} of {len(loops)} loops"
                 break
             elements: dict[str, tuple[Element, ...]] = {}
-            products = [_loop_elements(loop, modes, elements) for loop in loops]
+            products = [_loop_elements(p, modes, displacements, elements) for p in loops]
             users = Counter(f for product in products for f in factors_in(product))
             chosen = []
             for loop, product in zip(loops, products, strict=True):
@@ -326,6 +353,7 @@ def _cost(closure: Closure) -> tuple[int, int]:
 def _loop_elements(
     loop: Loop,
     modes: dict[str, int],
+    displacements: Mapping[str, DualQuaternion],
     known: dict[str, tuple[Element, ...]],
 ) -> list[Element]:
     """The loop's product; the elements of its joints, first body to second, are put in ``known``.
@@ -337,6 +365,9 @@ def _loop_elements(
         forward = joint.bodies[0] == body
         if joint.name not in known:
             known[joint.name] = joint_elements(joint, modes.get(joint.name, 0), forward)
+            if joint.name in displacements:
+                before = Element(None, (displacements[joint.name],))
+                known[joint.name] = (before, *known[joint.name])
         own = known[joint.name]
         product += own if forward else opposite(own)
     return product

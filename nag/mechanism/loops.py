@@ -47,7 +47,9 @@ class RigidGroups:
         return RigidGroups, (self.original, self.merged, dict(self.leader), self.idle)
 
 
-def rigid_groups(mechanism: Mechanism, held: Collection[str] = ()) -> RigidGroups:
+def rigid_groups(
+    mechanism: Mechanism, held: Collection[str] = (), displaced: Collection[str] = ()
+) -> RigidGroups:
     """Tie the bodies of rigid joints together, and of those that are held.
 
     Joints are in global coordinates of the reference configuration, so that they stay as they are;
@@ -55,8 +57,14 @@ def rigid_groups(mechanism: Mechanism, held: Collection[str] = ()) -> RigidGroup
 
     Args:
         held: names of joints.
+        displaced: names of rigid joints whose bodies are not where they are drawn: they tie
+            nothing.
     """
-    ties = {j.name for j in mechanism.joints if j.of_type.is_rigid or j.name in held}
+    ties = {
+        j.name
+        for j in mechanism.joints
+        if j.name not in displaced and (j.of_type.is_rigid or j.name in held)
+    }
     leader = {b: b for b in mechanism.body_names}
     order = {b: i for i, b in enumerate(mechanism.body_names)}
     for joint in mechanism.joints:
@@ -157,19 +165,22 @@ class LoopStructure:
                     yield parent, child, joint
 
 
-def loop_structure(mechanism: Mechanism) -> LoopStructure:
+def loop_structure(mechanism: Mechanism, displaced: Collection[str] = ()) -> LoopStructure:
     """Merge rigid bodies, cut dangling trees off and choose a minimum cycle basis.
 
     A mechanism without loops gives a structure without moving bodies.
+
+    Args:
+        displaced: names of rigid joints that stay joints, as for `rigid_groups`.
     """
-    given, groups = mechanism, rigid_groups(mechanism)
+    given, groups = mechanism, rigid_groups(mechanism, displaced=displaced)
     mechanism = groups.merged
     if groups.is_one_body:
         return LoopStructure(mechanism, groups, mechanism.ground, (), (), (), ())
     kept, left_out = _split_off_trees(mechanism.joints)
     names = _bridges(kept)
     if names:
-        groups = rigid_groups(given, names)
+        groups = rigid_groups(given, names, displaced)
         mechanism = groups.merged
         kept, left_out = _split_off_trees(mechanism.joints)
     bridges = tuple(j for j in given.joints if j.name in names)

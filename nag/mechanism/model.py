@@ -108,6 +108,8 @@ class Model:
     @cached_property
     def alternatives(self) -> tuple[Alternative, ...]:
         """All formulations of the mechanism, by rising number of paths, and this one."""
+        if isinstance(self.form, HalfAngleModel) and self.form.displacements:
+            return (Alternative(self.formulation, self.form),)
         found = alternatives(self.structure, self.space, self.modes)
         if self.formulation in FORMULATIONS:
             return found
@@ -263,6 +265,16 @@ def with_loops(mechanism: Mechanism) -> LoopStructure:
         ModelError: if there is none.
     """
     structure = loop_structure(mechanism)
+    check_loops(mechanism, structure)
+    return structure
+
+
+def check_loops(mechanism: Mechanism, structure: LoopStructure) -> None:
+    """Make sure that a mechanism has loops.
+
+    Raises:
+        ModelError: if it has none.
+    """
     if structure.groups.is_one_body:
         raise ModelError("all bodies are tied together by rigid joints: nothing moves")
     if not structure.loops:
@@ -270,7 +282,6 @@ def with_loops(mechanism: Mechanism) -> LoopStructure:
             f"the mechanism has no loop: each of its {len(mechanism.joints)} joints moves freely, "
             f"so its mobility is {structure.cut_freedoms} and there is nothing to decompose"
         )
-    return structure
 
 
 def _reason(structure: LoopStructure, space: Space, chosen: Alternative, asked: str) -> str:

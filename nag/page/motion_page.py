@@ -6,6 +6,7 @@ import base64
 import json
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from html import escape
 from importlib import resources
 from typing import Any
@@ -13,9 +14,10 @@ from typing import Any
 import numpy as np
 
 from nag.errors import NagError
+from nag.kinematics.driven_motion import DrivenMotion
 from nag.kinematics.motion import Circuit, Crossing, Motion
 from nag.kinematics.poses import turn_back, turn_vectors
-from nag.kinematics.shown import crossing_text, range_text, turning_text
+from nag.kinematics.shown import crossing_text, range_text, turning_text, value_text
 from nag.page.link_shapes import BodyShape, Shapes, link_shapes
 from nag.text.table import count_text
 
@@ -40,22 +42,79 @@ def motion_page(motion: Motion, title: str, file: str) -> str:
     Raises:
         NagError: if there is no circuit, or too many bodies and circuits for one page.
     """
+    return _fitting_page(motion, title, file, None)
+
+
+def driven_page(driven: DrivenMotion, title: str, file: str) -> str:
+    """The page of a joint driven through values: one slider more.
+
+    Args:
+        driven: what is left at each value.
+        title, file: as for `motion_page`.
+
+    Raises:
+        NagError: if there is no circuit at any value, or too many for one page.
+    """
+    circuits, values, families = [], [], []
+    family = {
+        (each.first + i, k): number
+        for number, each in enumerate(c for c in driven.continuations if c.moves)
+        for i, k in enumerate(each.members)
+    }
+    for i, motion in enumerate(driven.motions):
+        for k, circuit in enumerate(motion.circuits if motion.drive is None else ()):
+            circuits.append(replace(circuit, number=len(circuits) + 1))
+            values.append(i)
+            families.append(family[i, k])
+    shown = [value_text(driven.coordinate, value) for value in driven.values]
+    held = _Held(driven.coordinate.name, shown, values, families)
+    return _fitting_page(replace(driven[0], circuits=tuple(circuits)), title, file, held)
+
+
+@dataclass(frozen=True)
+class _Held:
+    """What the second slider shows.
+
+    Attributes:
+        name: of the joint.
+        values: as text.
+        of_circuit: index of the value that each circuit belongs to.
+        family: a number of each circuit, the same for those that continue each other.
+    """
+
+    name: str
+    values: list[str]
+    of_circuit: list[int]
+    family: list[int]
+
+
+def _fitting_page(motion: Motion, title: str, file: str, held: _Held | None) -> str:
+    """The page with as many frames as fit."""
     if not motion.circuits:
         raise NagError("html: there is no real motion to show")
-    page = _with_frames(motion, title, file, _frame_count(motion, BYTES))
+    page = _with_frames(motion, title, file, _frame_count(motion, BYTES), held)
     excess = len(page.encode()) - MOST_BYTES
     if excess > 0:
-        page = _with_frames(motion, title, file, _frame_count(motion, BYTES - excess))
+        page = _with_frames(motion, title, file, _frame_count(motion, BYTES - excess), held)
     return page
 
 
-def _with_frames(motion: Motion, title: str, file: str, frames: int) -> str:
+def _with_frames(motion: Motion, title: str, file: str, frames: int, held: _Held | None) -> str:
     """The page with so many frames for each circuit, at most."""
     data = _page_data(motion, title, file, frames)
+    if held is not None:
+        data["held"] = {"name": held.name, "values": held.values}
+        own = zip(data["circuits"], held.of_circuit, held.family, strict=True)
+        for number, (each, value, family) in enumerate(own):
+            # Circuits are told apart by the others at the same value.
+            before = held.of_circuit[:number].count(value)
+            count = held.of_circuit.count(value)
+            each |= {"value": value, "family": family}
+            each["label"] = f"circuit {before + 1} of {count}, {_closed_text(each['closed'])}"
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     parts = {
         "title": escape(title),
-        "subtitle": escape(subtitle(motion)),
+        "subtitle": escape(subtitle(motion, held)),
         "style": _part("viewer.css"),
         "test": _part("self_test.js"),
         "licence": _part("three.LICENSE").strip(),
@@ -66,14 +125,17 @@ def _with_frames(motion: Motion, title: str, file: str, frames: int) -> str:
     return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], page_part("page.html"))
 
 
-def subtitle(motion: Motion) -> str:
+def subtitle(motion: Motion, held: _Held | None = None) -> str:
     """What moves, in one line."""
     joints = [j for j in motion.scene.joints if j.type != "rigid"]
     kinds = list(dict.fromkeys(j.type for j in joints))
     counts = [count_text(sum(j.type == kind for j in joints), f"{kind} joint") for kind in kinds]
     degrees = sorted({c.degree for c in motion.components})
     curve = f"curve of degree {degrees[0]}" if len(degrees) == 1 else "curves"
-    return f"{', '.join(counts)}; {count_text(len(motion.circuits), 'circuit')}; {curve}"
+    circuits = count_text(len(motion.circuits), "circuit")
+    if held is not None:
+        circuits += f" at {count_text(len(held.values), 'value')} of {held.name}"
+    return f"{', '.join(counts)}; {circuits}; {curve}"
 
 
 def script_text(text: str) -> str:
@@ -299,10 +361,14 @@ def _circuit_data(motion: Motion, circuit: Circuit, frames: int) -> dict[str, An
 def circuit_label(motion: Motion, circuit: Circuit) -> str:
     """What a circuit is called in the menu."""
     text = f"circuit {circuit.number} of {len(motion.circuits)}, "
-    text += "closed" if circuit.closed else "open"
+    text += _closed_text(circuit.closed)
     if circuit.through_reference and len(motion.circuits) > 1:
         text += ", through the reference"
     return text
+
+
+def _closed_text(closed: bool) -> str:
+    return "closed" if closed else "open"
 
 
 def _between(rows: np.ndarray, at: np.ndarray) -> np.ndarray:

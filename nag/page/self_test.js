@@ -68,6 +68,13 @@
       const home = page.at();
       key("ArrowRight");
       seen.keys = home === 0 && page.at() === 1;
+      if (page.data.held) {
+        page.choose(0);
+        const driver = $("drivescrub"), value = page.data.circuits.at(-1).value;
+        driver.value = String(value);
+        driver.dispatchEvent(new Event("input"));
+        seen.driven = !driver.closest("label").hidden && page.circuit().value === value;
+      }
       page.choose(page.data.circuits.length - 1);
       seen.chosen = page.circuit().number === page.data.circuits.at(-1).number;
       seen.rows = page.csv().trim().split("\n").length - 1;

@@ -619,8 +619,44 @@
     }
     show(next);
   }
+  // Of a driven joint the menu has the circuits at its value.
+  function listCircuits() {
+    const own = data.circuits.map((each, i) => [each, i])
+      .filter(([each]) => !data.held || each.value === circuit.value);
+    $("circuit").replaceChildren(...own.map(([each, i]) => new Option(each.label, String(i))));
+    if (!data.held) return;
+    $("drivescrub").value = String(circuit.value);
+    $("drivevalue").textContent = data.held.values[circuit.value];
+  }
+  // The frame of a circuit in which all bodies are nearest to where they are.
+  function nearestFrame(next) {
+    const spots = hubs.map((hub) => place(hub.body, hub.at, Math.min(frame, last() - 1e-6), new Vector3()));
+    const here = circuit;
+    let best = 0, least = Infinity;
+    circuit = next;
+    for (let i = 0; i < next.frames; i++) {
+      let away = 0;
+      hubs.forEach((hub, k) => { away += place(hub.body, hub.at, Math.min(i, last() - 1e-6), spot).distanceToSquared(spots[k]); });
+      if (away < least) { least = away; best = i; }
+    }
+    circuit = here;
+    return best;
+  }
+  // The circuit that continues this one at another value, else the first one there.
+  function driveTo(index) {
+    const there = data.circuits.map((each, i) => [each, i]).filter(([each]) => each.value === index);
+    if (!there.length) {
+      $("drivevalue").textContent = `${data.held.values[index]}, no circuit`;
+      return;
+    }
+    const [next, i] = there.find(([each]) => each.family === circuit.family) ?? there[0];
+    const at = nearestFrame(next);
+    choose(i);
+    show(at);
+  }
   function choose(index) {
     circuit = data.circuits[index];
+    listCircuits();
     $("circuit").value = String(index);
     $("scrub").max = String(10 * last());
     backwards = false;
@@ -740,7 +776,12 @@
   };
 
   // ---- controls -----------------------------------------------------------------------------
-  $("circuit").replaceChildren(...data.circuits.map((each, i) => new Option(each.label, String(i))));
+  if (data.held) {
+    $("drive").hidden = false;
+    $("drivename").textContent = data.held.name;
+    $("drivescrub").max = String(data.held.values.length - 1);
+    $("drivescrub").oninput = () => driveTo(Number($("drivescrub").value));
+  }
   $("circuit").onchange = () => choose(Number($("circuit").value));
   $("play").onclick = () => (playing ? stop() : play());
   $("scrub").oninput = () => { stop(); show(Number($("scrub").value) / 10); };
@@ -795,6 +836,6 @@
   show(0);
   nextFrame(tick);
 
-  window.nagPage = { data, show, play, stop, choose, csv, at: () => frame, pick, place, camera, groups, renderer,
+  window.nagPage = { data, show, play, stop, choose, driveTo, csv, at: () => frame, pick, place, camera, groups, renderer,
     circuit: () => circuit };
 })();

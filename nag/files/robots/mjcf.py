@@ -15,7 +15,9 @@ from nag.algebra.number import PI, Number
 from nag.algebra.tokens import nearest, quote
 from nag.errors import NagError
 from nag.files.case_table import CaseError, line_of
-from nag.files.robots.given_rotation import (
+from nag.files.robots.robot import LoopClosure, Robot, RobotJoint, check_unique
+from nag.files.robots.xml_file import XmlElement, parse_xml
+from nag.mechanism.given_rotation import (
     GivenFrame,
     GivenTurn,
     Taken,
@@ -26,8 +28,6 @@ from nag.files.robots.given_rotation import (
     turn_about,
     turns_in_order,
 )
-from nag.files.robots.robot import LoopClosure, Robot, RobotJoint, check_unique
-from nag.files.robots.xml_file import XmlElement, parse_xml
 
 WORLD = "world"
 TYPES = {"hinge": "revolute", "slide": "prismatic", "ball": "spherical", "free": "floating"}

@@ -12,8 +12,8 @@ from nag.algebra.number import Irrational, Number, is_zero, rounded_fraction, sq
 from nag.algebra.tokens import ExpressionError, nearest, quote
 from nag.errors import MechanismError, NagError
 from nag.files.case_table import CaseError, line_of
-from nag.files.robots.given_rotation import SHORT, GivenFrame, Taken, turn_about
 from nag.mechanism.axes import Vector, cross, difference, dot, vanishes
+from nag.mechanism.given_rotation import SHORT, GivenFrame, Taken, turn_about
 from nag.mechanism.graph import ORIGIN, Joint, Mechanism, connected_to
 
 UNITS = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))

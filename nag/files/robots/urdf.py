@@ -10,9 +10,9 @@ from fractions import Fraction
 from nag.algebra.tokens import nearest, quote
 from nag.errors import NagError
 from nag.files.case_table import CaseError, line_of
-from nag.files.robots.given_rotation import GivenFrame, given_axis, given_point, turns_in_order
 from nag.files.robots.robot import Robot, RobotJoint, check_unique
 from nag.files.robots.xml_file import XmlElement, parse_xml
+from nag.mechanism.given_rotation import GivenFrame, given_axis, given_point, turns_in_order
 
 TYPES = {
     "revolute": "revolute",

@@ -1,0 +1,241 @@
+"""A joint driven through several values, and what the rest can do at each of them.
+
+Of one freedom these are the assemblies with each value; of two, the circuits that are left. What is
+next to what at the following value is taken for its continuation, if either is the nearest of the
+other: between values that are far apart circuits may have met and parted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from nag.errors import NagError
+from nag.kinematics.driven import (
+    Drive,
+    Pose,
+    check_drive,
+    read_drives,
+    read_poses,
+)
+from nag.kinematics.joint_values import Coordinate, joint_coordinates
+from nag.kinematics.motion import (
+    SAMPLES,
+    Circuit,
+    FreedomsError,
+    Motion,
+    drive_circuits,
+    held_motion,
+    moves_widely,
+)
+from nag.kinematics.poses import Poses, pose_distances
+from nag.kinematics.scene import Scene, scene_of
+from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
+from nag.text.table import one_line
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+
+# Values that a joint is driven through, at most.
+MOST_VALUES = 1_000
+# Samples of a circuit that are compared with those of another one.
+COMPARED = 60
+
+
+@dataclass(frozen=True)
+class Continuation:
+    """A circuit, or an assembly that does not move, as it goes on from value to value.
+
+    Attributes:
+        moves: whether it is a circuit.
+        first: index of the value at which it begins.
+        members: index of the circuit, or of the assembly, at each of the values from there on.
+    """
+
+    moves: bool
+    first: int
+    members: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class DrivenMotion:
+    """A mechanism with a joint at one value after another.
+
+    Attributes:
+        coordinate: the joint's angle or slide.
+        values: in radians, or lengths.
+        motions: what is left at each.
+        continuations: how circuits and assemblies go on, by where they begin.
+    """
+
+    coordinate: Coordinate
+    values: tuple[float, ...]
+    motions: tuple[Motion, ...]
+    continuations: tuple[Continuation, ...]
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing is left open at any value."""
+        return all(motion.complete for motion in self.motions)
+
+    def __len__(self) -> int:
+        return len(self.motions)
+
+    def __iter__(self) -> Iterator[Motion]:
+        return iter(self.motions)
+
+    def __getitem__(self, index: int) -> Motion:
+        return self.motions[index]
+
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        from nag.kinematics.shown import driven_text
+
+        return driven_text(self)
+
+    def document(self) -> dict[str, Any]:
+        """All of it as a JSON object without its head; angles are in radians."""
+        return {
+            "coordinate": self.coordinate.name,
+            "kind": self.coordinate.kind,
+            "values": list(self.values),
+            "motions": [motion.document() for motion in self.motions],
+            "continuations": [
+                {
+                    "of": "circuit" if each.moves else "assembly",
+                    "first": each.first,
+                    "members": list(each.members),
+                }
+                for each in self.continuations
+            ],
+        }
+
+
+@takes_run
+def driven_motion(
+    mechanism: Any,
+    coordinate: str,
+    values: Sequence[float],
+    *,
+    samples: int = SAMPLES,
+    formulation: str = "auto",
+    drive: Any = None,
+    pose: Any = None,
+    run: Run = DEFAULT_RUN,
+) -> DrivenMotion:
+    """What a mechanism can do with a joint at one value after another.
+
+    Args:
+        mechanism: as for `nag.motion`.
+        coordinate: the name of an angle or slide.
+        values: in radians, or lengths, in the order in which it is driven through them.
+        samples, formulation: as for `nag.motion`.
+        drive: other joints that are held, as `nag.motion` takes them.
+        pose: bodies that are held, as `nag.motion` takes them.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+
+    Raises:
+        nag.kinematics.motion.MotionError: if with the joint held two freedoms or more are left.
+        NagError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> driven = nag.driven_motion("cases/bennett.toml", "J0", [0.2, 0.4])
+    >>> [len(motion.assemblies) for motion in driven]
+    [1, 1]
+    """
+    if not 1 <= len(values) <= MOST_VALUES:
+        raise NagError(f"values: give 1 to {MOST_VALUES}, not {len(values)}")
+    problem = in_real_coordinates(problem_of(mechanism, formulation=formulation))
+    scene = scene_of(problem)
+    column = check_drive(scene, Drive(coordinate, float(values[0])))
+    steps = [Drive(coordinate, float(value)) for value in values]
+    others, poses = read_drives(drive), read_poses(pose)
+    motions = _motions(problem, steps, others, poses, samples, run)
+    return DrivenMotion(
+        joint_coordinates(scene)[column],
+        tuple(each.value for each in steps),
+        tuple(motions),
+        _continuations(motions),
+    )
+
+
+def _motions(
+    problem: Problem,
+    steps: Sequence[Drive],
+    others: Sequence[Drive],
+    poses: Sequence[Pose],
+    samples: int,
+    run: Run,
+) -> list[Motion]:
+    """What is left at each value."""
+    if not others and not poses and not moves_widely(problem, run):
+        try:
+            return drive_circuits(problem, steps, samples=samples, run=run)
+        except FreedomsError:
+            pass
+    found = []
+    for i, step in enumerate(steps):
+        if run.progress is not None:
+            run.progress("values", i, len(steps))
+        found.append(held_motion(problem, (*others, step), poses, samples=samples, run=run))
+    return found
+
+
+def _continuations(motions: Sequence[Motion]) -> tuple[Continuation, ...]:
+    """How circuits and assemblies go on; those of one freedom have circuits of their own."""
+    found: list[Continuation] = []
+    for moves in (True, False):
+        if moves and motions[0].drive is not None:
+            continue
+        open_ones: dict[int, Continuation] = {}
+        before: list[Poses] = []
+        for i, motion in enumerate(motions):
+            own = _places(motion, moves)
+            pairs = _nearest_pairs(motion.scene, before, own)
+            going: dict[int, Continuation] = {}
+            for k in range(len(own)):
+                earlier = open_ones.pop(pairs[k]) if k in pairs else Continuation(moves, i, ())
+                going[k] = replace(earlier, members=(*earlier.members, k))
+            found += open_ones.values()
+            open_ones, before = going, own
+        found += open_ones.values()
+    return tuple(sorted(found, key=lambda each: (not each.moves, each.first, each.members)))
+
+
+def _places(motion: Motion, moves: bool) -> list[Poses]:
+    """Where all bodies are along each circuit, at some of the samples, or in each assembly."""
+    if not moves:
+        return [each.poses for each in motion.assemblies]
+    return [_some(circuit) for circuit in motion.circuits]
+
+
+def _some(circuit: Circuit) -> Poses:
+    step = max(1, len(circuit) // COMPARED)
+    return circuit.poses.at(slice(None, None, step))
+
+
+def _nearest_pairs(scene: Scene, before: Sequence[Poses], after: Sequence[Poses]) -> dict[int, int]:
+    """Of places at a value and at the next, which are the nearest to each other."""
+    if not before or not after:
+        return {}
+    gaps = np.array([[_gap(scene, a, b) for b in before] for a in after])
+    nearest, back = gaps.argmin(axis=1), gaps.argmin(axis=0)
+    return {k: int(b) for k, b in enumerate(nearest) if back[b] == k}
+
+
+def _gap(scene: Scene, one: Poses, other: Poses) -> float:
+    """How far the places of either are from the nearest ones of the other, at most."""
+    count, most = len(one), len(other)
+    left = Poses(np.repeat(one.turns, most, axis=1), np.repeat(one.places, most, axis=1))
+    right = Poses(np.tile(other.turns, (1, count, 1)), np.tile(other.places, (1, count, 1)))
+    distances = pose_distances(left, right, scene.centres, scene.size).reshape(count, most)
+    return float(max(distances.min(axis=0).max(), distances.min(axis=1).max()))
+
+
+def range_of(motions: Sequence[Motion], each: Continuation) -> tuple[float, float]:
+    """Shortest and longest of the circuits of a continuation."""
+    own = motions[each.first : each.first + len(each.members)]
+    lengths = [m.circuits[k].length for m, k in zip(own, each.members, strict=True)]
+    return min(lengths), max(lengths)

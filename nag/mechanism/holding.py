@@ -1,0 +1,191 @@
+"""Mechanisms with joints held at given values, or with bodies put somewhere else.
+
+A joint that is held keeps of its factors those that are not, after a constant displacement; a body
+that is held by the ground has one all of its own. Such a mechanism has no configuration that is
+known: its loops are products in which the constants stand (formulation H), and its assemblies are
+what is to be found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from nag.algebra.number import Number, square_root
+from nag.errors import MechanismError
+from nag.mechanism.axes import cross, dot, space_of
+from nag.mechanism.given_rotation import GivenFrame, turn_about
+from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.half_angles import LoopClosures
+from nag.mechanism.joint_factors import NOTHING, ONE, UNIT, ZERO
+from nag.mechanism.loops import loop_structure
+from nag.mechanism.model import Model, check_loops
+from nag.mechanism.path_estimates import ModelError, path_bound
+from nag.mechanism.quaternion import DualQuaternion, dual_multiply, multiply
+from nag.numerics.read_only import fixed_mapping
+from nag.text.table import count_text
+
+# By the factors of a joint: its freedoms' names, as `nag.kinematics.joint_values` has them, and
+# what type of joint is left when one of them is held; None where none has that freedom alone.
+_LEFT: dict[tuple[str, ...], dict[str, str | None]] = {
+    ("turn",): {"angle": "rigid"},
+    ("slide",): {"slide": "rigid"},
+    ("turn", "slide"): {"angle": "prismatic", "slide": "revolute"},
+    ("turn", "turn"): {"first": "revolute", "second": "revolute"},
+    ("plane",): {"angle": None, "x": None, "y": None},
+}
+
+
+@dataclass(frozen=True)
+class HeldMechanism:
+    """A mechanism of which some joints, or bodies, are held away from where they are drawn.
+
+    Attributes:
+        mechanism: with the joints that are left.
+        displacements: of joints, by name, what comes before their own freedoms: a displacement of
+            the second body against the first, from where they are drawn.
+        held: what is held, in words.
+    """
+
+    mechanism: Mechanism
+    displacements: Mapping[str, DualQuaternion]
+    held: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "displacements", fixed_mapping(self.displacements))
+
+
+def hold_joint(given: HeldMechanism, joint: str, freedom: str, value: Number) -> HeldMechanism:
+    """The mechanism with one freedom of a joint at a value.
+
+    Args:
+        given: the mechanism, other joints of which may be held already.
+        joint: its name.
+        freedom: ``"angle"``, in radians, or ``"slide"``, a length; ``"first"`` or ``"second"`` of a
+            universal joint's angles. They count from where the joint is drawn.
+        value: angles that are no multiples of pi/12 are rounded to 16 digits.
+
+    Raises:
+        MechanismError: if there is no such joint or freedom, or what is left is no type of joint.
+    """
+    own = _find_joint(given.mechanism, joint)
+    left = _LEFT.get(own.of_type.factors, {})
+    if own.of_type.turns_only and joint in given.displacements:
+        # What is left of a universal joint, one of its angles being held.
+        freedom = "angle"
+    if freedom not in left:
+        raise MechanismError(f"hold: joint {joint!r} has no {freedom} that can be held")
+    kind = left[freedom]
+    if kind is None:
+        raise MechanismError(f"hold: of a {own.type} joint no freedom can be held; hold others")
+    axis = own.second_axis if freedom == "second" else own.axis
+    assert axis is not None
+    moved = _slide(axis, value) if freedom == "slide" else _turn(own.point, axis, value)
+    # What is left of a universal joint turns about one axis, seen from where the other one is.
+    kept = own.second_axis if freedom == "first" else own.axis
+    if freedom == "second":
+        kept = GivenFrame(moved[0]).back(kept)
+    if kind == "rigid":
+        rest = Joint(own.name, kind, own.bodies, own.point)
+    else:
+        rest = Joint(own.name, kind, own.bodies, own.point, kept)
+    before = given.displacements.get(joint, UNIT)
+    joints = tuple(rest if j.name == joint else j for j in given.mechanism.joints)
+    return HeldMechanism(
+        replace(given.mechanism, joints=joints),
+        {**given.displacements, joint: dual_multiply(before, moved)},
+        (*given.held, joint),
+    )
+
+
+def place_body(given: HeldMechanism, body: str, place: GivenFrame) -> HeldMechanism:
+    """The mechanism with a body held by the ground somewhere else.
+
+    Args:
+        given: the mechanism; if its ground holds the body already, by a rigid joint, not any more.
+        body: its name.
+        place: where what is at x in the drawing goes, as seen from the ground.
+
+    Raises:
+        MechanismError: if there is no such body, or it is the ground.
+    """
+    mechanism = given.mechanism
+    names = mechanism.body_names
+    if body not in names:
+        raise MechanismError(f"pose: {body[:40]!r} is no body; they are {', '.join(names)}")
+    if body == mechanism.ground:
+        raise MechanismError(f"pose: {body!r} is the ground, which does not move")
+    ends = {body, mechanism.ground}
+    tie = next((j for j in mechanism.joints if j.of_type.is_rigid and set(j.bodies) == ends), None)
+    name = tie.name if tie is not None else _new_name(f"{body} held", mechanism)
+    others = tuple(j for j in mechanism.joints if j.name != name)
+    held = Joint(name, "rigid", (mechanism.ground, body))
+    origin = tuple(x / 2 for x in place.origin)
+    moved = place.quaternion, multiply((ZERO, *origin), place.quaternion)
+    return HeldMechanism(
+        replace(mechanism, joints=(*others, held)),
+        {**given.displacements, name: moved},
+        (*given.held, body),
+    )
+
+
+def held_model(given: HeldMechanism) -> Model:
+    """The equations of a mechanism that is held: those of half-angles.
+
+    Raises:
+        ModelError: if it has no loop, what is held is in none, or a loop has nothing to eliminate.
+    """
+    mechanism = given.mechanism
+    structure = loop_structure(mechanism, given.displacements)
+    check_loops(mechanism, structure)
+    inside = {j.name for j in structure.joints}
+    for name in given.displacements:
+        if name not in inside:
+            raise ModelError(f"hold: joint {name!r} is in no loop: whatever it does, others do not")
+    try:
+        form = LoopClosures.of(structure, displacements=given.displacements).model
+    except ValueError as error:
+        raise ModelError(f"formulation H: {error}") from None
+    space = space_of(structure.joints)
+    loops = count_text(len(structure.loops), "loop")
+    unknowns = count_text(form.system.n, "unknown")
+    return Model(
+        mechanism=mechanism,
+        formulation="H",
+        space=space,
+        reason=f"{space}, {loops}; {', '.join(given.held)} held; joint coordinates: {unknowns}",
+        system=form.system,
+        reference=(),
+        sign_group=1,
+        symmetries=(),
+        path_bound=path_bound(form.system),
+        structure=structure,
+        form=form,
+    )
+
+
+def _find_joint(mechanism: Mechanism, name: str) -> Joint:
+    for joint in mechanism.joints:
+        if joint.name == name:
+            return joint
+    names = ", ".join(j.name for j in mechanism.joints)
+    raise MechanismError(f"hold: {name[:40]!r} is no joint; they are {names}")
+
+
+def _new_name(name: str, mechanism: Mechanism) -> str:
+    taken = {j.name for j in mechanism.joints}
+    while name in taken:
+        name += "'"
+    return name
+
+
+def _turn(point: Sequence[Number], axis: Sequence[Number], angle: Number) -> DualQuaternion:
+    """The turn by an angle about a line."""
+    real = turn_about(axis, angle).quaternion
+    return real, (ZERO, *cross(point, real[1:]))
+
+
+def _slide(axis: Sequence[Number], length: Number) -> DualQuaternion:
+    """The slide by a length along a direction."""
+    half = length / square_root(dot(axis, axis)) / 2
+    return (ONE, *NOTHING[1:]), (ZERO, *(half * x for x in axis))

@@ -1,0 +1,233 @@
+"""Joints held at values and bodies held at places: what is left, against geometry by hand."""
+
+import json
+import math
+from fractions import Fraction
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+
+import nag
+from nag.cli import main
+from nag.files.json_schema import schema
+from nag.kinematics.driven import Drive, hold
+from nag.kinematics.joint_values import joint_coordinates, joint_errors
+from nag.kinematics.motion import Motion, held_motion
+from nag.kinematics.poses import turn_product, turn_vectors
+from nag.mechanism.problem import problem_of
+
+ROOT = Path(__file__).resolve().parent.parent
+CASES = ROOT / "cases"
+FIT = 1e-10
+ORIGIN, UP = (0, 0, 0), (0, 0, 1)
+
+
+def names_of(motion: Motion) -> list[str]:
+    return [c.name for c in joint_coordinates(motion.scene)]
+
+
+def loop(*joints: tuple[str, tuple, tuple, tuple | None]) -> nag.Mechanism:
+    """A single loop of joints: type, point, axis and second axis."""
+    count = len(joints)
+    return nag.Mechanism(
+        "0",
+        tuple(
+            nag.Joint(f"j{i}", kind, (str(i), str((i + 1) % count)), point, axis, second)
+            for i, (kind, point, axis, second) in enumerate(joints)
+        ),
+    )
+
+
+GENERAL = [
+    ("revolute", (0, 0, 0), (0, 0, 1), None),
+    ("revolute", (2, 0, 1), (1, 2, 2), None),
+    ("revolute", (1, 3, 0), (2, -1, 1), None),
+    ("revolute", (-1, 2, 2), (3, 1, -1), None),
+    ("revolute", (-2, 1, 0), (1, 1, 4), None),
+    ("revolute", (0, -2, 1), (2, 3, 6), None),
+]
+HELD = {
+    "revolute": (("revolute", (1, -1, 2), (2, 2, 1), None), {"j6": 0.4}),
+    "prismatic": (("prismatic", (1, -1, 2), (2, 2, 1), None), {"j6": 0.3}),
+    "cylindrical": (
+        ("cylindrical", (1, -1, 2), (2, 2, 1), None),
+        {"j6.angle": 0.4, "j6.slide": -0.2},
+    ),
+    "universal": (
+        ("universal", (1, -1, 2), (2, 2, 1), (1, -2, 2)),
+        {"j6.first": 0.4, "j6.second": -0.7},
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", HELD)
+def test_every_freedom_that_is_held_has_its_value_in_each_assembly(kind: str) -> None:
+    joint, drive = HELD[kind]
+    mechanism = loop(*GENERAL, joint)
+    motion = held_motion(problem_of(mechanism), [Drive(*each) for each in drive.items()])
+    assert motion.complete and not motion.circuits and motion.freedoms == 0
+    assert len(motion.assemblies) >= 2 and len(motion.assemblies) % 2 == 0
+    names = names_of(motion)
+    for each in motion.assemblies:
+        for name, value in drive.items():
+            assert each.values[names.index(name)] == pytest.approx(value, abs=FIT)
+        assert joint_errors(motion.scene, each.poses).max() < FIT
+
+
+def test_assemblies_on_circuits_are_those_with_the_joint_held() -> None:
+    case = nag.read_case(CASES / "bennett.toml")
+    on_circuits = nag.motion(case, circuit="all", drive=("J0", 0.1), samples=60)
+    problem = problem_of(case)
+    held = held_motion(problem, [Drive("J0", 0.1)])
+    found = [sorted(tuple(a.values) for a in m.assemblies) for m in (on_circuits, held)]
+    assert len(found[0]) == 1
+    assert np.allclose(*found, atol=1e-8)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_an_arm_reaches_the_pose_of_its_hand_in_every_assembly(seed: int) -> None:
+    case = nag.read_case(CASES / "spatial" / "puma-held.toml")
+    (tie,) = [j for j in case.mechanism.joints if j.type == "rigid"]
+    hand = next(b for b in tie.bodies if b != case.mechanism.ground)
+    turn = np.array([0.9, 0.1, -0.2, 0.15])
+    pose = (0.05, -0.1, 0.08, *turn)
+    motion = nag.motion(case, pose={hand: pose}, seed=seed)
+    assert motion.complete and len(motion.assemblies) in (2, 4, 6, 8)
+    body = motion.scene.bodies.index(hand)
+    for each in motion.assemblies:
+        assert joint_errors(motion.scene, each.poses).max() < FIT
+        assert np.allclose(each.poses.places[body, 0], pose[:3], atol=FIT)
+        found = each.poses.turns[body, 0]
+        assert abs(abs(found @ turn) / np.linalg.norm(turn) - 1) < FIT
+        # The arm's own joints, one after another, take the hand there.
+        place, turned = forward(case.mechanism, motion, each, hand)
+        assert np.allclose(place, pose[:3], atol=FIT)
+        assert abs(abs(turned @ turn) / np.linalg.norm(turn) - 1) < FIT
+
+
+def forward(mechanism, motion, assembly, hand: str) -> tuple[np.ndarray, np.ndarray]:
+    """Where turns about the drawn axes by the angles take the hand's frame."""
+    values = dict(zip(names_of(motion), assembly.values, strict=True))
+    place, turned = np.zeros(3), np.array([1.0, 0, 0, 0])
+    body = mechanism.ground
+    chain = []
+    while body != hand:
+        joint = next(
+            j
+            for j in mechanism.joints
+            if j.type == "revolute" and body in j.bodies and j not in chain
+        )
+        chain.append(joint)
+        axis = np.array([float(x) for x in joint.axis])
+        axis /= np.linalg.norm(axis)
+        sign = 1 if joint.bodies[0] == body else -1
+        half = sign * values[joint.name] / 2
+        own = np.array([math.cos(half), *(math.sin(half) * axis)])
+        point = np.array([float(x) for x in joint.point])
+        shift = point - turn_vectors(own[None], point[None])[0]
+        place = place + turn_vectors(turned[None], shift[None])[0]
+        turned = turn_product(turned[None], own[None])[0]
+        body = joint.other(body)
+    return place, turned
+
+
+def test_a_five_bars_circuits_are_one_where_its_rods_reach_everywhere_and_two_elsewhere() -> None:
+    # With crank A at an angle, the dyad reaches from its end to the other crank's if their distance
+    # is between the difference and the sum of the rods. The difference is never reached from below
+    # sqrt(18) - sqrt(13); where the sum is never reached either, the dyad's sides are two circuits.
+    case = nag.read_case(CASES / "planar" / "five-bar.toml")
+    degrees = [0, 30, 60]
+    driven = nag.driven_motion(case, "A", [math.radians(x) for x in degrees], samples=60)
+    assert driven.complete
+    counts = []
+    for x in degrees:
+        # The first pin is at (0, 2) where the angle is 0; the other crank turns about (5, 0).
+        end = 2 * complex(-math.sin(math.radians(x)), math.cos(math.radians(x)))
+        around = [abs(end - 5 - math.sqrt(2) * np.exp(1j * t)) for t in np.linspace(0, 7, 4001)]
+        parts = max(around) > math.sqrt(13) + math.sqrt(18)
+        counts.append(1 if parts else 2)
+    assert [len(m.circuits) for m in driven] == counts == [2, 2, 1]
+    for motion in driven:
+        for circuit in motion.circuits:
+            assert joint_errors(motion.scene, circuit.poses).max() < FIT
+            column = names_of(motion).index("A")
+            assert np.ptp(circuit.values.values[:, column]) < FIT
+    lengths = [c for c in driven.continuations if c.moves]
+    assert sorted((c.first, len(c.members)) for c in lengths) == [(0, 2), (0, 3)]
+
+
+def test_a_driven_crank_of_one_freedom_has_assemblies_at_each_value() -> None:
+    driven = nag.driven_motion(CASES / "bennett.toml", "J0", [0.2, 0.3, 0.4], samples=60)
+    assert [len(m.assemblies) for m in driven] == [1, 1, 1]
+    (only,) = driven.continuations
+    assert (only.moves, only.first, only.members) == (False, 0, (0, 0, 0))
+    assert len(driven) == 3 and driven[1] is list(driven)[1]
+
+
+def test_a_tables_joint_is_held() -> None:
+    motion = nag.motion(
+        CASES / "spherical" / "five-bar.toml", drive={"J1": 0.5, "J2": 1.0}, samples=60
+    )
+    assert motion.complete and len(motion.assemblies) == 2
+    assert names_of(motion) == ["J3", "J4", "J5"]
+
+
+def test_what_is_held_is_written_as_its_schema_says(tmp_path, capsys) -> None:
+    file, page = tmp_path / "a.json", tmp_path / "a.html"
+    five = str(CASES / "planar" / "five-bar.toml")
+    table = tmp_path / "a.csv"
+    arguments = ["--drive", "A=0:60:3", "--samples", "24", "--csv", str(table)]
+    main(["motion", five, *arguments, "--json", str(file), "--html", str(page)])
+    document = json.loads(file.read_text())
+    jsonschema.validate(document, schema("nag-driven-motion"))
+    assert document["format"] == "nag-driven-motion" and len(document["motions"]) == 3
+    assert '"held":' in page.read_text()
+    head, *lines = table.read_text().splitlines()
+    assert head.startswith("driven,circuit,arc,A,B")
+    assert {round(float(line.split(",")[0]), 9) for line in lines} == {0.0, 30.0, 60.0}
+    main(["motion", five, "--drive", "A=0", "--drive", "E=20", "--json", str(file)])
+    document = json.loads(file.read_text())
+    jsonschema.validate(document, schema("nag-motion"))
+    assert [each["coordinate"] for each in document["held"]] == ["A", "E"]
+    assert all(each["circuit"] is None for each in document["assemblies"])
+    assert "real assemblies" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--drive", "Z=1"], "'Z' is no angle or slide"),
+        (["--drive", "A=1:2"], "is not of the form"),
+        (["--drive", "A=1:2:1"], "between 2 and 1000"),
+        (["--drive", "A=1:2:3", "--drive", "B=1:2:3"], "one joint is driven"),
+        (["--drive", "A=x"], "is not of the form"),
+        (["--pose", "rod1=1,2"], "is not of the form"),
+        (["--pose", "nobody=1,2,3"], "'nobody' is no body"),
+        (["--pose", "base=1,2,3"], "is the ground"),
+        (["--pose", "rod1=1,2,3,0,0,0,0"], "quaternion"),
+    ],
+)
+def test_what_cannot_be_held_is_refused_in_one_line(arguments, said, capsys) -> None:
+    with pytest.raises(SystemExit) as stop:
+        raise SystemExit(main(["motion", str(CASES / "planar" / "five-bar.toml"), *arguments]))
+    assert stop.value.code == 2
+    error = capsys.readouterr().err
+    assert said in error and "Traceback" not in error
+
+
+def test_a_held_value_of_thirty_degrees_is_exact() -> None:
+    problem = problem_of(nag.read_case(CASES / "planar" / "five-bar.toml"))
+    held, _ = hold(problem, [Drive("A", math.radians(30))], [])
+    roots = {
+        r
+        for f in held.system.polynomials
+        for c in f.terms.values()
+        for r in getattr(c, "terms", {1: 0})
+    }
+    assert roots == {1, 3}
+    rounded, _ = hold(problem, [Drive("A", 0.3)], [])
+    assert all(
+        isinstance(c, Fraction) for f in rounded.system.polynomials for c in f.terms.values()
+    )
