@@ -106,3 +106,13 @@ def test_components_that_meet_in_a_small_place_have_slices_in_its_units() -> Non
     lines = decompose(system("x y", "x*y*(x + y - 1/10^20)"))
     for c in lines.components:
         assert np.abs(c.points).max() < 1e-17
+
+
+def test_a_point_among_larger_sets_that_are_excluded_is_left_out() -> None:
+    lines = (system("x y z w", "y", "z", "w - x"), system("x y z w", "y - x", "z", "w - x"))
+    factors = [Operand.of(line, decompose(line).components[0]) for line in lines]
+    # Both lines, and the plane x = w = 0 through the point in which they meet.
+    union = ("x*z", "w*z", "x*(w - x)", "w*(w - x)", "x*y*(y - x)", "w*y*(y - x)")
+    common = Reduction.of(system("x y z w", *union, nonzero=("x",)))
+    found = meet_on_diagonal(*factors, common, np.random.default_rng(0), Run())
+    assert (sizes(found), found.bare, found.notes) == ({}, (), ())

@@ -11,13 +11,14 @@ where half as many variables remain to be deflated.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.ends import seem_excluded
+from nag.decomposition.ends import find_excluded
 from nag.decomposition.factor import NOT_MOVED, Operand, move_to_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
@@ -26,7 +27,7 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import classify_arrivals, clusters, coincident
 from nag.numerics.digits import bits_of
 from nag.numerics.doubles import ROUNDED
-from nag.numerics.zero_values import possible_zeros, vanishes_at, vanishes_at_all
+from nag.numerics.zero_values import possible_zeros, vanishes_at_all
 from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, PointInWords, fine_of_balls
 from nag.witness.close_to_sets import find_nearby_zeros, is_among_points
@@ -73,6 +74,14 @@ class _Product:
         """The pairs of witness points."""
         others = self.second.fibres(rng)
         return [_pairs(a, b) for a in self.first.fibres(rng) for b in others]
+
+    def excluded_by(self, common: Reduction) -> tuple[Polynomial, ...]:
+        """What must not vanish where both points are equal, by the first one's coordinates."""
+        images = [self.first.reduction.images[i] for i in common.kept]
+        places = range(self.first.n)
+        return tuple(
+            f.compose(images).with_variables(self.n, places) for f in common.reduced.nonzero
+        )
 
     def gaps(self, z: np.ndarray) -> np.ndarray:
         """Distances of points from the diagonal, relative to their size."""
@@ -236,6 +245,11 @@ class _Diagonal:
     counts: PathCounts = field(default=PathCounts())
     notes: list[str] = field(default_factory=list)
 
+    @cached_property
+    def nonzero(self) -> tuple[Polynomial, ...]:
+        """What must not vanish on it, in the product's coordinates."""
+        return self.product.excluded_by(self.common)
+
     def split_at_diagonal(
         self, fibres: Sequence[Fibre], f: Polynomial, probe: Polynomial | None, d: int
     ) -> list[Fibre]:
@@ -256,6 +270,12 @@ class _Diagonal:
             gaps[ends.finite] = product.gaps(ends.points[ends.finite])
             on_it, doubtful = self.classify_ends(gaps, ends, probe, bool(fibre.fine))
             here, away = ends.finite & on_it, ends.finite & ~on_it
+            # Decided on the factors' own cuts, on which ends are isolated: by the equations of both
+            # they need not be, among what is excluded.
+            out, unknown = find_excluded(self.nonzero, replace(ends, finite=here))
+            here &= ~out
+            if unknown:
+                self.notes.append(f"{unknown} points may be such as are excluded")
             unclear = int(np.sum(away & doubtful))
             on.append(ends.points[here, : product.n])
             errors.append(ends.accuracy[here])
@@ -308,21 +328,6 @@ class _Diagonal:
         z = np.vstack(equal)
         self.take(z, np.full(len(z), accuracy), 0)
 
-    def allowed(self, x: np.ndarray, accuracy: np.ndarray, rows: np.ndarray) -> np.ndarray:
-        """At which points nothing vanishes that must not; decided in digits at those near it."""
-        reduced, unclear = self.common.reduced, 0
-        result = ~seem_excluded(self.common.nonzero, x, accuracy)
-        for i in np.flatnonzero(~result):
-            error, slices = max(float(accuracy[i]), ROUNDED), pad_rows(rows, 1 + x.shape[1])
-            rng = np.random.default_rng(0)
-            zeros = possible_zeros(reduced.polynomials, x[i], error, rng, slices)
-            there = {any(vanishes_at(z, g) for g in reduced.nonzero) for z in zeros}
-            result[i] = there == {False}
-            unclear += len(there) != 1
-        if unclear:
-            self.notes.append(f"{unclear} points may be such as are excluded")
-        return result
-
     def take(self, z: np.ndarray, accuracy: np.ndarray, d: int) -> None:
         """Add ends of dimension ``d`` on the diagonal, unless larger sets hold them."""
         common, first = self.common, self.product.first
@@ -333,10 +338,6 @@ class _Diagonal:
             rows = self.product.common_rows(self.flag[:d], common)
         except SliceError:
             self.notes.append("the equations of both components are too near to dependent ones")
-            return
-        allowed = self.allowed(x, accuracy, rows)
-        x, accuracy = x[allowed], accuracy[allowed]
-        if not len(x):
             return
         fibres = self.fibres[d] = []
         place = common.equations, rows, self.rng

@@ -460,15 +460,23 @@ def _same_poses(model: PlatformModel, mode: OperationMode, other: OperationMode,
 def _transitions(
     model: PlatformModel, modes: Sequence[OperationMode], run: Run
 ) -> list[Transition]:
-    """Where modes of positive dimension meet."""
+    """Where modes of positive dimension meet.
+
+    Conjugates of two modes meet as these do.
+    """
     pairs = list(combinations([i for i, mode in enumerate(modes) if mode.dimension], 2))
-    found = []
-    for count, (i, j) in enumerate(pairs):
+    mirrored = [i if m.reality is ModeReality.REAL else m.conjugate for i, m in enumerate(modes)]
+    known: dict[tuple[int, int], Transition] = {}
+    for count, pair in enumerate(pairs):
         run.tell("transitions", count, len(pairs))
-        transition = _transition(model, (i, j), (modes[i], modes[j]), run)
-        if transition.kinds or transition.note:
-            found.append(transition)
-    return found
+        images = [mirrored[i] for i in pair]
+        other = known.get(tuple(sorted(i for i in images if i is not None)))
+        known[pair] = (
+            replace(other, modes=pair)
+            if other is not None
+            else _transition(model, pair, (modes[pair[0]], modes[pair[1]]), run)
+        )
+    return [t for t in known.values() if t.kinds or t.note]
 
 
 def _transition(
@@ -479,14 +487,15 @@ def _transition(
 ) -> Transition:
     if all(mode.is_linear for mode in pair):
         return Transition(indices, _linear_transition(*pair))
+    if _are_apart(model, pair, run):
+        return Transition(indices, ())
     try:
         met = intersect_components(model.system, pair[0].component, pair[1].component, run=run)
         kinds = tuple(_pose_kind(model, c, run) for c in met.components)
     except (ComponentError, NagError) as error:
         return Transition(indices, (), str(error))
-    if met.complete or (not kinds and _are_apart(model, pair, run)):
-        return Transition(indices, kinds)
-    return Transition(indices, kinds, "; ".join(met.notes) or "a component is undecided")
+    note = "" if met.complete else "; ".join(met.notes) or "a component is undecided"
+    return Transition(indices, kinds, note)
 
 
 def _pose_kind(model: PlatformModel, component: WitnessSet, run: Run) -> tuple[int, int]:
