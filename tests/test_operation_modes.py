@@ -25,6 +25,7 @@ from nag.files.cases import read_case
 from nag.mechanism.axes import cross
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.inverse_kinematics import REACHED, multiply_poses, reach_poses
+from nag.mechanism.isotropic_limits import is_isotropic_limit
 from nag.mechanism.joint_factors import factors_of_joint
 from nag.mechanism.leg_image import COORDINATES, image_of_chain, study_quadric
 from nag.mechanism.legs import Leg, parallel_robot
@@ -287,6 +288,55 @@ def test_one_real_pose_that_all_legs_reach_is_enough() -> None:
     # No pose is reached by both of these, and each reaches its own.
     found = reach_poses([slide(X), slide(Y)], poses, np.zeros(3), 1.0, rng, real=True, one=True)
     assert (found < REACHED).tolist() == [[False] * 2, [True, False], [False, True]]
+
+
+UPRIGHT = chain(
+    ("universal", at((3, 0, 0), Z, Y)), ("prismatic", {"axis": (-2, 0, 4)}),
+    ("universal", at((1, 0, 4), Y, Z)),
+)  # fmt: skip
+
+
+def isotropic_pose(leg: Leg, by: complex) -> np.ndarray:
+    """A pose at which the leg's form vanishes; the outer axes differ by (1, i, 0) and by more."""
+    pose = np.array([0.7, 1j + by, 1, 0.4, 0, 0.3, -0.2, 0.5], dtype=complex)
+    pose[4] = -pose[1:4] @ pose[5:] / pose[0]
+    (form,) = image_of_chain(leg.elements(), np.random.default_rng(0)).forms
+    # In the direction of x both equations are of the second degree.
+    along = np.array([0, 0, 0, 0, -pose[1] / pose[0], 1, 0, 0])
+    values = [complex(form(list(pose + t * along))) for t in (0, 1, -1)]
+    slope, bend = (values[1] - values[2]) / 2, (values[1] + values[2]) / 2 - values[0]
+    roots = np.roots([bend, slope, values[0]] if abs(bend) > 1e-12 else [slope, values[0]])
+    return pose + roots[0] * along
+
+
+@pytest.mark.parametrize("by", [0.0, 1e-3])
+def test_a_leg_whose_outer_axes_differ_by_an_isotropic_vector_comes_near_only(by: float) -> None:
+    elements, rng = UPRIGHT.elements(), np.random.default_rng(8)
+    pose = isotropic_pose(UPRIGHT, by)
+    residuals = reach_poses([elements], pose[None], np.zeros(3), 4.0, rng)
+    assert is_isotropic_limit(elements, pose) == (not by)
+    assert (residuals[0, 0] < REACHED) == bool(by)
+
+
+def test_a_leg_has_limits_where_its_middle_axis_makes_equal_angles_with_the_outer_ones() -> None:
+    # The pose takes (0, 3, 4) to (0, 0, 5) and that to another vector by an isotropic one.
+    turn = np.array([3.0, 1, 0, 0, 0, 0, 0, 0])
+    pose = multiply_poses(isotropic_pose(UPRIGHT, 0), turn)
+    for middle, has in (((0, 1, 3), True), ((0, 1, 1), False), ((1, 0, 0), True)):
+        outer = [("revolute", at((0, 0, 0), Z)), ("revolute", at((1, 1, 0), (0, 3, 4)))]
+        leg = chain(outer[0], ("revolute", at((1, 0, 2), middle)), outer[1])
+        assert is_isotropic_limit(leg.elements(), pose) == has
+    assert not is_isotropic_limit(CHAINS["UPS"].elements(), pose)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_components_that_legs_do_not_reach_leave_the_answer_complete(seed: int) -> None:
+    found = found_modes("4-upu-upright", seed)
+    limits = [(m.dimension, m.degree, m.limits) for m in found.modes if m.limits]
+    assert limits == [(3, 1, (0, 1, 2, 3))] * 2
+    assert kinds(found) == {(4, 2): 2, (3, 1): 2}
+    assert all(m.reached for m in found.modes if not m.limits)
+    assert found.answer.startswith("2 operation modes, each of dimension 4, degree 2; and 2 ")
 
 
 @pytest.mark.parametrize("real", [True, False])

@@ -14,8 +14,9 @@ import numpy as np
 from nag.mechanism.loop_product import Element
 from nag.numerics.zero_values import NONZERO
 
-# Random starts of a round, their steps, and rounds for a pose that is not reached before.
-STARTS, STEPS, ROUNDS = 24, 60, 12
+# Random starts of a round, their steps, and rounds for a pose that is not reached before; fewer
+# with real joint coordinates, in which there may be none for a pose that a leg reaches otherwise.
+STARTS, STEPS, ROUNDS, REAL_ROUNDS = 24, 60, 12, 3
 # Steps from a pose that is reached to rounding.
 LAST_STEPS = 4
 # What stands along a pose is taken for no less.
@@ -94,7 +95,7 @@ def reach_poses(
     ]
     targets = _unit(shift_origin(poses, origin) * scale)
     best = np.full((len(poses), len(chains)), np.inf)
-    for _ in range(ROUNDS):
+    for _ in range(REAL_ROUNDS if real else ROUNDS):
         reached = best < REACHED
         if reached.all() or (one and reached.all(axis=1).any()):
             break

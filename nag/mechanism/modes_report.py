@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
@@ -49,8 +50,9 @@ class OperationMode:
     Attributes:
         component: the component, in the variables of the model's system.
         dimension, degree: of its closure in the projective space of Study coordinates.
-        linear: forms of degree one that vanish on it, a basis of them.
-        quadratic: forms of degree two that vanish on it besides, and besides Study's quadric.
+        linear: forms of degree one with real coefficients that vanish on it, a basis of them; of
+            one of a conjugate pair they vanish on both.
+        quadratic: likewise of degree two, besides these and besides Study's quadric.
         note: why its equations are not known; empty where they are.
         reality: whether it has real poses, as many as it has dimensions.
         conjugate: index of the mode of the conjugate poses; None for one that is its own, or where
@@ -61,7 +63,10 @@ class OperationMode:
         through_reference: whether the reference pose is on it; None if that is not known.
         residuals: one for each leg, of the poses that inverse kinematics found next to a general
             pose of it, with complex joint coordinates.
-        real_residuals: likewise with real ones next to the real pose; empty without one.
+        limits: indices of legs that do not reach its general poses, and come as near to these as
+            one likes: it is a component of what the closures of their poses have in common.
+        real_residuals: as the residuals, with real joint coordinates next to the real pose; empty
+            without one.
     """
 
     component: WitnessSet
@@ -77,6 +82,7 @@ class OperationMode:
     screws: ScrewSystem | None
     through_reference: bool | None
     residuals: tuple[float, ...]
+    limits: tuple[int, ...]
     real_residuals: tuple[float, ...]
 
     @property
@@ -135,6 +141,7 @@ class OperationMode:
                 "pitches": list(screws.pitches),
             },
             "residuals": list(map(_finite, self.residuals)),
+            "limits": [i + 1 for i in self.limits],
             "real_residuals": list(map(_finite, self.real_residuals)),
         }
 
@@ -243,13 +250,12 @@ class OperationModes:
         """Modes counted by dimension and degree."""
         if not self.modes and not self.complete:
             return "no operation mode is known"
-        counts = Counter((m.dimension, m.degree) for m in self.moving)
-        kinds = [(count, f"of dimension {d}, degree {k}") for (d, k), count in counts.items()]
-        text = count_text(len(self.moving), "operation mode")
-        if len(kinds) > 1:
-            text += f": {'; '.join(f'{count} {kind}' for count, kind in kinds)}"
-        elif kinds:
-            text += f", {'each ' * (len(self.moving) > 1)}{kinds[0][1]}"
+        limits = [m for m in self.moving if m.limits]
+        own = [m for m in self.moving if not m.limits]
+        text = count_text(len(own), "operation mode") + _kinds_text(own)
+        if limits:
+            text += f"; and {count_text(len(limits), 'component')}{_kinds_text(limits)}"
+            text += ", that not all legs reach but in the limit"
         if self.isolated:
             real = sum(m.reality is ModeReality.REAL for m in self.isolated)
             text += f"; and {count_text(len(self.isolated), 'single pose')}, {real} of them real"
@@ -278,7 +284,11 @@ class OperationModes:
             if mode.screws is not None and mode.motion is not None and not mode.motion.group:
                 where = "at a real pose"
                 parts.append(f"screw system {where} of {mode.screws}")
-            if mode.real_pose is not None and not mode.really_reached:
+            if mode.limits:
+                names = join_words([self.model.legs[k].leg.name for k in mode.limits])
+                leg = "leg" if len(mode.limits) == 1 else "legs"
+                parts.append(f"of {leg} {names} the outer axes differ by an isotropic vector")
+            elif mode.real_pose is not None and not mode.really_reached:
                 parts.append("no real pose with real joint coordinates was found")
             found.append((f"mode {i}", "; ".join(parts)))
         return found
@@ -301,10 +311,21 @@ class OperationModes:
             found.append(("transition", f"{pair}: {'; '.join([*listed, *filter(None, [t.note])])}"))
         if len(self.moving) > 1 and not self.transitions:
             found.append(("transition", "no two modes meet"))
-        worst = max((r for m in self.modes for r in m.residuals), default=0.0)
-        if self.modes and all(m.reached for m in self.modes):
-            text = f"every leg reaches a general pose of every mode, to {magnitude(worst)}"
+        own = [(i, m) for i, m in enumerate(self.modes, 1) if not m.limits]
+        if own and all(m.reached for _, m in own):
+            numbers = [str(i) for i, _ in own]
+            kind = "modes" if len(own) > 1 else "mode"
+            which = "every mode" if len(own) == len(self.modes) else f"{kind} {join_words(numbers)}"
+            worst = max(r for _, m in own for r in m.residuals)
+            text = f"every leg reaches a general pose of {which}, to {magnitude(worst)}"
             found.append(("reached", text))
+        limits = [str(i) for i, m in enumerate(self.modes, 1) if m.limits]
+        if limits:
+            text = f"{join_words(limits)}: components of the closures of what legs reach; a leg "
+            text += (
+                "comes as near to their poses as one likes, and no joint coordinates of its own "
+            )
+            found.append(("limits", f"{text}give a general one"))
         for each in self.spurious:
             text = f"a component of dimension {each.dimension}, degree {each.degree} of the "
             found.append(("left out", f"{text}equations, which leg {each.leg} does not reach"))
@@ -341,6 +362,15 @@ class OperationModes:
         return html_table("OperationModes", rows)
 
 
+def _kinds_text(modes: Sequence[OperationMode]) -> str:
+    """Dimensions and degrees, after the number of modes."""
+    counts = Counter((m.dimension, m.degree) for m in modes)
+    kinds = [(count, f"of dimension {d}, degree {k}") for (d, k), count in counts.items()]
+    if len(kinds) > 1:
+        return f": {'; '.join(f'{count} {kind}' for count, kind in kinds)}"
+    return f", {'each ' * (len(modes) > 1)}{kinds[0][1]}" if kinds else ""
+
+
 def _finite(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
@@ -354,7 +384,8 @@ def _equations_text(mode: OperationMode) -> str:
     shown = mode.equations if short else mode.equations[: len(mode.linear)]
     if not short:
         shown.append(count_text(len(quadratic), "quadratic equation"))
-    return ", ".join(shown) or "no linear or quadratic equations"
+    text = ", ".join(shown) or "no linear or quadratic equations"
+    return f"{text}, of both conjugates" if mode.reality is ModeReality.CONJUGATE else text
 
 
 def _leg_text(leg: LegEquations) -> str:

@@ -38,6 +38,7 @@ from nag.interpolation.vanishing import (
 )
 from nag.mechanism import MODES_BUDGET
 from nag.mechanism.inverse_kinematics import REACHED, reach_poses
+from nag.mechanism.isotropic_limits import is_isotropic_limit
 from nag.mechanism.leg_image import COORDINATES, MOST_DEGREE, norm_form, study_quadric
 from nag.mechanism.legs import parallel_robot
 from nag.mechanism.modes_report import (
@@ -49,7 +50,7 @@ from nag.mechanism.modes_report import (
 )
 from nag.mechanism.motions import motion_of, screw_system, twists_at
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
-from nag.mechanism.platform import PlatformModel, platform_model
+from nag.mechanism.platform import LegEquations, PlatformModel, platform_model
 from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.zero_values import NONZERO
@@ -159,7 +160,8 @@ def describe_modes(model: PlatformModel, found: Decomposition, run: Run) -> Oper
     run.tell("legs' reach", 2, 4)
     rng, length = run.random(42), model.length
     poses = np.array([model.study(c.points)[0] for c in found.components]).reshape(-1, 8)
-    residuals = _residuals(model, poses, length, rng)
+    limits = _find_limits(model, poses, run)
+    residuals = _residuals_beside(model, poses, limits, rng)
     through, doubt = _through_reference(model, found, run)
     notes += [doubt] if doubt else []
     mirrored = [_conjugate(found, k, run) for k in range(len(found.components))]
@@ -168,14 +170,14 @@ def describe_modes(model: PlatformModel, found: Decomposition, run: Run) -> Oper
     spurious = []
     for k, component in enumerate(found.components):
         own = tuple(residuals[k].tolist())
-        missing = [i for i, r in enumerate(own) if not r < REACHED]
+        missing = [i for i, r in enumerate(own) if not r < REACHED and i not in limits[k]]
         wrong = [i for i in missing if _misses(model, i, poses[k], length, rng)]
         if wrong:
             name = model.legs[wrong[0]].leg.name
             spurious.append(SpuriousComponent(component.dimension, component.degree, name))
             continue
         mode = _describe(model, component, mirrored[k], k, through and through[k], length, run)
-        mode = replace(mode, residuals=own)
+        mode = replace(mode, residuals=own, limits=limits[k])
         if not any(_same_poses(model, mode, other, run) for other in known.values()):
             known[k] = mode
     order = sorted(known, key=lambda k: _rank(known[k]))
@@ -188,7 +190,7 @@ def describe_modes(model: PlatformModel, found: Decomposition, run: Run) -> Oper
         f"whether leg {model.legs[i].leg.name} reaches mode {number} is not known"
         for number, mode in enumerate(described, 1)
         for i, r in enumerate(mode.residuals)
-        if not r < REACHED
+        if not r < REACHED and i not in mode.limits
     ]
     transitions = _transitions(model, described, run)
     notes += [
@@ -217,9 +219,11 @@ def _residuals(
     length: float,
     rng: np.random.Generator,
     real: bool = False,
+    legs: Sequence[int] | None = None,
 ) -> np.ndarray:
     """How near each leg comes to each pose, or all to one real pose, shape ``(poses, legs)``."""
-    chains = [leg.leg.elements() for leg in model.legs]
+    legs = range(len(model.legs)) if legs is None else legs
+    chains = [model.legs[i].leg.elements() for i in legs]
     return reach_poses(chains, poses, model.origin, length, rng, real=real, one=real)
 
 
@@ -228,7 +232,7 @@ def _misses(
 ) -> bool:
     """Whether a form of one degree more vanishes on a leg's image and not at a pose."""
     image = model.legs[leg].image
-    if model.legs[leg].kept or image.degree >= MOST_DEGREE:
+    if model.legs[leg].kept or image.codimension <= 2 or image.degree >= MOST_DEGREE:
         return False
     point = pose / np.linalg.norm(pose / np.repeat([1.0, length], 4))
     for f in add_degree(image, rng).forms[len(image.forms) :]:
@@ -237,6 +241,48 @@ def _misses(
         if abs(terms.sum()) > NONZERO * np.abs(terms).max():
             return True
     return False
+
+
+def _find_limits(model: PlatformModel, poses: np.ndarray, run: Run) -> list[tuple[int, ...]]:
+    """For each pose the legs that come as near to it as one likes, and do not reach it."""
+    found: list[tuple[int, ...]] = [() for _ in poses]
+    for i, leg in enumerate(model.legs):
+        elements = leg.leg.elements()
+        near = [k for k, pose in enumerate(poses) if is_isotropic_limit(elements, pose)]
+        if near and _are_all_limits(model, leg, run):
+            for k in near:
+                found[k] += (i,)
+    return found
+
+
+def _are_all_limits(model: PlatformModel, leg: LegEquations, run: Run) -> bool:
+    """Whether all zeros of a leg's equations are limits of poses that it reaches.
+
+    These are a component of the zeros. One form has no others on Study's quadric, where factors are
+    unique.
+    """
+    if leg.kept:
+        return False
+    if leg.image.codimension <= 2:
+        return True
+    alone = decompose(model.system_of(leg), run=run)
+    return alone.complete and len(alone.components) == 1
+
+
+def _residuals_beside(
+    model: PlatformModel,
+    poses: np.ndarray,
+    limits: Sequence[tuple[int, ...]],
+    rng: np.random.Generator,
+) -> np.ndarray:
+    """`_residuals` but of the legs that are known not to reach a pose, for which it is infinite."""
+    found = np.full((len(poses), len(model.legs)), np.inf)
+    for left_out in dict.fromkeys(limits):
+        places = [k for k, own in enumerate(limits) if own == left_out]
+        kept = [i for i in range(len(model.legs)) if i not in left_out]
+        own = _residuals(model, poses[places], model.length, rng, legs=kept)
+        found[np.ix_(places, kept)] = own
+    return found
 
 
 def _through_reference(
@@ -294,6 +340,7 @@ def _describe(
         screws=None,
         through_reference=through,
         residuals=(),
+        limits=(),
         real_residuals=(),
     )
     if not component.dimension:

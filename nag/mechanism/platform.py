@@ -149,6 +149,10 @@ class PlatformModel:
         first = 1 + points[:, :3] @ np.array([float(c) for c in self.chart])
         return np.hstack([first[:, None], points[:, :7]])
 
+    def system_of(self, leg: LegEquations) -> PolynomialSystem:
+        """The equations of one leg alone, which keeps no joints, in the coordinates of the pose."""
+        return _system((leg,), self.chart, Charts.of(()))
+
     @property
     def forms(self) -> tuple[Polynomial, ...]:
         """Study's quadric and the forms of the legs that keep no joints."""
