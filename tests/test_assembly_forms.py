@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import random
 from fractions import Fraction
 from pathlib import Path
 
+import jsonschema
 import networkx
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from nag.algebra.expression import parse_number
 from nag.cli import main
 from nag.decomposition.decompose import decompose
 from nag.files.cases import Case, read_case
+from nag.files.json_schema import schema
 from nag.mechanism.dh import DHLoop, Row, assemble_table, dh_model
 from nag.mechanism.framework import (
     Framework,
@@ -483,3 +486,18 @@ def test_a_component_that_falls_apart_at_one_value_is_split_there(tmp_path):
     degrees = [sorted(c.degree for c in each.decomposition.components) for each in swept]
     assert degrees == [[6], [2, 4], [6]]
     assert all(each.followed for each in swept)
+
+
+def test_real_realisations_of_a_solved_framework_have_its_lengths(tmp_path, capsys) -> None:
+    file, given = tmp_path / "prism.json", CASES / "planar" / "three-prism.toml"
+    main(["solve", str(given), "--quiet", "--json", str(file)])
+    printed = capsys.readouterr().out
+    document = json.loads(file.read_text())
+    jsonschema.validate(document, schema("nag-solutions"))
+    framework = read_case(given).described.framework
+    assert len(document["realisations"]) == 8
+    for each in document["realisations"]:
+        at = {name: np.array(place) for name, place in each["places"].items()}
+        for (a, b), squared in zip(framework.bars, framework.squared_lengths, strict=True):
+            assert ((at[a] - at[b]) ** 2).sum() == pytest.approx(float(squared), rel=1e-12)
+    assert "24 isolated solutions, 8 real" in printed and "realisation  solution" in printed

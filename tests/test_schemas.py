@@ -200,6 +200,11 @@ def write_everything(
     for name in ("bennett", "planar/four-bar-folding"):
         ask("motion", str(CASES / f"{name}.toml"), "--samples", "12")
     ask("motion", str(CASES / "bennett.toml"), "--samples", "12", "--drive", "J0=30")
+    five_bar = str(CASES / "planar" / "five-bar.toml")
+    for drive in (["A=0:30:2"], ["A=0", "--drive", "E=20"]):
+        ask("motion", five_bar, "--samples", "12", "--drive", *drive)
+    ask("motion", five_bar, "--samples", "12", "--pose", "rod1=0,0,0,1,0,0,0")
+    ask("solve", str(CASES / "planar" / "three-prism.toml"))
     equations = "y^2 - x^2*(x - 1)"
     for answer in (nag.decompose(equations), nag.decompose(nag.read_case(CASES / "bennett.toml"))):
         curve = nag.find_real_curve(answer.components[0])

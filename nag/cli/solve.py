@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """All isolated solutions of a case."""
     from nag.errors import StartError
-    from nag.report.solutions import solution_lines
+    from nag.report.solutions import realisations, solution_lines
 
     case, problem = read_problem(options)
     try:
@@ -45,6 +45,9 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     return CommandAnswer(
         solution_lines(result, case, problem, run_row(options, places=2)),
         result.complete,
-        lambda: result.document(*name_case(case)),
+        lambda: {
+            **result.document(*name_case(case)),
+            **({"realisations": found} if (found := realisations(problem, result)) else {}),
+        },
         proof_asked_for(options, result),
     )

@@ -156,6 +156,22 @@ class FrameworkModel(AssemblyModel):
             for name, own in at.items()
         }
 
+    def real_places(self, point: Sequence[complex]) -> dict[str, tuple[float, ...]]:
+        """Where the points are in a real realisation, in lengths; the first bar along x.
+
+        Args:
+            point: a solution, in whatever coordinates, that `is_real` holds of.
+        """
+        if not self.coordinates.startswith("z"):
+            placed = self.places_at([complex(x).real for x in point])
+            return {name: own[: self.framework.dimension] for name, own in placed.items()}
+        unit = sqrt(float(self.framework.squared_lengths[0]))
+        first, second = self.pinned
+        step = len(self.coordinates)
+        free = self.framework.points_not_on(self.pinned)
+        at = {first: 0j, second: 1 + 0j, **dict(zip(free, point[::step], strict=True))}
+        return {p: (unit * at[p].real, unit * at[p].imag) for p in self.framework.points}
+
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real realisation, to within rounding."""
         if not self.coordinates.startswith("z"):

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from nag.algebra.given import is_a
 from nag.algebra.system import system_line
 from nag.report.assemblies import real_rows
 from nag.report.model import model_row
-from nag.solving.shown import MOST_ROWS, answer_text, solution_rows
+from nag.solving.shown import MOST_ROWS, Reality, answer_text, by_coordinates, solution_rows
 from nag.solving.solve import METHOD_TEXTS
 from nag.text.table import Row, align, sheet
 
@@ -20,7 +21,8 @@ if TYPE_CHECKING:
 
 def solution_lines(result: SolveResult, case: Case, problem: Problem, run: Row) -> list[str]:
     """The whole answer, line by line."""
-    head = [("system", system_line(result.system)), ("answer", answer_text(result))]
+    is_real = _reality(problem)
+    head = [("system", system_line(result.system)), ("answer", answer_text(result, is_real))]
     if result.method in METHOD_TEXTS:
         head.insert(1, ("method", METHOD_TEXTS[result.method]))
     head = [*model_row(problem), *head, *real_rows(problem, result.points)]
@@ -40,14 +42,52 @@ def solution_lines(result: SolveResult, case: Case, problem: Problem, run: Row) 
     known = agreement_text(result, case, problem)
     if known:
         tail.append(("known", known))
-    return sheet(case.title, head, solution_table(result), tail)
+    return sheet(
+        case.title, head, solution_table(result, is_real), realisation_table(problem, result), tail
+    )
 
 
-def solution_table(result: SolveResult) -> list[str]:
+def realisations(problem: Problem, result: SolveResult) -> list[dict[str, Any]]:
+    """Of a framework, the places of all points in each real realisation, with its solution."""
+    parts = problem.parts
+    if not is_a(parts, "nag.mechanism.framework_model", "FrameworkModel"):
+        return []
+    return [
+        {"solution": i, "places": {p: list(x) for p, x in parts.real_places(s.point).items()}}
+        for i, s in enumerate(result.solutions)
+        if parts.is_real(s.point)
+    ]
+
+
+def realisation_table(problem: Problem, result: SolveResult) -> list[str]:
+    """One row a real realisation of a framework: where its points are, in lengths."""
+    found = realisations(problem, result)
+    if not found:
+        return []
+    names = list(found[0]["places"])
+    rows = [["realisation", "solution", *names]]
+    for number, each in enumerate(found[:MOST_ROWS], start=1):
+        places = [f"({', '.join(f'{x + 0.0:.6g}' for x in each['places'][p])})" for p in names]
+        rows.append([str(number), str(each["solution"] + 1), *places])
+    lines = align(rows)
+    if len(found) > MOST_ROWS:
+        lines.append(f"and {len(found) - MOST_ROWS} more; --json FILE writes all of them")
+    return lines
+
+
+def _reality(problem: Problem) -> Reality:
+    """What makes a solution real: of parts, that the assembly is."""
+    parts = problem.parts
+    if parts is None:
+        return by_coordinates
+    return lambda solution: parts.is_real(solution.point)
+
+
+def solution_table(result: SolveResult, is_real: Reality = by_coordinates) -> list[str]:
     """One row a solution, the real ones first."""
     if not result.solutions:
         return []
-    lines = align(solution_rows(result, MOST_ROWS, 4))
+    lines = align(solution_rows(result, MOST_ROWS, 4, is_real))
     if len(result.solutions) > MOST_ROWS:
         lines.append(
             f"and {len(result.solutions) - MOST_ROWS} more; --json FILE writes all of them"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from nag.algebra.system import system_line
 from nag.text.table import count_text, html_table, lines_of, magnitude
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from nag.solving.solutions import Solution, SolveResult
 
 # Longer lists are left to the export.
@@ -19,9 +21,17 @@ MOST_ROWS = 40
 SHOWN = 6
 
 
-def answer_text(result: SolveResult) -> str:
+Reality: TypeAlias = "Callable[[Solution], bool]"
+
+
+def by_coordinates(solution: Solution) -> bool:
+    """Whether a solution is real: its coordinates are."""
+    return solution.real
+
+
+def answer_text(result: SolveResult, is_real: Reality = by_coordinates) -> str:
     """The answer in one sentence."""
-    count, real = len(result.solutions), len(result.real)
+    count, real = len(result.solutions), sum(map(is_real, result.solutions))
     text = f"{count} isolated solution{'' if count == 1 else 's'}, {real} real"
     multiple = Counter(s.multiplicity for s in result.solutions if s.multiplicity > 1)
     for multiplicity, number in sorted(multiple.items()):
@@ -36,13 +46,16 @@ def answer_text(result: SolveResult) -> str:
 
 
 def solution_rows(
-    result: SolveResult, most: int | None = None, columns: int | None = None
+    result: SolveResult,
+    most: int | None = None,
+    columns: int | None = None,
+    is_real: Reality = by_coordinates,
 ) -> list[list[str]]:
     """Headings, and a row for each of at most ``most`` solutions, the real ones first.
 
     At most ``columns`` coordinates are shown.
     """
-    ordered = sorted(range(len(result.solutions)), key=lambda i: not result.solutions[i].real)
+    ordered = sorted(range(len(result.solutions)), key=lambda i: not is_real(result.solutions[i]))
     names = result.system.variables
     dots = ["..."] if columns is not None and len(names) > columns else []
     head = ["solution", *names[:columns], *dots]
@@ -55,7 +68,7 @@ def solution_rows(
                 *(number_text(z, s) for z in s.point[:columns]),
                 *dots,
                 str(s.multiplicity),
-                "yes" if s.real else "no",
+                "yes" if is_real(s) else "no",
                 magnitude(s.residual),
                 magnitude(s.condition),
                 str(s.precision),
