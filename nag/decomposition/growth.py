@@ -1,7 +1,10 @@
-"""The component through a regular point, grown from there: loops find its other points.
+"""The component through a regular point, grown from there: monodromy finds its other points.
 
-Nothing else of the zero set is looked at. Loops are tracked in doubles as long as these find
-points, and paths that ask for more digits are dropped: others lead to the same points. A linear
+Nothing else of the zero set is looked at. Points are carried to another slice and back, along two
+ways each, every point once along each way: that is four paths a point, where loops of their own
+follow all points again and again (Duff, Hill, Jensen, Lee, Leykin & Sommars, Solving polynomial
+systems via homotopy continuation and monodromy, 2019). Loops look for what these ways do not reach.
+Paths that ask for more digits than doubles are dropped: others lead to the same points. A linear
 trace says that all are found (Sommese, Verschelde & Wampler 2002); else there are at least as many
 as were found. How much is done is limited by evaluations of the equations and not by a clock: the
 same seed, the same answer.
@@ -9,14 +12,17 @@ same seed, the same answer.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import product, zip_longest
 
 import numpy as np
 
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.final_checks import Examined, check_class
-from nag.decomposition.monodromy import run_loop
+from nag.decomposition.monodromy import LoopEnds, ends_are_distinct, locate_ends, run_loop
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import split_joined_points
 from nag.decomposition.trace import Trace, digits_of_evidence
@@ -28,7 +34,7 @@ from nag.witness.cutting import Cut, find_cut
 from nag.witness.exact_points import IN_DOUBLE_DOUBLE
 from nag.witness.fibres import Fibre, move
 from nag.witness.gauss_newton import polish
-from nag.witness.points import Points
+from nag.witness.points import Points, move_points
 from nag.witness.slices import random_rows, rows_through, unit_complex
 from nag.witness.witness import DOUBLE, PathCounts, Status, WitnessSet
 
@@ -38,12 +44,16 @@ MOST_SLICES, MOST_LOOPS, MOST_QUIET, QUIET = 4, 200, 24, 4
 # Paths that loops which find nothing track together at least before they are given up: those of few
 # points say little.
 QUIET_PATHS = 64
+# Ways to another slice, and as many back; and how many more back where points are missing.
+WAYS, MORE_WAYS = 2, 3
 # Paths that are tracked before it is known what they take, and at most at once.
 FEW, MOST_AT_ONCE = 64, 1024
 # Seconds that a path takes besides its evaluations, that an evaluation takes for each variable of a
 # term of the equations, for each entry of the Jacobian and for each step of its elimination, on a
 # processor as is common; and how many paths are evaluated at once.
-PATH, FACTOR, ENTRY, STEP, LANES = 6e-5, 1.5e-10, 5e-10, 1.5e-11, 8
+PATH, FACTOR, ENTRY, STEP, LANES = 6e-5, 3e-10, 7e-10, 2e-11, 8
+# Seconds that it takes, for each variable of a term, to find coordinates and a cut.
+MADE_READY = 5e-5
 
 BUDGET = "its budget was used up"
 NO_SLICE = "no path led from it to a generic slice"
@@ -130,7 +140,7 @@ def grow_component(
     """
     rng = run.random(12)
     reduction = Reduction.of(system, scaled=True)
-    allowance = _Allowance(seconds)
+    allowance = _Allowance(seconds - MADE_READY * _count_factors(system.polynomials))
     points = _first_point(reduction, point, dimension, allowance, rng, run)
     if points is None:
         return Growth(dimension, 1, None, NO_SLICE, allowance.paths)
@@ -183,9 +193,28 @@ def _in_digits(run: Run, digits: int) -> Run:
 
 def _evaluation_seconds(cut: Cut) -> float:
     """Seconds that a common processor takes for an evaluation of a square system."""
-    factors = sum(1 + sum(e > 0 for e in term) for f in cut.polynomials for term in f.terms)
     total = 1 + cut.n + cut.aux
-    return FACTOR * factors + ENTRY * total**2 + STEP * total**3
+    return FACTOR * _count_factors(cut.polynomials) + ENTRY * total**2 + STEP * total**3
+
+
+def _count_factors(polynomials: Sequence[Polynomial]) -> int:
+    """Variables of terms, and the terms' coefficients."""
+    return sum(1 + sum(e > 0 for e in term) for f in polynomials for term in f.terms)
+
+
+@dataclass(eq=False)
+class _Way:
+    """A way from one slice to another.
+
+    Attributes:
+        gamma: that the rows turn with.
+        tried: how many points, the first ones, were carried along it.
+        ends: for each that arrived the point that it came to.
+    """
+
+    gamma: complex
+    tried: int = 0
+    ends: dict[int, int] = field(default_factory=dict)
 
 
 @dataclass(eq=False)
@@ -212,7 +241,9 @@ class _Growing:
         return digits_of_evidence(natural.polynomials)
 
     def find_all(self) -> str:
-        """Run loops until the trace of all points is linear; why it did not become so."""
+        """Find points until the trace of all of them is linear; why it did not become so."""
+        if self._find_by_ways():
+            return ""
         quiet, digits = 0, DOUBLE
         for _ in range(MOST_LOOPS):
             linear = self._has_linear_trace() if quiet else None
@@ -230,6 +261,71 @@ class _Growing:
             quiet = 0 if found else quiet + (some == len(self.points))
             digits = DOUBLE if found and digits == DOUBLE else IN_DOUBLE_DOUBLE
         return NOT_ALL
+
+    def _find_by_ways(self) -> bool:
+        """Carry points to another slice and back; whether the trace of all is linear.
+
+        Where it says that points are missing, they are looked for along further ways back: that is
+        half of what a loop takes.
+        """
+        rng, points = self.rng, self.points
+        other = Points(random_rows(rng, points.dimension, points.n))
+        gammas = unit_complex(rng, 2 * WAYS + MORE_WAYS).tolist()
+        ways = [[_Way(g) for g in gammas[:WAYS]], [_Way(g) for g in gammas[WAYS : 2 * WAYS]]]
+        for more in (None, *gammas[2 * WAYS :]):
+            ways[1] += [] if more is None else [_Way(more)]
+            other = self._carry_all(other, ways)
+            linear = self._has_linear_trace()
+            if linear is not False:
+                break
+        for there, back in product(*ways):
+            pairs = [(i, back.ends[k]) for i, k in there.ends.items() if k in back.ends]
+            self.loops.append(np.array(pairs, dtype=int).reshape(-1, 2))
+        return bool(linear)
+
+    def _carry_all(self, other: Points, ways: Sequence[Sequence[_Way]]) -> Points:
+        """Carry points there and back while that finds any, each once along each way.
+
+        Args:
+            other: the points that are known on the other slice.
+            ways: there, and back.
+
+        Returns:
+            those on the other slice.
+        """
+        found = True
+        while found:
+            found = False
+            for there, back in zip_longest(*ways):
+                if there is not None and (some := self._waiting(there, self.points)):
+                    other, found = self._carry(self.points, some, other, there), True
+                if back is not None and (some := self._waiting(back, other)):
+                    self.points, found = self._carry(other, some, self.points, back), True
+            self.run.tell("points of the component", len(self.points), 0)
+        return other
+
+    def _waiting(self, way: _Way, points: Points) -> range:
+        """Those that were not carried along a way yet, as many as can be afforded."""
+        return range(way.tried, min(len(points), way.tried + self.allowance.most(DOUBLE)))
+
+    def _carry(self, points: Points, some: range, others: Points, way: _Way) -> Points:
+        """The points of the other slice, with those that some points are carried to."""
+        way.tried += len(some)
+        with count_evaluations() as spent:
+            run = _in_digits(self.run, DOUBLE)
+            there, order, paths = move_points(points, some, others.rows, way.gamma, run)
+        self.allowance.pay(DOUBLE, spent, paths)
+        places = locate_ends(there, others)
+        if places is None or not ends_are_distinct(there, places):
+            return others
+        residuals = self.reduction.equations.evaluator.residuals(there.x)
+        # Where another path of the way ended, one of the two has jumped.
+        taken = np.isin(places, list(way.ends.values()))
+        good = ~taken & ((places >= 0) | (residuals.max(axis=1, initial=0.0) < ON))
+        ends = LoopEnds(order, there, places).only(good)
+        others, pairs = ends.join_to(others, points)
+        way.ends |= dict(pairs.tolist())
+        return others
 
     def _run_loop(self, digits: int, some: int, scaled: bool) -> bool:
         """Track a loop from some of the points, the first ones; whether it found any."""

@@ -46,15 +46,19 @@ class LoopEnds:
         which = np.flatnonzero(mask)
         return LoopEnds(self.origins[which], self.ends.only(which), self.places[which])
 
-    def join_to(self, points: Points) -> tuple[Points, np.ndarray]:
+    def join_to(self, points: Points, starts: Points | None = None) -> tuple[Points, np.ndarray]:
         """The points with the new ones at the end, and the pairs that the loop joins, ``(m, 2)``.
 
         It must be clear which points the ends are.
+
+        Args:
+            starts: where paths came from, if these are not the same points.
         """
+        starts = starts or points
         new = self.places < 0
         places = np.where(new, len(points) + np.cumsum(new) - 1, self.places)
         for k in np.flatnonzero(new).tolist():
-            cut = points.cuts[points.which[self.origins[k]]]
+            cut = starts.cuts[starts.which[self.origins[k]]]
             points = points.with_point(cut, self.ends.z[k], self.ends.fine.get(k))
         return points, np.column_stack([self.origins, places])
 
@@ -77,6 +81,8 @@ def locate_points(
     """
     if len(ends) == 0 or points.shape[1] == 0:
         return np.zeros(len(ends), dtype=int)
+    if not len(points):
+        return np.full(len(ends), -1)
     nearest, closest, next_one = _two_nearest(ends, points)
     for i in fine_ends:
         apart = np.array(
