@@ -8,17 +8,19 @@ to which linkage it is. Nothing of that says that the mechanism moves.
 Every joint is a product of turns and slides, q in all, exponentials of their screws in the
 reference configuration, q = 0. The gap of a loop is its product's quaternion and the place to which
 it takes the mechanism's centre, the point nearest to all axes. Everything is in doubles, in units
-of the mechanism's size; derivatives are by complex steps, which lose no digits (Squire & Trapp,
-Using complex variables to estimate derivatives of real functions, 1998).
+of the mechanism's size; derivatives by q are the placed screws, those by the axes are by complex
+steps, which lose no digits (Squire & Trapp, Using complex variables to estimate derivatives of real
+functions, 1998).
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
-from math import atan2, inf, isfinite, pi
+from math import atan2, hypot, inf, isfinite, pi
 from typing import Any
 
 import numpy as np
@@ -68,8 +70,9 @@ COMPLEX_STEP = 1e-40
 MOST_STEPS = 8
 # The fit goes on until nothing changes, within so many evaluations.
 MOST_EVALUATIONS = 200
-# Steps that close what is left; directions that change a gap by less than a small part are none.
-SHORTEST_STEPS = 3
+# Steps that close what is left, at least and at most; directions that change a gap by less than a
+# small part are none.
+FEWEST_STEPS, SHORTEST_STEPS = 3, 12
 SMALL = 1e-8
 # Decides: Smallest singular value, beside the next, at which a rigid mechanism may be meant to
 # move.
@@ -408,9 +411,8 @@ class Chains:
         """The largest gap of a loop, an angle and a distance in sizes."""
         gaps = []
         for product in self.products:
-            turn, place = _displacement(q, self.axis, self.point, self.turning, product)
-            angle = 2 * atan2(float(np.linalg.norm(turn[1:])), abs(float(turn[0])))
-            gaps.append((angle, float(np.linalg.norm(place))))
+            turn, place = self._placed(q, product)[-1]
+            gaps.append((2 * atan2(hypot(*turn[1:]), abs(turn[0])), hypot(*place)))
         return max(g[0] for g in gaps), max(g[1] for g in gaps)
 
     def widest_gap(self, walk: Walk) -> tuple[float, float]:
@@ -419,9 +421,48 @@ class Chains:
         return max(g[0] for g in gaps), max(g[1] for g in gaps)
 
     def linearised(self, q: Array) -> tuple[Array, Array]:
-        """`closing` at q, and its derivative there, shape (6 loops, n)."""
-        values = self.closing(q + 1j * COMPLEX_STEP * np.eye(len(q)))
-        return values[0].real, values.imag.T / COMPLEX_STEP
+        """`closing` at q, and its derivative there, shape (6 loops, n).
+
+        A turn or slide moves what comes after it about, or along, where it is placed itself.
+        """
+        values, slopes = [], np.zeros((6 * len(self.products), len(self.screws)))
+        for i, product in enumerate(self.products):
+            *placed, (turn, place) = self._placed(q, product)
+            sign = -2.0 if turn[0] < 0 else 2.0
+            values += [x * sign for x in turn[1:]] + place
+            for (k, direction), (before, at) in zip(product, placed, strict=True):
+                axis, point, turns = self._numbers[k]
+                along = _rotate(before, axis)
+                column = [0.0, 0.0, 0.0, *along]
+                if turns:
+                    arm = [x + y for x, y in zip(at, _rotate(before, point), strict=True)]
+                    arm = [x - y for x, y in zip(place, arm, strict=True)]
+                    about = cross(along, turn[1:])
+                    column[:3] = [
+                        sign / 2 * (turn[0] * x + y) for x, y in zip(along, about, strict=True)
+                    ]
+                    column[3:] = cross(along, arm)
+                slopes[6 * i : 6 * i + 6, k] += np.array(column) * direction
+        return np.array(values), slopes
+
+    @cached_property
+    def _numbers(self) -> list[tuple[list[float], list[float], bool]]:
+        """Axis, point and whether it turns, of each turn and slide."""
+        lines = zip(self.axis.tolist(), self.point.tolist(), self.turning.tolist(), strict=True)
+        return list(lines)
+
+    def _placed(
+        self, q: Array, product: Sequence[tuple[int, int]]
+    ) -> list[tuple[Sequence[float], list[float]]]:
+        """Where each factor of a product finds what it moves, and at last where that is."""
+        amounts, turn, place = q.tolist(), (1.0, 0.0, 0.0, 0.0), [0.0, 0.0, 0.0]
+        found = [(turn, place)]
+        for k, sign in product:
+            axis, point, turns = self._numbers[k]
+            own = amounts[k] * sign
+            turn, place = _displace(turn, place, own, axis, point, turns, math)
+            found.append((turn, place))
+        return found
 
     def singular(self) -> tuple[Array, Array]:
         """Singular values of the closure at the reference, one for each coordinate, and vectors."""
@@ -527,25 +568,39 @@ def _nearest_point(axis: Array, point: Array) -> Array:
 
 def _displacement(
     q: Array, axis: Array, point: Array, turning: Array, product: Sequence[tuple[int, int]]
-) -> tuple[list[Any], list[Any]]:
+) -> tuple[Sequence[Any], list[Any]]:
     """A product of turns and slides: its quaternion, and where it takes the centre."""
-    turn: list[Any] = [np.ones(1)[0], 0.0, 0.0, 0.0]
+    turn: Sequence[Any] = [np.ones(1)[0], 0.0, 0.0, 0.0]
     place: list[Any] = [0.0, 0.0, 0.0]
     for k, sign in product:
-        u = [axis[..., k, i] for i in range(3)]
-        amount = q[..., k] * sign
-        if not turning[k]:
-            moved = _rotate(turn, [amount * x for x in u])
-            place = [x + y for x, y in zip(place, moved, strict=True)]
-            continue
-        p = [point[..., k, i] for i in range(3)]
-        half = np.sin(amount / 2)
-        own = [np.cos(amount / 2), *(half * x for x in u)]
-        # The centre goes from 0 to p - R p.
-        step = [x - y for x, y in zip(p, _rotate(own, p), strict=True)]
-        place = [x + y for x, y in zip(place, _rotate(turn, step), strict=True)]
-        turn = list(multiply(turn, own))
+        u, p = ([rows[..., k, i] for i in range(3)] for rows in (axis, point))
+        turn, place = _displace(turn, place, q[..., k] * sign, u, p, turning[k], np)
     return turn, place
+
+
+def _displace(
+    turn: Sequence[Any],
+    place: Sequence[Any],
+    amount: Any,
+    axis: Sequence[Any],
+    point: Sequence[Any],
+    turns: bool,
+    functions: Any,
+) -> tuple[Sequence[Any], list[Any]]:
+    """A displacement, as its quaternion and where it takes the centre, after one more factor.
+
+    Args:
+        functions: the module whose sine and cosine are of the kind of the numbers.
+    """
+    if not turns:
+        moved = _rotate(turn, [amount * x for x in axis])
+        return turn, [x + y for x, y in zip(place, moved, strict=True)]
+    half = functions.sin(amount / 2)
+    own = [functions.cos(amount / 2), *(half * x for x in axis)]
+    # The centre goes from 0 to p - R p.
+    step = [x - y for x, y in zip(point, _rotate(own, point), strict=True)]
+    place = [x + y for x, y in zip(place, _rotate(turn, step), strict=True)]
+    return multiply(turn, own), place
 
 
 def _rotate(turn: Sequence[Any], vector: Sequence[Any]) -> list[Any]:
@@ -790,8 +845,12 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
             gtol=ROUNDED,
             max_nfev=MOST_EVALUATIONS,
         ).x
-    for _ in range(SHORTEST_STEPS):
-        x = x - np.linalg.lstsq(derivative(x), opening(x), rcond=SMALL)[0]
+    for step in range(SHORTEST_STEPS):
+        left = opening(x)
+        # Where conditions that all but depend on each other bend, a few steps do not close it.
+        if step >= FEWEST_STEPS and np.abs(left).max() < ROUNDING:
+            break
+        x = x - np.linalg.lstsq(derivative(x), left, rcond=SMALL)[0]
     closed = np.abs(opening(x)).max() < ROUNDING
     return chains.with_change(x[:m]) if closed else None
 

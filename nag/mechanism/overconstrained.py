@@ -14,6 +14,7 @@ from math import pi
 
 import numpy as np
 
+from nag.mechanism.axes import cross
 from nag.numerics.zero_values import ON
 
 Array = np.ndarray
@@ -95,7 +96,7 @@ def known_linkage(axis: Array, point: Array, close: float = ON) -> str | None:
     if _concurrent(axis, point, close):
         return "a spherical linkage"
     readings = list(links_of(axis, point, close).readings())
-    if n == 4 and any(map(_is_bennett, readings)):
+    if n == 4 and _is_bennett(readings[0]):
         return "a Bennett linkage"
     if n == 5:
         for name, holds in (("Myard", _is_myard), ("Goldberg", _is_goldberg)):
@@ -136,6 +137,11 @@ def _concurrent(axis: Array, point: Array, close: float) -> bool:
     return bool(np.abs(np.einsum("kij,kj->ki", across, point - centre)).max() < close)
 
 
+def _cross(u: Array, v: Array) -> Array:
+    """The vector product of two vectors, for which numpy's own takes ten times as long."""
+    return np.array(cross(u.tolist(), v.tolist()))
+
+
 def links_of(axis: Array, point: Array, close: float = ON) -> Links:
     """Lengths, twists and offsets of the links between lines; normals go from line to line.
 
@@ -150,7 +156,7 @@ def links_of(axis: Array, point: Array, close: float = ON) -> Links:
     for i in range(n):
         u, v = axis[i], axis[(i + 1) % n]
         gap = point[(i + 1) % n] - point[i]
-        normal = np.cross(u, v)
+        normal = _cross(u, v)
         sine = float(np.linalg.norm(normal))
         if sine < close:
             length[i] = float(np.linalg.norm(gap - (gap @ u) * u))
@@ -160,7 +166,7 @@ def links_of(axis: Array, point: Array, close: float = ON) -> Links:
         # The twist counts about the normal that goes from line to line.
         twist[i] = np.copysign(np.arctan2(sine, u @ v), along)
         length[i] = abs(along)
-        s, t = (float(np.cross(gap, w) @ normal) / sine**2 for w in (v, u))
+        s, t = (float(_cross(gap, w) @ normal) / sine**2 for w in (v, u))
         feet.append((point[i] + s * u, point[(i + 1) % n] + t * v))
     offset = np.zeros(n)
     for i in range(n):
@@ -172,6 +178,7 @@ def links_of(axis: Array, point: Array, close: float = ON) -> Links:
 
 
 def _is_bennett(links: Links) -> bool:
+    """Whether links are a Bennett linkage's, from whichever joint on they are read."""
     a, sines = links.length, np.abs(np.sin(links.twist))
     return (
         links.without_offsets
@@ -192,8 +199,8 @@ def _bennett_lines(links: Links, lines: Sequence[int]) -> list[tuple[Array, Arra
     if feet.offset is None:
         return []
     gap = links.point[third] - links.point[first]
-    normal = np.cross(u, v)
-    s, t = (float(np.cross(gap, w) @ normal) / float(normal @ normal) for w in (v, u))
+    normal = _cross(u, v)
+    s, t = (float(_cross(gap, w) @ normal) / float(normal @ normal) for w in (v, u))
     middle = (links.point[first] + s * u + links.point[third] + t * v) / 2
     found = []
     for along in (u + v, u - v):
@@ -204,7 +211,7 @@ def _bennett_lines(links: Links, lines: Sequence[int]) -> list[tuple[Array, Arra
             np.vstack([links.axis[list(lines)], axis]),
             np.vstack([links.point[list(lines)], point]),
         )
-        if any(map(_is_bennett, links_of(*four, links.close).readings())):
+        if _is_bennett(links_of(*four, links.close)):
             found.append((axis, point))
     return found
 
@@ -233,7 +240,7 @@ def _is_double_goldberg(links: Links) -> bool:
 
 def _same_line(first: tuple[Array, Array], second: tuple[Array, Array], close: float) -> bool:
     (u, p), (v, q) = first, second
-    apart = [*np.cross(u, v), *np.cross(q - p, u)]
+    apart = [*_cross(u, v), *_cross(q - p, u)]
     return max(map(abs, apart)) < close
 
 
