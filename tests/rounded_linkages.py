@@ -41,7 +41,7 @@ MOST = 600
 POSITIONS = 16
 # Steps that close a loop; conditions of sizes below so many gaps are none; gaps beside which the
 # number of conditions is seen.
-STEPS, ALIKE, SMALL = 6, 10, 1e-8
+STEPS, ALIKE, SMALL = 20, 10, 1e-8
 # Gaps at which a motion is given up.
 WIDE = 0.03
 
@@ -198,7 +198,10 @@ def _close(loop: Loop, positions: Array, count: int | None) -> tuple[Array, int]
         widest_step = 1 + int(np.argmax(floored[:-1] / floored[1:]))
         open_now = max(np.abs(now.opening(q)).max() for q in angles)
         known = count or (widest_step if open_now < SMALL else int((s > ALIKE * open_now).sum()))
+        before = change
         change = v[:known].T @ ((u[:, :known].T @ np.concatenate(right)) / s[:known])
+        if np.abs(change - before).max() < 1e-13:
+            break
     return change, widest_step
 
 
