@@ -10,7 +10,7 @@ import pytest
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import superset
+from nag.decomposition import ends
 from nag.decomposition.decompose import decompose
 from nag.decomposition.superset import intersection_order, witness_superset
 from nag.tracking.run import Run
@@ -136,13 +136,13 @@ def test_an_end_that_is_no_known_zero_is_not_taken_for_a_point_of_a_set(
     located: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Where its zero is known, and multiple, it is what the paths of the set lead to."""
-    monkeypatch.setattr(superset, "find_nearby_zeros", lambda *_: NearbyZeros((), False, located))
-    monkeypatch.setattr(superset, "admit_end", lambda *_, **__: False)
+    monkeypatch.setattr(ends, "find_nearby_zeros", lambda *_: NearbyZeros((), False, located))
+    monkeypatch.setattr(ends, "admit_end", lambda *_, **__: False)
     member = (Membership.MEMBER, PathCounts())
-    monkeypatch.setattr(superset, "is_on_larger_set", lambda *_: member)
-    none = superset.Superset({}, PathCounts(), ())
-    stage = superset._Stage((), (), none, (), np.random.default_rng(0), Run())
-    doubts, _ = stage.add([(np.zeros(3), 1e-15)], {0: []}, Equations((), 3), np.zeros((0, 4)), True)
+    monkeypatch.setattr(ends, "is_on_larger_set", lambda *_: member)
+    rng = np.random.default_rng(0)
+    singular = ends.SingularEnds(Equations((), 3), np.zeros((0, 4)), rng, Run())
+    doubts = singular.add([(np.zeros(3), 1e-15)], {0: []}).doubts
     assert bool(doubts) is not located
 
 

@@ -18,11 +18,11 @@ from functools import cached_property
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.ends import find_excluded
+from nag.decomposition.ends import SingularEnds, find_excluded
 from nag.decomposition.factor import NOT_MOVED, Operand, move_to_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import Superset, are_new_alone
+from nag.decomposition.superset import Superset
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import classify_arrivals, clusters, coincident
 from nag.numerics.digits import bits_of
@@ -30,12 +30,9 @@ from nag.numerics.doubles import ROUNDED
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
 from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, PointInWords, fine_of_balls
-from nag.witness.close_to_sets import find_nearby_zeros, is_among_points
 from nag.witness.confirm import find_vanishing, zero_in_digits
 from nag.witness.cutting import Cut, is_end, regular_on, sharpen
-from nag.witness.cutting_in_digits import admit_zero
-from nag.witness.fibres import STEEPER, Fibre, SliceEnds, admit_end
-from nag.witness.membership import Membership, is_on_larger_set
+from nag.witness.fibres import STEEPER, Fibre, SliceEnds
 from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.points import with_fine
 from nag.witness.slices import pad_rows, random_rows, unit_complex
@@ -339,58 +336,13 @@ class _Diagonal:
         except SliceError:
             self.notes.append("the equations of both components are too near to dependent ones")
             return
-        fibres = self.fibres[d] = []
-        place = common.equations, rows, self.rng
-        lost = 0
+        self.fibres[d] = []
+        singular = SingularEnds(common.equations, rows, self.rng, self.run, whole=True)
         for cluster in clusters(x, accuracy):
             ends = [(x[i], float(accuracy[i])) for i in cluster]
-            best, error = ends[0]
-            simple = list(fibres)
-            if admit_end(best, error, simple, *place, deflate=False):
-                for end in ends[1:]:
-                    admit_end(*end, simple, *place, deflate=False)
-                # To a regular zero of all equations one path leads.
-                if sum(map(len, simple)) - sum(map(len, fibres)) == len(ends):
-                    fibres[:] = simple
-                elif not self.admit_close_ones(ends, fibres, rows):
-                    self.notes.append(f"points of dimension {d} are too close to each other")
-                continue
-            answer, spent = is_on_larger_set(best, error, self.fibres, d, self.rng, self.run)
-            self.counts += spent
-            if answer is Membership.UNDECIDED:
-                self.notes.append(f"a point of dimension {d} could not be told from a larger set")
-            if answer is not Membership.FOREIGN:
-                continue
-            deflated = list(fibres)
-            admitted = admit_end(best, error, deflated, *place, deflate=True)
-            alone = admitted and are_new_alone(fibres, deflated, common.equations)
-            if not alone and self.admit_close_ones(ends, fibres, rows):
-                continue
-            if admitted:
-                fibres[:] = deflated
-                continue
-            lost += 1
-            if d == 0:
-                self.bare.append((best, error))
-        if lost and d > 0:
-            self.notes.append(f"{lost} singular points of dimension {d} could not be made regular")
-
-    def admit_close_ones(
-        self, ends: Sequence[tuple[np.ndarray, float]], fibres: list[Fibre], rows: np.ndarray
-    ) -> bool:
-        """Add the zeros of all equations that ends in doubles stand for, in digits, if it is known
-        that the paths lead to these and no others.
-
-        To a zero lead no more paths than its multiplicity says.
-        """
-        equations, own = self.common.equations, list(fibres)
-        found = find_nearby_zeros(ends, equations, rows, self.rng, whole=True)
-        total = sum(zero.multiplicity for zero in found.zeros)
-        if not found.decided or (len(found.zeros) != 1 and total != len(ends)):
-            return False
-        for zero in found.zeros:
-            known = is_among_points(zero, own)
-            if known is None or not (known or admit_zero(zero, own, equations, rows, self.rng)):
-                return False
-        fibres[:] = own
-        return bool(found.zeros)
+            settled = singular.add(ends, self.fibres)
+            self.counts += settled.counts
+            if d == 0 and not settled.regular:
+                self.bare.append(ends[0])
+            else:
+                self.notes += settled.doubts

@@ -1,4 +1,4 @@
-"""Ends of paths sorted out: regular ones, clusters of singular ones, and where lost paths lead.
+"""Ends of paths sorted out: regular ones, what singular ones stand for, where lost paths lead.
 
 Those that lie where a polynomial does that must not vanish are left out, as digits decide.
 """
@@ -6,7 +6,7 @@ Those that lie where a polynomial does that must not vanish are left out, as dig
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -15,12 +15,21 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import NEAR, SAFETY, clusters, coincident
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.zero_values import NONZERO, ON, possible_zeros, vanishes_at
+from nag.tracking.run import Run
+from nag.witness.close_to_sets import NearbyZeros, find_nearby_zeros, is_among_points
 from nag.witness.confirm import find_vanishing
-from nag.witness.cutting import Cut
-from nag.witness.fibres import Fibre, SliceEnds
+from nag.witness.cutting import Cut, Equations
+from nag.witness.cutting_in_digits import admit_zero, is_alone
+from nag.witness.fibres import Fibre, SliceEnds, admit_end
+from nag.witness.membership import Membership, is_on_larger_set
 from nag.witness.slices import pad_rows
+from nag.witness.witness import PathCounts
 
 Cluster = list[tuple[np.ndarray, float]]
+
+# Decides: Part of the usual work after which a multiple zero that lies on a larger set as far as
+# doubles can tell passes for a point of it; simple ones are told in any case.
+IN_PASSING = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,3 +158,162 @@ def _lies_beside_excluded(
     slices, rng = pad_rows(rows, 1 + len(z)), np.random.default_rng(0)
     zeros = possible_zeros(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices, True)
     return not all(any(vanishes_at(zero, g) for g in nonzero) for zero in zeros)
+
+
+@dataclass(frozen=True, eq=False)
+class Settled:
+    """What came of singular ends.
+
+    Attributes:
+        doubts: what is not known of them.
+        counts: of the paths that were tracked to larger sets.
+        regular: False where a point is on no larger set, and no cut makes it a regular one.
+    """
+
+    doubts: Sequence[str] = ()
+    counts: PathCounts = field(default=PathCounts())
+    regular: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class SingularEnds:
+    """How it is told what singular ends of paths to a slice stand for.
+
+    Attributes:
+        equations: they hold on the sets that the paths lead to.
+        rows: the slice.
+        later: further equations, which may hold on some of the sets.
+        avoid: polynomials that must not vanish.
+        whole: whether errors are relative to the point, not to each of its coordinates.
+    """
+
+    equations: Equations
+    rows: np.ndarray
+    rng: np.random.Generator
+    run: Run
+    later: Sequence[Polynomial] = ()
+    avoid: Sequence[Polynomial] = ()
+    whole: bool = False
+
+    def add(self, cluster: Cluster, kept: dict[int, list[Fibre]], deflate: bool = True) -> Settled:
+        """Add the points that a cluster of ends stands for to those known, by dimension.
+
+        Those of larger sets are none. Doubles propose: a point is added where they find a cut that
+        makes it regular, and digits see no other zero beside it; else the zeros there are looked
+        for in digits.
+
+        Args:
+            cluster: the best known end first.
+            deflate: whether equations may be deflated to make a point regular.
+        """
+        (x, accuracy), d = cluster[0], len(self.rows)
+        own, so_far = kept[d], self.equations
+        simple = list(own)
+        if admit_end(x, accuracy, simple, so_far, self.rows, self.rng, deflate=False):
+            # Ends that seemed to be one may be simple zeros close together.
+            for other, error in cluster[1:]:
+                admit_end(other, error, simple, so_far, self.rows, self.rng, deflate=False)
+            if not self._are_new_alone(own, simple):
+                doubts = self._add_all_nearby(cluster, own)
+                if doubts is not None:
+                    return Settled(doubts)
+            own[:] = simple
+            return Settled()
+        answer, counts = is_on_larger_set(x, accuracy, kept, d, self.rng, self.run)
+        untold = f"a point of dimension {d} could not be told from a larger set"
+        if answer is not Membership.FOREIGN:
+            # Singular ends mostly lie on the set that they seem to lie on, however hard to judge.
+            patience = IN_PASSING if answer is Membership.MEMBER else 1.0
+            doubts, found = self.add_nearby_zeros(cluster, own, patience)
+            if found.decided:
+                return Settled(doubts, counts)
+            if answer is Membership.MEMBER:
+                # A multiple zero is where paths of the set end, if its local ring is too long.
+                return Settled(doubts if found.located else [*doubts, untold], counts)
+        holding = self._holding(x, accuracy)
+        if answer is Membership.FOREIGN and admit_end(
+            x, accuracy, own, holding, self.rows, self.rng, deflate=False
+        ):
+            return Settled(counts=counts)
+        if not deflate:
+            return Settled(counts=counts, regular=False)
+        if answer is Membership.UNDECIDED:
+            return Settled([untold], counts)
+        deflated = list(own)
+        admitted = any(
+            admit_end(x, accuracy, deflated, each, self.rows, self.rng, deflate=True)
+            for each in dict.fromkeys((holding, so_far))
+        )
+        if admitted and self._are_new_alone(own, deflated):
+            own[:] = deflated
+            return Settled(counts=counts)
+        # Zeros so close together that doubles can neither tell nor cut them.
+        doubts = self._add_all_nearby(cluster, own)
+        if doubts is not None:
+            return Settled(doubts, counts)
+        doubts = [f"a singular point of dimension {d} could not be made regular"]
+        return Settled(doubts, counts, regular=False)
+
+    def _holding(self, x: np.ndarray, accuracy: float) -> Equations:
+        """The equations, and the later ones that seem to vanish at a point as well.
+
+        A component that is multiple for the first equations may be a simple one for all.
+        """
+        limit = max(ON, SAFETY * accuracy)
+        known = self.equations
+        later = Equations(tuple(self.later), known.n).evaluator.residuals(x[None])[0] < limit
+        more = [g for g, vanishes in zip(self.later, later, strict=True) if vanishes]
+        return Equations((*known.polynomials, *more), known.n) if more else known
+
+    def _are_new_alone(self, before: Sequence[Fibre], after: Sequence[Fibre]) -> bool:
+        """Whether points that were put last into fibres are zeros of all equations, and alone."""
+        known = [len(fibre) for fibre in before]
+        known += [0] * (len(after) - len(before))
+        return all(
+            is_alone(fibre, i, self.equations)
+            for fibre, first in zip(after, known, strict=True)
+            for i in range(first, len(fibre))
+        )
+
+    def _add_all_nearby(self, cluster: Cluster, own: list[Fibre]) -> list[str] | None:
+        """Add all isolated zeros that ends may stand for; doubts, or None if some are not known.
+
+        One is left where fewer zeros were found, with multiplicities, than paths ended there.
+        Further equations than cut a set may make it less multiple than the paths show.
+        """
+        doubts, found = self.add_nearby_zeros(cluster, own)
+        if not found.decided or not found.zeros or doubts:
+            return None
+        d, total = len(self.rows), sum(zero.multiplicity for zero in found.zeros)
+        square = len(self.equations.polynomials) == self.equations.n - d
+        lost = square and total < len(cluster)
+        return [f"zeros of dimension {d} close to each other were not all found"] if lost else []
+
+    def add_nearby_zeros(
+        self, cluster: Cluster, own: list[Fibre], patience: float = 1.0
+    ) -> tuple[list[str], NearbyZeros]:
+        """Add the isolated zeros that ends in doubles may stand for; doubts, and what was found."""
+        doubts, (equations, rows, rng) = [], (self.equations, self.rows, self.rng)
+        found = find_nearby_zeros(cluster, equations, rows, rng, patience, self.whole)
+        for zero in found.zeros:
+            known = is_among_points(zero, own)
+            if known or any(vanishes_at(zero, g) for g in self.avoid):
+                continue
+            if known is None or not admit_zero(zero, own, equations, rows, rng):
+                doubts.append("a point close to a larger set could not be made regular")
+        return doubts, found
+
+    def recover(self, lost: Sequence[tuple[Cluster, int]], own: list[Fibre]) -> int:
+        """Add the zeros where failed paths seem to lead; of how many paths they are the ends.
+
+        Zeros close to each other are where a path is the last to be told from others: in the end
+        it needs as many digits as they have distances multiplied, and there are as many zeros,
+        with multiplicities, as paths.
+        """
+        recovered, of_points = 0, replace(self, whole=True)
+        for cluster, near in lost:
+            doubts, found = of_points.add_nearby_zeros(cluster, own)
+            if found.decided and found.zeros and not doubts:
+                total = sum(zero.multiplicity for zero in found.zeros)
+                recovered += len(cluster) if total >= near else 0
+        return recovered

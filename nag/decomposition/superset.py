@@ -13,24 +13,18 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.ends import Cluster, collect
+from nag.decomposition.ends import SingularEnds, collect
 from nag.decomposition.hypersurface import HypersurfaceSection, hypersurface_section
-from nag.numerics.coincidence import SAFETY, coincident
-from nag.numerics.zero_values import ON, vanishes_at
+from nag.numerics.coincidence import coincident
 from nag.tracking.run import Run
-from nag.witness.close_to_sets import NearbyZeros, find_nearby_zeros, is_among_points
 from nag.witness.cutting import Equations, dyadic, leading_power
-from nag.witness.cutting_in_digits import admit_zero, is_alone
-from nag.witness.fibres import Fibre, admit_end
+from nag.witness.fibres import Fibre
 from nag.witness.membership import Membership, is_on_larger_set
 from nag.witness.points import Points
 from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
 REGULAR = 1e-13
-# Decides: Part of the usual work after which a multiple zero that lies on a larger set as far as
-# doubles can tell passes for a point of it; simple ones are told in any case.
-IN_PASSING = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,16 +143,6 @@ class _Stage:
         found, spent = self.superset(f, crossed, deflate)
         return _Outcome(f, crossed, found), PathCounts(crossed.counts.tracked) + spent
 
-    def holding(self, so_far: Equations, x: np.ndarray, accuracy: float) -> Equations:
-        """The equations so far, and the later ones that seem to vanish at a point as well.
-
-        A component that is multiple for the first equations may be a simple one for all.
-        """
-        limit = max(ON, SAFETY * accuracy)
-        later = Equations(self.after, so_far.n).evaluator.residuals(x[None])[0] < limit
-        more = [g for g, vanishes in zip(self.after, later, strict=True) if vanishes]
-        return Equations((*so_far.polynomials, *more), so_far.n) if more else so_far
-
     def keep_on_no_other(
         self, fibre: Fibre, kept: Mapping[int, Sequence[Fibre]]
     ) -> tuple[Fibre, list[str], PathCounts]:
@@ -181,102 +165,6 @@ class _Stage:
             mask[i] = answer is Membership.FOREIGN
         return fibre.only(mask), notes, counts
 
-    def add_nearby_zeros(
-        self,
-        cluster: Cluster,
-        so_far: Equations,
-        own: list[Fibre],
-        rows: np.ndarray,
-        patience: float = 1.0,
-        whole: bool = False,
-    ) -> tuple[list[str], NearbyZeros]:
-        """Add the isolated zeros that ends in doubles may stand for; doubts, and what was found."""
-        notes, found = [], find_nearby_zeros(cluster, so_far, rows, self.rng, patience, whole)
-        for zero in found.zeros:
-            known = is_among_points(zero, own)
-            if known or any(vanishes_at(zero, g) for g in self.avoid):
-                continue
-            if known is None or not admit_zero(zero, own, so_far, rows, self.rng):
-                notes.append("a point close to a larger set could not be made regular")
-        return notes, found
-
-    def add(
-        self,
-        cluster: Cluster,
-        kept: dict[int, list[Fibre]],
-        so_far: Equations,
-        rows: np.ndarray,
-        deflate: bool,
-    ) -> tuple[list[str] | None, PathCounts]:
-        """Add what singular ends stand for, unless larger sets hold them; what is in doubt."""
-        (x, accuracy), d, rng = cluster[0], len(rows), self.rng
-        simple = list(kept[d])
-        if admit_end(x, accuracy, simple, so_far, rows, rng, deflate=False):
-            # Ends that seemed to be one may be simple zeros close together.
-            for other, error in cluster[1:]:
-                admit_end(other, error, simple, so_far, rows, rng, deflate=False)
-            if not are_new_alone(kept[d], simple, so_far):
-                doubts, found = self.add_nearby_zeros(cluster, so_far, kept[d], rows)
-                if found.decided and found.zeros and not doubts:
-                    return _not_all_found(cluster, found, so_far, d), PathCounts()
-            kept[d][:] = simple
-            return [], PathCounts()
-        answer, counts = is_on_larger_set(x, accuracy, kept, d, rng, self.run)
-        if answer is not Membership.FOREIGN:
-            # Singular ends mostly lie on the set that they seem to lie on, however hard to judge.
-            patience = IN_PASSING if answer is Membership.MEMBER else 1.0
-            doubts, found = self.add_nearby_zeros(cluster, so_far, kept[d], rows, patience)
-            if found.decided:
-                return doubts, counts
-            if answer is Membership.MEMBER:
-                # A multiple zero is where paths of the set end, if its local ring is too long.
-                if not found.located:
-                    doubts.append(f"a point of dimension {d} could not be told from a larger set")
-                return doubts, counts
-        holding = self.holding(so_far, x, accuracy)
-        if answer is Membership.FOREIGN and admit_end(
-            x, accuracy, kept[d], holding, rows, rng, deflate=False
-        ):
-            return [], counts
-        if not deflate:
-            return None, counts
-        if answer is Membership.UNDECIDED:
-            return [f"a point of dimension {d} could not be told from a larger set"], counts
-        own = list(kept[d])
-        admitted = any(
-            admit_end(x, accuracy, own, each, rows, rng, deflate=True)
-            for each in dict.fromkeys((holding, so_far))
-        )
-        if admitted and are_new_alone(kept[d], own, so_far):
-            kept[d][:] = own
-            return [], counts
-        # Zeros so close together that doubles can neither tell nor cut them.
-        doubts, found = self.add_nearby_zeros(cluster, so_far, kept[d], rows)
-        if found.decided and found.zeros and not doubts:
-            return _not_all_found(cluster, found, so_far, d), counts
-        return [f"a singular point of dimension {d} could not be made regular"], counts
-
-    def recover(
-        self,
-        lost: Sequence[tuple[Cluster, int]],
-        own: list[Fibre],
-        so_far: Equations,
-        rows: np.ndarray,
-    ) -> int:
-        """Add the zeros where failed paths seem to lead; of how many paths they are the ends.
-
-        Zeros close to each other are where a path is the last to be told from others: in the end
-        it needs as many digits as they have distances multiplied, and there are as many zeros,
-        with multiplicities, as paths.
-        """
-        recovered = 0
-        for cluster, near in lost:
-            doubts, found = self.add_nearby_zeros(cluster, so_far, own, rows, whole=True)
-            if found.decided and found.zeros and not doubts:
-                total = sum(zero.multiplicity for zero in found.zeros)
-                recovered += len(cluster) if total >= near else 0
-        return recovered
-
     def superset(
         self, f: Polynomial, crossed: HypersurfaceSection, deflate: bool
     ) -> tuple[Superset | None, PathCounts]:
@@ -292,6 +180,7 @@ class _Stage:
             higher = len(notes)
             candidates = collect(crossed.ends[d], self.avoid)
             rows = crossed.ends[d][0].rows
+            singular = SingularEnds(so_far, rows, self.rng, self.run, self.after, self.avoid)
             if candidates.unclear:
                 notes.append(f"{candidates.unclear} points may be such as are excluded")
             for fibre in candidates.fibres:
@@ -302,38 +191,16 @@ class _Stage:
                 kept.setdefault(d, []).append(fibre)
             kept.setdefault(d, [])
             for cluster in candidates.singular:
-                doubts, used = self.add(cluster, kept, so_far, rows, deflate)
-                counts += used
-                if doubts is None:
+                settled = singular.add(cluster, kept, deflate)
+                counts += settled.counts
+                if not (settled.regular or deflate):
                     return None, counts
-                notes += doubts
-            found = self.recover(candidates.lost, kept[d], so_far, rows)
+                notes += settled.doubts
+            found = singular.recover(candidates.lost, kept[d])
             recovered |= {d: found} if found else {}
         kept = {d: [fibre for fibre in fibres if len(fibre)] for d, fibres in kept.items()}
         points = len(notes) - higher if 0 in crossed.ends else 0
         return Superset(kept, PathCounts(), tuple(notes), points, recovered), counts
-
-
-def are_new_alone(before: Sequence[Fibre], after: Sequence[Fibre], so_far: Equations) -> bool:
-    """Whether points that doubles put last into fibres are zeros of all equations, and alone."""
-    known = [len(fibre) for fibre in before]
-    known += [0] * (len(after) - len(before))
-    return all(
-        is_alone(fibre, i, so_far)
-        for fibre, first in zip(after, known, strict=True)
-        for i in range(first, len(fibre))
-    )
-
-
-def _not_all_found(cluster: Cluster, found: NearbyZeros, so_far: Equations, d: int) -> list[str]:
-    """A doubt where fewer zeros were found, with multiplicities, than paths ended there.
-
-    Further equations than cut a set may make it less multiple than the paths show.
-    """
-    total = sum(zero.multiplicity for zero in found.zeros)
-    square = len(so_far.polynomials) == so_far.n - d
-    lost = square and total < len(cluster)
-    return [f"zeros of dimension {d} close to each other were not all found"] if lost else []
 
 
 def witness_superset(

@@ -99,6 +99,9 @@ def admit_zero(
 def is_alone(fibre: Fibre, i: int, equations: Equations) -> bool:
     """Whether a point that doubles found is the zero of all equations, and no other is close."""
     cut, rows, z = fibre.cut, fibre.rows, fibre.points[i]
+    if not len(z):
+        # Where linear equations leave no coordinates there is one point.
+        return True
     if cut.deflated and max(f.digits for f in equations.polynomials) > LONG:
         return False
     # Rounding errors make Newton's constant seem larger, and take a part of the time of digits.
