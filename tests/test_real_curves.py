@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
+import flint
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -15,7 +16,10 @@ from hypothesis import strategies as st
 
 import nag
 from nag.algebra.evaluation import Evaluator
+from nag.numerics.digits import bits_of, in_bits
+from nag.real.critical_values import UnclearDigitsError
 from nag.real.curve import PieceKind, VertexKind
+from nag.real.real_fibres import distances_of_conjugates, find_own_conjugates
 
 CASES = Path(__file__).parents[1] / "cases"
 LOOP, NETWORK, OPEN, POINT = PieceKind
@@ -270,3 +274,20 @@ def test_documents_are_json_and_runs_repeat() -> None:
     assert again == curve
     assert json.loads(json.dumps(curve.document())) == again.document()
     assert [len(row) for row in curve.rows()] == [5, 5]
+
+
+@given(st.integers(10, 80), st.booleans())
+@settings(max_examples=20, deadline=None)
+def test_two_points_of_a_fibre_however_close_are_real_or_conjugate(order: int, real: bool) -> None:
+    """As far apart as 1e-80, which doubles do not show."""
+    small, other = flint.arb(10) ** -order, [flint.acb(3), flint.acb(-1)]
+    near = flint.acb(small) if real else flint.acb(0, small)
+    fibre = [[1 + sign * near, flint.acb(2)] for sign in (1, -1)]
+    with in_bits(bits_of(200)):
+        found = find_own_conjugates(distances_of_conjugates([*fibre, other]))
+    assert found.tolist() == [real, real, True]
+
+
+def test_points_that_are_not_conjugate_in_pairs_are_not_judged() -> None:
+    with pytest.raises(UnclearDigitsError):
+        find_own_conjugates(np.array([[1.0, 0.1, 2.0], [1.0, 1.0, 0.1], [0.1, 2.0, 1.0]]))

@@ -33,9 +33,6 @@ ALONE = 1e-2
 CERTAIN = 1e3
 # Part of the digits beyond which coefficients are changed.
 PARTED = 0.75
-# Decides: Share of the digits to which imaginary parts of middles of clusters vanish that are real;
-# others need more digits.
-REAL = 0.15
 
 
 class UnclearDigitsError(ArithmeticError):
@@ -140,32 +137,34 @@ def real_zeros(circle: CircleOfFibres, values: Sequence[flint.acb], top: int) ->
         parted = [c.real * (1 + shift * (k * k % 7 - 3) / 4) for k, c in enumerate(found)]
         polynomial = flint.acb_poly([middle(flint.acb(c)) for c in parted])
         roots = [middle(z) for z in roots_of(polynomial, digits)]
-        return _real_clusters(polynomial, roots, noise, digits)
+        return _real_clusters(polynomial, roots, noise)
 
 
 def _real_clusters(
-    polynomial: flint.acb_poly, roots: list[flint.acb], noise: flint.arb, digits: int
+    polynomial: flint.acb_poly, roots: list[flint.acb], noise: flint.arb
 ) -> list[RealZero]:
-    """Real zeros, each the middle of the smallest cluster that no rounding can have scattered."""
+    """Real zeros, each the middle of the smallest cluster that no rounding can have scattered.
+
+    The conjugate of a cluster is one as well: it is real if its conjugate is nearest to itself.
+    """
     rough = np.array([complex(z) for z in roots])
     sizes = np.maximum(1.0, np.abs(rough))
     left = set(np.flatnonzero(np.abs(rough.imag) < ASIDE * sizes).tolist())
     result = []
     while left:
-        members, centre, radius = _certain_cluster(polynomial, roots, min(left), noise)
+        members, centre = _certain_cluster(polynomial, roots, min(left), noise)
         left -= set(members)
-        if abs(complex(centre).imag) > radius:
-            continue
-        if abs(centre.imag) > flint.arb(10) ** round(-REAL * digits):
-            raise UnclearDigitsError("it is not clear which critical values are real")
-        result.append(RealZero(centre.real.mid(), len(members)))
+        mirrored = centre.conjugate()
+        nearest = min(range(len(roots)), key=lambda i: float(abs(roots[i] - mirrored).mid()))
+        if nearest in members:
+            result.append(RealZero(centre.real.mid(), len(members)))
     return sorted(result, key=lambda z: float(z.value))
 
 
 def _certain_cluster(
     polynomial: flint.acb_poly, roots: list[flint.acb], first: int, noise: flint.arb
-) -> tuple[list[int], flint.acb, float]:
-    """The zeros round one that stay in a disc whatever noise does, its middle and radius.
+) -> tuple[list[int], flint.acb]:
+    """The zeros round one that stay in a disc whatever noise does, and its middle.
 
     On the circle round them values exceed what noise changes them by (Rouche).
     """
@@ -184,5 +183,5 @@ def _certain_cluster(
         least = min(abs(polynomial(centre + radius * turn)).mid() for turn in turns)
         reach = flint.arb(max(1.0, abs(complex(centre)) + radius)) ** count
         if least > CERTAIN * noise * reach * (1 + count):
-            return members, centre, radius
+            return members, centre
     raise UnclearDigitsError("critical values are not certain")

@@ -1,7 +1,8 @@
 """Vertices over special values of a linear form, and real points between them.
 
 A little beside a special value the points of the fibre that come together there are close to each
-other, and their middle is the vertex, to as many digits as the value is off.
+other, and their middle is the vertex, to as many digits as the value is off. A fibre over a real
+value is its own conjugate: a point is real if none of the others is nearer to its conjugate.
 """
 
 from __future__ import annotations
@@ -24,27 +25,15 @@ BESIDE = 0.25
 TOGETHER = 0.05
 # Decides: The hundred times.
 BETWEEN = 1e2
-# Decides: Share of the digits to which imaginary parts vanish of points over real values that are
-# real.
-REAL = 0.5
-# Decides: The same of those that are not; between them more digits are taken.
-COMPLEX = 0.35
-# Decides: Imaginary parts of vertices, in doubles, that are real.
-ROUNDING = 1e-12
-# Decides: And of those that are not; between them more digits are taken.
-NOT_REAL = 1e-6
-# Decimal order of values at which infinity is looked at, at least; and parts of it: distances there
-# of points that come together, and how many times that is between; imaginary parts of real ones,
-# and of others.
+# Decimal order of values at which infinity is looked at, at least.
 LEAST_ORDER = 10
 # Decides: Share of the order of a large value to which points there come together at infinity.
 FAR_TOGETHER = 0.24
 # Decides: Times that distance from which on they do not; between them more digits are taken.
 FAR_BETWEEN = 10.0
-# Decides: The same share of imaginary parts of real ones.
-FAR_REAL = 0.75
-# Decides: And of others; between them likewise.
-FAR_COMPLEX = 0.35
+# Distance from a conjugate, beside the least one in doubles, of points of which digits say which is
+# nearest; and what doubles leave of that, beside the points' sizes.
+NEARBY, ROUNDING = 4.0, 1e-8
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +78,7 @@ def special_fibre(table: FibreTable, closure: ProjectiveClosure, value: flint.ar
             columns = zip(*(fibre[i] for i in members), strict=True)
             x = [sum(column, flint.acb(0)) / len(members) for column in columns]
         middles.append(closure.homogeneous(doubles(x)[None])[0])
-    return _of_middles(closure, pencil, middles, clusters, ROUNDING, NOT_REAL)
+    return _of_middles(closure, pencil, middles, clusters)
 
 
 def infinite_fibre(table: FibreTable, closure: ProjectiveClosure, alike: int) -> SpecialFibre:
@@ -110,8 +99,7 @@ def infinite_fibre(table: FibreTable, closure: ProjectiveClosure, alike: int) ->
     together = 10 ** (-FAR_TOGETHER * order)
     clusters = _clusters(closure.distances(points, points), together, FAR_BETWEEN * together)
     middles = [_aligned(closure, points[members]).mean(axis=0) for members in clusters]
-    limits = (10 ** (-part * order) for part in (FAR_REAL, FAR_COMPLEX))
-    return _of_middles(closure, np.array([1.0, 0.0]), middles, clusters, *limits)
+    return _of_middles(closure, np.array([1.0, 0.0]), middles, clusters)
 
 
 def _of_middles(
@@ -119,17 +107,28 @@ def _of_middles(
     pencil: np.ndarray,
     middles: Sequence[np.ndarray],
     clusters: Sequence[Sequence[int]],
-    rounding: float,
-    not_real: float,
 ) -> SpecialFibre:
-    """A fibre of the middles of clusters, which are real up to the limits."""
+    """A fibre of the middles of clusters, of which those are real that are their own conjugates."""
     points = closure.normalised(np.array(middles))
     points = np.array([_turned_real(closure, point) for point in points])
-    off = np.abs(points.imag).max(axis=1)
-    if ((off > rounding) & (off < not_real)).any():
-        raise UnclearDigitsError("it is not clear which vertices are real")
     sheets = np.array([len(members) for members in clusters])
-    return SpecialFibre(pencil, points, sheets, off <= rounding)
+    real = find_own_conjugates(closure.distances(points.conj(), points))
+    return SpecialFibre(pencil, points, sheets, real)
+
+
+def find_own_conjugates(apart: np.ndarray) -> np.ndarray:
+    """Which points of a set that is its own conjugate are real, shape ``(P,)``.
+
+    Args:
+        apart: distances of the conjugate of each from each, shape ``(P, P)``.
+
+    Raises:
+        UnclearDigitsError: if two points seem to have one conjugate.
+    """
+    nearest, own = apart.argmin(axis=1), np.arange(len(apart))
+    if (nearest[nearest] != own).any():
+        raise UnclearDigitsError("it is not clear which points are real")
+    return nearest == own
 
 
 def homogeneous_points(closure: ProjectiveClosure, fibre: Sequence[Point]) -> np.ndarray:
@@ -185,15 +184,16 @@ def real_fibre(
     """
     with in_bits(bits_of(table.digits + SPARE)):
         fibre = table.at(flint.arb(float(pencil[0])) / flint.arb(float(pencil[1])))
-        real_limit, complex_limit = (
-            flint.arb(10) ** round(-part * table.digits) for part in (REAL, COMPLEX)
-        )
-        real = []
-        for x in fibre:
-            size = max(abs(z).mid() for z in x) + 1
-            off = max(abs(z.imag).mid() for z in x)
-            if off > real_limit * size and off < complex_limit * size:
-                raise UnclearDigitsError("it is not clear which points are real")
-            real.append(bool(off <= real_limit * size))
-    points = homogeneous_points(closure, fibre)
-    return points, np.array(real, dtype=bool)
+        real = find_own_conjugates(distances_of_conjugates(fibre))
+    return homogeneous_points(closure, fibre), real
+
+
+def distances_of_conjugates(fibre: Sequence[Point]) -> np.ndarray:
+    """Distances of the conjugate of each point from each; in digits where they are least."""
+    x = np.array([doubles(point) for point in fibre])
+    apart = np.abs(x.conj()[:, None] - x[None]).max(axis=2)
+    sizes = 1 + np.abs(x).max(axis=1, keepdims=True)
+    for i, j in np.argwhere(apart <= NEARBY * apart.min(axis=1, keepdims=True) + ROUNDING * sizes):
+        pairs = zip(fibre[i], fibre[j], strict=True)
+        apart[i, j] = max(float(abs(z.conjugate() - w).mid()) for z, w in pairs)
+    return apart
