@@ -3,9 +3,10 @@
 Lengths are measured in each coordinate relative to its own size, so that a zero with coordinates of
 very different sizes is as good as any other; if that fails, as it does where a coordinate vanishes,
 relative to the largest one. Let beta bound the Newton step at a point, and K the
-inverse Jacobian times the second derivatives nearby. If ``2 beta K <= 1`` there is exactly one zero
-within 1 / K, and it lies within 2 beta. Bounds are computed in doubles, with an allowance for the
-rounding of the residuals; where that is too much, residuals are evaluated in more digits.
+inverse Jacobian times the second derivatives within `RADIUS`. If ``2 beta K <= 1`` there is exactly
+one zero within 1 / K, if that is no more than `RADIUS`, and it lies within 2 beta. Bounds are
+computed in doubles, with an allowance for the rounding of the residuals and of the inverse; where
+that is too much, residuals are evaluated in more digits.
 
 Reference: Ortega & Rheinboldt, Iterative Solution of Nonlinear Equations, 1970, 12.6.
 """
@@ -33,13 +34,8 @@ STEPS, FINE_STEPS, DIGITS = 8, 4, 50
 BLOCK, MOST_FINE = 256, 200
 # Steps that promise convergence.
 PROMISING = 1e-3
-# Decides: Second derivatives in a ball over those at its centre: a bound that holds for radii below
-# a percent and degrees below 30.
-NEARBY = 1.5
-# Inverse of the largest radius in which a zero is said to be the only one.
-WIDEST = 1e2
-# Decides: Newton's step, beside the coordinates, at a proved zero: its ball is within that percent.
-SHORT = 1e-3
+# Of the ball, beside the coordinates, in which second derivatives are bounded.
+RADIUS = 1e-2
 # Size of a coordinate that is zero.
 TINY = 1e-30
 
@@ -166,7 +162,7 @@ class Confirmation:
         inverse = invert_matrices(matrix)
         z = self._append_parameters(points, values)
         # Derivatives in directions of these lengths are at most those where coordinates have them.
-        reach = np.maximum(np.abs(points), lengths)
+        reach = np.maximum(np.abs(points), lengths) + RADIUS * lengths
         sizes, second = self._evaluator.term_sizes(self._append_parameters(reach, values), n)
         residual = self._evaluator.values(z) if exact is None else exact
         # Rounding of the residual, and of its product with the inverse.
@@ -174,16 +170,20 @@ class Confirmation:
         size = np.abs(inverse)
         step = (inverse @ (residual * factor)[:, :, None])[:, :, 0]
         beta = (np.abs(step) + (size @ (noise * factor)[:, :, None])[:, :, 0]).max(axis=1)
-        K = NEARBY * (size @ (second * factor)[:, :, None])[:, :, 0].max(axis=1)
+        K = (size @ (second * factor)[:, :, None])[:, :, 0].max(axis=1)
+        # The inverse in doubles is one up to this factor (Neumann's series).
+        rounding = n * EPS * (size @ np.abs(matrix))
+        defect = (np.abs(inverse @ matrix - np.eye(n)) + rounding).sum(axis=2).max(axis=1)
+        beta, K = beta / (1 - defect), K / (1 - defect)
         condition = np.linalg.norm(inverse, axis=(1, 2)) * np.linalg.norm(matrix, axis=(1, 2))
         finite = finite & np.isfinite(condition)
-        regular = finite & (2 * beta * K <= 1) & (beta < SHORT)
+        regular = finite & (defect < 1) & (2 * beta * K <= 1) & (2 * beta <= RADIUS)
         return Confirmed(
             points,
             regular,
             lengths,
             np.where(regular, np.maximum(2 * beta, EPS), np.inf),
-            np.where(regular, 1 / np.maximum(K, WIDEST), 0.0),
+            np.where(regular, np.minimum(1 / K, RADIUS), 0.0),
             np.where(finite, condition, np.inf),
             np.full(len(points), 16 if exact is None else DIGITS),
         )
