@@ -30,7 +30,7 @@ from nag.numerics.branch_union import (
     multiplicities_in_scheme,
 )
 from nag.numerics.coincidence import LEAST
-from nag.numerics.double_ranks import matrix_corank
+from nag.numerics.double_ranks import corank_on_component
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.zero_values import ON, WRITTEN, vanishes_at_all, widen_error
@@ -262,7 +262,7 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Dec
             residual=float(evaluator.residuals(x[None]).max(initial=0.0)),
             radii=np.finfo(float).eps * np.abs(x)[None],
             digits=[zero.digits],
-            corank=matrix_corank(evaluator.balanced_jacobian(x)),
+            corank=corank_on_component(evaluator, x, 0, zero.multiplicity),
             multidegree=np.array(1) if system.groups else None,
         )
         if square and zero.multiplicity == 1:
@@ -372,9 +372,7 @@ def _in_scheme(system: PolynomialSystem, components: Sequence[BranchComponent]) 
             witness,
             multiplicity=multiple,
             residual=residual,
-            corank=witness.dimension
-            if multiple == 1
-            else matrix_corank(original.balanced_jacobian(witness.points[0])),
+            corank=corank_on_component(original, witness.points[0], witness.dimension, multiple),
             status=Status.UNDECIDED if reasons else witness.status,
             note="; ".join(reasons),
         )

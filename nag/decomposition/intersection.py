@@ -23,7 +23,7 @@ from nag.decomposition.superset import (
     intersection_order,
     witness_superset,
 )
-from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
+from nag.numerics.double_ranks import NEARLY_SINGULAR, corank_on_component
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.zero_values import LEAST, ON
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -254,7 +254,6 @@ def _bare_point(x: np.ndarray, accuracy: float, common: Reduction) -> WitnessSet
     """An isolated point as a path's end left it, no system being known that sharpens it."""
     point = common.frame.points(x[None])
     residual = float(common.original.residuals(point).max(initial=0.0))
-    jacobian = common.equations.evaluator.balanced_jacobian(x)
     note = "" if residual < max(ON, accuracy) else "the point does not satisfy all equations"
     return WitnessSet(
         slice=common.frame.slice(np.zeros((0, 1 + len(x)))),
@@ -264,7 +263,7 @@ def _bare_point(x: np.ndarray, accuracy: float, common: Reduction) -> WitnessSet
         residual=residual,
         radii=even_radii(point, common.frame.error(x[None], accuracy)),
         digits=[DOUBLE],
-        corank=matrix_corank(jacobian, NEARLY_SINGULAR),
+        corank=corank_on_component(common.equations.evaluator, x, 0, 0, NEARLY_SINGULAR),
         note=note,
     )
 

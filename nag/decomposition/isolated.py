@@ -25,7 +25,7 @@ from nag.decomposition.orbits import group_into_orbits
 from nag.errors import StartError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import coincident
-from nag.numerics.double_ranks import matrix_corank
+from nag.numerics.double_ranks import corank_on_component
 from nag.numerics.precise_point import precise_zero
 from nag.numerics.system_facts import SystemFacts
 from nag.numerics.zero_values import NONZERO, vanishes_at_point
@@ -186,10 +186,8 @@ def _components(
 
 
 def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSystem) -> WitnessSet:
-    n, corank, radii = system.n, 0, solution.radii
+    n, radii = system.n, solution.radii
     x = solution.point[None]
-    if solution.multiplicity > 1:
-        corank = max(matrix_corank(evaluator.balanced_jacobian(solution.point)), 1)
     return WitnessSet(
         slice=Slice(np.zeros((0, n)), np.zeros(0)),
         points=x,
@@ -198,7 +196,7 @@ def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSyste
         residual=solution.residual,
         radii=even_radii(x, solution.accuracy) if radii is None else radii[None],
         digits=[solution.precision],
-        corank=corank,
+        corank=corank_on_component(evaluator, solution.point, 0, solution.multiplicity),
         multidegree=np.array(1) if system.groups else None,
     )
 

@@ -65,6 +65,22 @@ def matrix_corank(matrix: np.ndarray, small: float = SINGULAR) -> int:
     return numerical_corank(singular, matrix.shape[1], small)
 
 
+def corank_on_component(
+    evaluator: Evaluator, x: np.ndarray, dimension: int, multiplicity: int, small: float = SINGULAR
+) -> int:
+    """Corank of the Jacobian at a generic point of a component of its zeros.
+
+    Exactly where the component is simple it is the dimension; else it is read at the gap.
+
+    Args:
+        multiplicity: 0 if it is not known.
+    """
+    if multiplicity == 1:
+        return dimension
+    corank = matrix_corank(evaluator.balanced_jacobian(x), small)
+    return max(corank, dimension + 1) if multiplicity else corank
+
+
 def largest_corank(matrix: np.ndarray, small: float) -> int:
     """A bound of the corank of a balanced matrix, where trials decide which it is.
 

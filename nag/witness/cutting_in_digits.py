@@ -111,6 +111,9 @@ def is_alone(fibre: Fibre, i: int, equations: Equations) -> bool:
         < 1 / CLOSE
     ):
         return False
+    if not cut.deflated and len(cut.polynomials) == len(equations.polynomials):
+        # The cut is all equations: they have the zero that Newton's method converges to.
+        return True
     digits = zero_in_digits(fibre, i)
     return digits is not None and all_vanish(equations.polynomials, digits) is True
 
