@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from nag.numerics.double_ranks import SINGULAR
 from nag.real.arc_tracing import Intervals, TracingError, trace_arcs
 from nag.real.closure import AT_INFINITY, ProjectiveClosure
 from nag.real.curve import (
@@ -31,10 +32,9 @@ NEAR_END = (0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4)
 NEARER = 0.3
 # Decides: The same of an arc's end from a point that is known in digits; else arcs were mixed up.
 SAME = 1e-2
-# Decides: Least singular value at a vertex that is singular: these are known to rounding.
-SINGULAR = 1e-11
-# Decides: And at one that is regular; what falls between is undecided.
-REGULAR = 1e-9
+# Decides: Least singular value at a vertex that is singular: these are known to rounding. From
+# `SINGULAR` on it is regular; what falls between is undecided.
+ROUNDED_AWAY = 1e-11
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,9 +218,9 @@ def join_arcs(
                 doubt = doubt or "a real point lies on no arc"
             continue
         gap = closure.corank_gap(places[at])
-        if SINGULAR < gap < REGULAR:
+        if ROUNDED_AWAY < gap < SINGULAR:
             doubt = doubt or "it is not clear whether the curve is singular at a vertex"
-        if gap < REGULAR or len(ends) != 2:
+        if gap < SINGULAR or len(ends) != 2:
             kinds[at] = VertexKind.SINGULAR
     index = {at: i for i, at in enumerate(kinds)}
     vertices = tuple(

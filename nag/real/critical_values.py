@@ -18,11 +18,10 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.digits import bits_of, in_bits, middle
-from nag.real.fibre_table import SPARE, CircleOfFibres, roots_of
+from nag.real.fibre_table import SPARE, VANISHING, CircleOfFibres, roots_of
 
-# Decides: The same of coefficients of products over fibres that are zero.
-NOTHING = 0.6
-# Decides: The same of leading ones that are not; between them more digits are taken.
+# Decides: Share of the digits to which leading coefficients of products over fibres do not vanish;
+# between this and `VANISHING` more digits are taken.
 SOMETHING = 0.4
 # Imaginary parts, beside one and the zero's size, of zeros that are not real.
 ASIDE = 1e-2
@@ -118,7 +117,7 @@ def real_zeros(circle: CircleOfFibres, values: Sequence[flint.acb], top: int) ->
         if abs(largest.imag) > abs(largest.real):
             found = [middle(c * flint.acb(0, -1)) for c in found]
         found = [middle(c / size) for c in found]
-        nothing, something = (flint.arb(10) ** round(-p * digits) for p in (NOTHING, SOMETHING))
+        nothing, something = (flint.arb(10) ** round(-p * digits) for p in (VANISHING, SOMETHING))
         if any(abs(c) > nothing for c in found[top + 1 :]) or any(
             abs(c.imag) > nothing for c in found
         ):

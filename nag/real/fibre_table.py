@@ -29,8 +29,8 @@ SPARE = 20
 MORE_SAMPLES = 4
 # Part of the digits that differences of points of a fibre and its conjugate agree in.
 SAME = 0.5
-# Decides: Share of the digits to which coefficients beyond the degree vanish; else the fibres are
-# not those of a curve.
+# Decides: Share of the digits to which coefficients beyond the degree vanish, of symmetric
+# functions and of products over fibres; else the fibres are not those of a curve.
 VANISHING = 0.6
 # Bits in which zeros are separated, beside those worked in, tried in turn.
 MOST_TIMES = (4, 16, 64)

@@ -26,7 +26,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.real.arc_tracing import TracingError
-from nag.real.arcs import SINGULAR, Skeleton, connect, find_arcs, join_arcs
+from nag.real.arcs import ROUNDED_AWAY, Skeleton, connect, find_arcs, join_arcs
 from nag.real.closure import ProjectiveClosure, turns_of
 from nag.real.critical_values import (
     UnclearDigitsError,
@@ -265,7 +265,9 @@ def _crossed(closure: ProjectiveClosure, fibres: Sequence[SpecialFibre]) -> np.n
         for fibre in fibres
         for i in np.flatnonzero(fibre.real & (fibre.sheets == 1))
     ]
-    kept = [x for x in points if closure.corank_gap(x) < SINGULAR and not closure.is_infinite(x)]
+    kept = [
+        x for x in points if closure.corank_gap(x) < ROUNDED_AWAY and not closure.is_infinite(x)
+    ]
     return np.array(kept).reshape(-1, closure.size)
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from nag.numerics.doubles import ROUNDED, SLACK
+from nag.numerics.zero_values import NONZERO
 from nag.tracking import blocks
 from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.inclusion import prove_end
@@ -24,11 +25,9 @@ from nag.tracking.settings import Settings
 
 # Digits of numbers of as many words.
 DIGITS = {2: 32, 4: 64, 8: 120}
-# Decides: Residual of a limit over that of the last one, further out: more is rounding, if it is
-# below NEARLY, and asks for more digits.
+# Decides: Residual of a limit over that of the last one, further out: more is rounding, if it may
+# be that of a zero, and asks for more digits.
 GAINED = 0.1
-# Decides: Residual below which `GAINED` is asked for.
-NEARLY = 1e-6
 # Rounding over the wanted residual that asks for more digits as well.
 NOISE = 1e-3
 # Paths of a block.
@@ -389,7 +388,7 @@ def _limit(
     residual = np.inf if limit is None else limit.residual
     if limit is not None:
         states.last[path] = limit
-    stuck = noise > NOISE * need or GAINED * further < residual < NEARLY
+    stuck = noise > NOISE * need or GAINED * further < residual < NONZERO
     if stuck and limits.words == 2:
         # Rounding errors do not say how far in a limit is to be looked for.
         return end_run.LOST
