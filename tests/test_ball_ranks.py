@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 from scipy.linalg import qr
 
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import rank
+from nag.algebra.expression import parse_polynomial
 from nag.numerics.ball_ranks import Digits, known_zero, regular_block, row_echelon
 from nag.numerics.digits import log_size
-from nag.numerics.double_ranks import matrix_corank, pivot_rows
+from nag.numerics.double_ranks import corank_on_component, matrix_corank, pivot_rows
 
 
 def acb_rows(rows: list[list[complex]]) -> list[list[flint.acb]]:
@@ -76,3 +78,10 @@ def test_rows_are_chosen_alike_by_numpy_and_by_lapack(columns: int) -> None:
     _, triangle, known = qr(matrix.T, mode="economic", pivoting=True)
     assert order == known.tolist()
     assert np.allclose(lengths, np.abs(np.diag(triangle)))
+
+
+def test_a_simple_zero_has_corank_zero_however_unequal_its_coordinates() -> None:
+    squares = [parse_polynomial(f, ("x", "y")) for f in ("x^2 - 2*10^24", "10^24*y^2 - 3")]
+    evaluator, x = Evaluator.of(squares, 2), np.array([2**0.5 * 1e12, 3**0.5 * 1e-12])
+    assert matrix_corank(evaluator.balanced_jacobian(x)) == 2
+    assert [corank_on_component(evaluator, x, 0, m) for m in (1, 2)] == [0, 2]
