@@ -14,7 +14,7 @@ from nag.cli import main
 from nag.pictures import plane_curves
 from nag.pictures.curve_picture import draw_real_curves
 from nag.pictures.motion_picture import draw_joint_values, draw_point_paths
-from nag.pictures.plane_curves import Axis, PlaneCurves
+from nag.pictures.plane_curves import Axis, CurvesInStyle
 
 CASES = Path(__file__).parent.parent / "cases"
 SYSTEM = "((x^2 + y^2)^2 - 2*(x^2 - y^2))*(y^2 - x^2*(x - 1))*(x + y - 1/2)\n"
@@ -27,7 +27,7 @@ def ask(*words: str) -> int:
 @pytest.fixture
 def drawn(monkeypatch):
     """The curves that are drawn, in the place of a picture."""
-    kept: list[tuple[list[PlaneCurves], tuple[Axis, Axis]]] = []
+    kept: list[tuple[list[CurvesInStyle], tuple[Axis, Axis]]] = []
 
     def keep(curves, axes, title, path) -> None:
         kept.append((curves, axes))
@@ -64,10 +64,10 @@ def test_what_is_shown_is_all_that_is_bounded_and_arcs_to_infinity_nearby() -> N
     x = np.linspace(-1000, 1000, 100_001)
     line, higher = (np.stack([x, np.full_like(x, y)], axis=-1) for y in (0.0, 5.0))
     axes = Axis("x"), Axis("y")
-    window = plane_curves._window([PlaneCurves("", [circle], (), [line])], axes)
+    window = plane_curves.find_window([CurvesInStyle("", [circle], (), [line])], axes)
     assert np.all(window[0] < circle.min(axis=0)) and np.all(window[1] > circle.max(axis=0))
     assert 2.9 < window[1, 0] < 4
-    alone = plane_curves._window([PlaneCurves("", [], (), [higher])], axes)
+    alone = plane_curves.find_window([CurvesInStyle("", [], (), [higher])], axes)
     assert alone[0, 1] < 5 < alone[1, 1] and 5 < alone[1, 0] < 20
 
 
@@ -171,3 +171,37 @@ def test_curves_without_real_points_leave_nothing_to_draw(tmp_path, capsys) -> N
     system.write_text("x^2 + y^2 + 1\n")
     assert ask(system, "--onto", "x,y", "--out", tmp_path / "x.svg") == 2
     assert "no component of dimension 1 has real points" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("case", "onto", "loops"),
+    [
+        ("graph-curve", "x,y,z", 1),
+        ("bricard-variety", "a0,a2,c2", 2),
+        ("bennett-variety", "a0,a2,c0", 2),
+    ],
+)
+def test_the_papers_curves_are_drawn_in_space_without_corners(
+    case: str, onto: str, loops: int, tmp_path, monkeypatch
+) -> None:
+    # PT13 figure 1, T25 figures 1 and 2.
+    kept = []
+    monkeypatch.setattr(
+        "nag.pictures.curve_picture.draw_space_curves",
+        lambda curves, axes, title, path: kept.append(curves),
+    )
+    picture = tmp_path / "curve.svg"
+    assert ask(CASES / f"{case}.toml", "--onto", onto, "--out", picture) == 0
+    ((own,),) = kept
+    assert len(own.arcs) == loops
+    for arc in own.arcs:
+        steps = np.diff(arc / np.ptp(arc, axis=0), axis=0)
+        steps /= np.linalg.norm(steps, axis=1)[:, None]
+        assert (steps[1:] * steps[:-1]).sum(axis=1).min() > 0.9
+
+
+def test_curves_in_space_are_written_as_a_picture_with_three_axes(tmp_path) -> None:
+    picture = tmp_path / "curve.svg"
+    assert ask(CASES / "bricard-variety.toml", "--onto", "a0,a2,c2", "--out", picture) == 0
+    text = picture.read_text()
+    assert all(f">{name}<" in text for name in ("a0", "a2", "c2", "component 1"))

@@ -42,10 +42,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_tracking(parser)
     parser.add_argument(
         "--onto",
-        type=_pair,
-        metavar="X,Y",
-        help="two variables of the equations: draw the real points of the components of dimension "
-        "one; with --point two of the coordinates x, y and z",
+        type=_pair_or_triple,
+        metavar="X,Y[,Z]",
+        help="two variables of the equations, or three: draw the real points of the components of "
+        "dimension one; with --point two of the coordinates x, y and z",
     )
     add_component(parser, "draw that component alone, by its number (default: all)")
     parser.add_argument(
@@ -71,11 +71,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _pair(text: str) -> tuple[str, str]:
-    names = tuple(name.strip() for name in text.split(","))
-    if len(names) != 2 or not all(names) or names[0] == names[1]:
+def _pair(text: str) -> tuple[str, ...]:
+    names = _names(text)
+    if len(names) != 2:
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is none; write two names, as in x,y")
-    return names[0], names[1]
+    return names
+
+
+def _pair_or_triple(text: str) -> tuple[str, ...]:
+    names = _names(text)
+    if len(names) not in (2, 3):
+        raise argparse.ArgumentTypeError(
+            f"{text[:40]!r} is none; write two names, as in x,y, or three"
+        )
+    return names
+
+
+def _names(text: str) -> tuple[str, ...]:
+    """Names between commas; none where one is missing or there twice."""
+    names = tuple(name.strip() for name in text.split(","))
+    return names if all(names) and len(set(names)) == len(names) else ()
 
 
 def run(options: argparse.Namespace) -> CommandAnswer:
@@ -137,7 +152,7 @@ def _of_components(options: argparse.Namespace) -> CommandAnswer:
     left_out = [k for k, c in enumerate(found.decomposition.components, 1) if c.dimension != 1]
     if left_out and not options.component:
         rows.append(("left out", f"{len(left_out)} of other dimensions than 1"))
-    onto = variables.index(options.onto[0]), variables.index(options.onto[1])
+    onto = [variables.index(name) for name in options.onto]
     from nag.pictures.curve_picture import draw_real_curves
 
     return _drawn(
@@ -223,7 +238,7 @@ def _axes(options: argparse.Namespace, normal: Any) -> tuple[int, int]:
         left = 2 if normal is None else int(abs(normal).argmax())
         return tuple(i for i in range(3) if i != left)  # type: ignore[return-value]
     for name in options.onto:
-        if name not in AXES:
+        if name not in AXES or len(options.onto) > 2:
             raise UsageError(f"--onto: {name!r} is none; with --point give two of x, y and z")
     return AXES.index(options.onto[0]), AXES.index(options.onto[1])
 

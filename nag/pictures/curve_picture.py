@@ -1,4 +1,4 @@
-"""Projections of real curves to two variables."""
+"""Projections of real curves to two or three variables."""
 
 from __future__ import annotations
 
@@ -9,17 +9,19 @@ import numpy as np
 from nag.pictures.plane_curves import (
     ISOLATED,
     MEETING,
+    PLANE,
     SINGULAR,
     Axis,
+    CurvesInStyle,
     Mark,
-    PlaneCurves,
     draw_plane_curves,
 )
+from nag.pictures.space_curves import draw_space_curves
 from nag.real.curve import RealCurve, RealEdge, Turn, VertexKind
 
 
 def draw_real_curves(
-    curves: Sequence[tuple[str, RealCurve]], onto: tuple[int, int], title: str, path: str
+    curves: Sequence[tuple[str, RealCurve]], onto: Sequence[int], title: str, path: str
 ) -> None:
     """Real curves of one system, each in a style of its own, with what is special on them.
 
@@ -28,7 +30,7 @@ def draw_real_curves(
 
     Args:
         curves: each with its name.
-        onto: indices of the variables.
+        onto: indices of two variables, or of three.
 
     Raises:
         OSError: if the file cannot be written.
@@ -45,8 +47,11 @@ def draw_real_curves(
         for edge in curve.edges:
             arcs[_endless(curve, edge)].append(_on_plane(edge.chart[:, list(onto)], turns))
         marked = [(mark, _of_points(points, onto, turns)) for mark, points in _marked(curve)]
-        drawn.append(PlaneCurves(name, arcs[0], marked, arcs[1]))
-    draw_plane_curves(drawn, (axes[0], axes[1]), title, path)
+        drawn.append(CurvesInStyle(name, arcs[0], marked, arcs[1]))
+    if len(axes) > len(PLANE):
+        draw_space_curves(drawn, axes, title, path)
+    else:
+        draw_plane_curves(drawn, (axes[0], axes[1]), title, path)
 
 
 def _endless(curve: RealCurve, edge: RealEdge) -> bool:
@@ -67,9 +72,7 @@ def _on_plane(chart: np.ndarray, turns: Sequence[Turn | None]) -> np.ndarray:
     return chart * [1.0 if turn is None else np.degrees(2.0) for turn in turns]
 
 
-def _of_points(
-    points: np.ndarray, onto: tuple[int, int], turns: Sequence[Turn | None]
-) -> np.ndarray:
+def _of_points(points: np.ndarray, onto: Sequence[int], turns: Sequence[Turn | None]) -> np.ndarray:
     chart = np.array(points, dtype=float)[:, list(onto)]
     for k, turn in enumerate(turns):
         if turn is not None:

@@ -8,7 +8,7 @@ from nag.errors import NagError
 from nag.kinematics.joint_values import joint_coordinates
 from nag.kinematics.motion import Circuit, Motion
 from nag.kinematics.scene import Scene
-from nag.pictures.plane_curves import SINGULAR, Axis, PlaneCurves, draw_plane_curves
+from nag.pictures.plane_curves import SINGULAR, Axis, CurvesInStyle, draw_plane_curves
 
 
 def joint_indices(scene: Scene, names: tuple[str, str]) -> tuple[int, int]:
@@ -68,7 +68,7 @@ def draw_point_paths(
     draw_plane_curves(drawn, (axes[0], axes[1]), title, path)
 
 
-def _plane(circuit: Circuit, points: np.ndarray) -> PlaneCurves:
+def _plane(circuit: Circuit, points: np.ndarray) -> CurvesInStyle:
     crossings = [c.sample for c in circuit.crossings]
     marked = [(SINGULAR, points[crossings])] if crossings else []
-    return PlaneCurves(f"circuit {circuit.number}", [points], marked)
+    return CurvesInStyle(f"circuit {circuit.number}", [points], marked)

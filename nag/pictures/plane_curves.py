@@ -15,6 +15,7 @@ from nag.pictures.picture_file import COLOURS, DASHES, STYLE, save
 TURN = 360.0
 # Half of what is shown: a little more than a turn, so that what is at its ends is seen.
 SHOWN = 188.0
+PLANE = ("across", "up")
 TICKS = (-180, -90, 0, 90, 180)
 # Of arcs to infinity: how far they are shown, in sizes of what is bounded; and room at the sides.
 REACH, MARGIN = 3, 0.06
@@ -30,7 +31,7 @@ MEETING = (
 
 @dataclass(frozen=True)
 class Axis:
-    """A coordinate of the plane.
+    """A coordinate of what is drawn.
 
     Attributes:
         label: its name.
@@ -42,13 +43,14 @@ class Axis:
 
 
 @dataclass(frozen=True, eq=False)
-class PlaneCurves:
+class CurvesInStyle:
     """What is drawn in one style.
 
     Attributes:
         label: its name.
-        arcs: points in their order, shape ``(k, 2)`` each; angles do not jump on the way.
-        marked: points by what is marked at them, shape ``(k, 2)`` each.
+        arcs: points in their order, shape ``(k, d)`` each, d the number of axes; angles do not
+            jump on the way.
+        marked: points by what is marked at them, shape ``(k, d)`` each.
         endless: arcs that go to infinity at an end, of the same shapes.
     """
 
@@ -59,7 +61,7 @@ class PlaneCurves:
 
 
 def draw_plane_curves(
-    curves: Sequence[PlaneCurves], axes: tuple[Axis, Axis], title: str, path: str
+    curves: Sequence[CurvesInStyle], axes: tuple[Axis, Axis], title: str, path: str
 ) -> None:
     """Curves, each in a colour and a line style of its own, with a legend.
 
@@ -83,7 +85,7 @@ def draw_plane_curves(
                 for point in points:
                     for copy in _copies(point[None], axes):
                         plane.plot(*copy.T, linestyle="", color="black", label=name, **mark)
-        window = _window(curves, axes)
+        window = find_window(curves, axes)
         for axis, label, ticks, limits, ends in (
             (axes[0], plane.set_xlabel, plane.set_xticks, plane.set_xlim, window[:, 0]),
             (axes[1], plane.set_ylabel, plane.set_yticks, plane.set_ylim, window[:, 1]),
@@ -104,17 +106,17 @@ def draw_plane_curves(
         save(figure, path)
 
 
-def _window(curves: Sequence[PlaneCurves], axes: tuple[Axis, Axis]) -> np.ndarray:
-    """What is shown: its least and largest coordinates, shape ``(2, 2)``.
+def find_window(curves: Sequence[CurvesInStyle], axes: Sequence[Axis]) -> np.ndarray:
+    """What is shown: its least and largest coordinates, shape ``(2, d)``.
 
-    All that is bounded, and of arcs to infinity what is within a few sizes of it; a square, where
-    no coordinate is an angle.
+    All that is bounded, and of arcs to infinity what is within a few sizes of it; in a plane a
+    square, where no coordinate is an angle.
     """
     plain = [not axis.angle for axis in axes]
     whole = [arc for own in curves for arc in own.arcs]
     whole += [points for own in curves for _, points in own.marked]
     endless = [arc for own in curves for arc in own.endless]
-    bounded = np.vstack(whole) if whole else np.zeros((1, 2))
+    bounded = np.vstack(whole) if whole else np.zeros((1, len(axes)))
     centre = (bounded.min(axis=0) + bounded.max(axis=0)) / 2
     size = np.linalg.norm((bounded - centre)[:, plain], axis=1).max()
     away = [np.linalg.norm((arc - centre)[:, plain], axis=1) for arc in endless]
@@ -123,8 +125,8 @@ def _window(curves: Sequence[PlaneCurves], axes: tuple[Axis, Axis]) -> np.ndarra
     points = np.vstack([*shown, bounded] if whole else shown or [bounded])
     ends = np.stack([points.min(axis=0), points.max(axis=0)])
     spans = np.ptp(ends, axis=0)
-    if all(plain):
-        spans = np.full(2, spans.max())
+    if all(plain) and len(axes) == len(PLANE):
+        spans = np.full(len(axes), spans.max())
     middle, half = ends.mean(axis=0), (0.5 + MARGIN) * np.where(spans > 0, spans, 1.0)
     return np.stack([middle - half, middle + half])
 

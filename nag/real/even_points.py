@@ -19,6 +19,11 @@ CHORD, TURN, HALF_ANGLE = 0.05, 0.1, 0.1
 # Fewest points of an arc; and distance of points that are kept, beside that of points that are made
 # at the same length.
 FEWEST, KEPT = 24, 0.2
+# Cosine of the angle between a smooth end's tangent and that of the parabola, at least.
+LIKE = 0.9
+# Times that points are put between others where the tangent turns by more than this cosine, as it
+# may in the last step to a fold.
+ROUNDS, WIDE = 6, 0.98
 
 
 def even_points(
@@ -30,7 +35,7 @@ def even_points(
         points: normalised, neighbours of like signs, shape ``(k, size)``.
     """
     length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
-    kept = points[_thinned(points, KEPT * min(CHORD, length / FEWEST))]
+    kept = _filled(closure, points[_thinned(points, KEPT * min(CHORD, length / FEWEST))])
     chords = np.diff(kept, axis=0)
     sizes = np.linalg.norm(chords, axis=1)
     tangents = _tangents(closure, kept, chords / sizes[:, None])
@@ -43,19 +48,48 @@ def even_points(
     count = max(FEWEST, int(np.ceil(along[-1])) + 1)
     at = np.linspace(0, along[-1], count)[1:-1]
     place = np.clip(np.searchsorted(along, at, side="right") - 1, 0, len(sizes) - 1)
-    s = ((at - along[place]) / cost[place])[:, None]
-    size = sizes[place, None]
-    guess = (
-        (1 + 2 * s) * (1 - s) ** 2 * kept[place]
-        + s**2 * (3 - 2 * s) * kept[place + 1]
-        + s * (1 - s) ** 2 * size * tangents[place]
-        - s**2 * (1 - s) * size * tangents[place + 1]
-    )
+    guess = _on_cubics(kept, tangents, place, (at - along[place]) / cost[place])
     spacing = np.full(len(at), length / count)
-    found, first, good = bring_to_curve(closure, guess, chords[place] / size, spacing)
+    directions = chords[place] / sizes[place, None]
+    found, first, good = bring_to_curve(closure, guess, directions, spacing)
     if not (good & (first < CORRECTION * spacing)).all():
         return points
     return np.vstack([kept[:1], closure.aligned(found, guess), kept[-1:]])
+
+
+def _on_cubics(
+    points: np.ndarray, tangents: np.ndarray, place: np.ndarray, share: np.ndarray
+) -> np.ndarray:
+    """Points of the cubics between neighbours: the index of the first, and the share of the way."""
+    s = share[:, None]
+    size = np.linalg.norm(points[place + 1] - points[place], axis=1)[:, None]
+    return (
+        (1 + 2 * s) * (1 - s) ** 2 * points[place]
+        + s**2 * (3 - 2 * s) * points[place + 1]
+        + s * (1 - s) ** 2 * size * tangents[place]
+        - s**2 * (1 - s) * size * tangents[place + 1]
+    )
+
+
+def _filled(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray:
+    """The points, with others between them where the tangent turns by much."""
+    for _ in range(ROUNDS):
+        chords = np.diff(points, axis=0)
+        sizes = np.linalg.norm(chords, axis=1)
+        directions = chords / sizes[:, None]
+        tangents = _tangents(closure, points, directions)
+        wide = np.flatnonzero((tangents[1:] * tangents[:-1]).sum(axis=1) < WIDE)
+        if not len(wide):
+            break
+        guess = _on_cubics(points, tangents, wide, np.full(len(wide), 0.5))
+        spacing = sizes[wide] / 2
+        found, first, good = bring_to_curve(closure, guess, directions[wide], spacing)
+        good &= first < CORRECTION * spacing
+        if not good.any():
+            break
+        found = closure.aligned(found, guess)
+        points = np.insert(points, wide[good] + 1, found[good], axis=0)
+    return points
 
 
 def _thinned(points: np.ndarray, least: float) -> list[int]:
@@ -69,11 +103,14 @@ def _thinned(points: np.ndarray, least: float) -> list[int]:
 
 
 def _tangents(closure: ProjectiveClosure, points: np.ndarray, chords: np.ndarray) -> np.ndarray:
-    """Unit tangents; at the ends, where the curve may be singular, those of a parabola."""
+    """Unit tangents; at ends where the curve is singular those of a parabola."""
     if len(points) == 2:
         return np.vstack([chords, chords])
     near = chords[1:] + chords[:-1]
     inner = tangents_at(closure, points[1:-1], near / np.linalg.norm(near, axis=1)[:, None])
     ends = np.vstack([2 * chords[0] - inner[0], 2 * chords[-1] - inner[-1]])
     ends /= np.linalg.norm(ends, axis=1)[:, None]
+    own = tangents_at(closure, points[[0, -1]], ends)
+    # What equations say at a singular point has nothing to do with the parabola.
+    ends = np.where((own * ends).sum(axis=1)[:, None] > LIKE, own, ends)
     return np.vstack([ends[:1], inner, ends[1:]])
