@@ -11,6 +11,8 @@ from PIL import Image
 
 import nag
 from nag.cli import main
+from nag.kinematics.scene import scene_of
+from nag.mechanism.problem import in_real_coordinates, problem_of
 from nag.pictures import plane_curves
 from nag.pictures.curve_picture import draw_real_curves
 from nag.pictures.motion_picture import draw_joint_values, draw_point_paths
@@ -137,7 +139,7 @@ def test_an_export_is_drawn_as_its_case_is(tmp_path, capsys) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["bennett.toml"], "say what to draw: --onto, --joints, --point or --graph"),
+        (["bennett.toml"], "say what to draw, one of --onto, --joints, --point, --graph"),
         (["bennett.toml", "--graph", "--joints", "J1,J2"], "give one of --onto, --joints"),
         (["bennett.toml", "--onto", "x"], "'x' is none; write two names, as in x,y"),
         (["bennett.toml", "--onto", "x_J1,x_J3"], "--onto: 'x_J3' is not one of the variables"),
@@ -205,3 +207,22 @@ def test_curves_in_space_are_written_as_a_picture_with_three_axes(tmp_path) -> N
     assert ask(CASES / "bricard-variety.toml", "--onto", "a0,a2,c2", "--out", picture) == 0
     text = picture.read_text()
     assert all(f">{name}<" in text for name in ("a0", "a2", "c2", "component 1"))
+
+
+@pytest.mark.parametrize("case", ["bennett", "planar/four-bar", "robots/3-rps"])
+def test_a_mechanism_is_drawn_with_the_names_of_its_bodies_and_joints(case: str, tmp_path) -> None:
+    picture = tmp_path / "x.svg"
+    assert ask(CASES / f"{case}.toml", "--mechanism", "--out", picture) == 0
+    problem = in_real_coordinates(problem_of(nag.read_case(CASES / f"{case}.toml")))
+    text, scene = picture.read_text(), scene_of(problem)
+    names = [*scene.bodies, *(joint.name for joint in scene.joints)]
+    assert [name for name in names if name not in text] == []
+
+
+def test_components_are_drawn_by_their_dimensions_alike_ones_together(tmp_path) -> None:
+    picture = tmp_path / "x.svg"
+    given = CASES / "literature" / "sphere-curve-lines-point.toml"
+    assert ask(given, "--tree", "--out", picture) == 0
+    text = picture.read_text()
+    for words in ("dimension 2", "dimension 1", "dimension 0", "3 of degree 1", "degree 3"):
+        assert f">{words}<" in text

@@ -26,10 +26,13 @@ from nag.cli.witness_input import (
 from nag.errors import NagError
 
 if TYPE_CHECKING:
+    from nag.files.cases import Case
     from nag.kinematics.motion import Motion
+    from nag.kinematics.scene import Scene
     from nag.mechanism.problem import Problem
 
 AXES = ("x", "y", "z")
+DRAWN = ("--onto", "--joints", "--point", "--graph", "--mechanism", "--tree")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -67,6 +70,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--graph", action="store_true", help="draw the graph of bodies and joints")
     parser.add_argument(
+        "--mechanism",
+        action="store_true",
+        help="draw the mechanism at its reference configuration, or where there is none on its way",
+    )
+    parser.add_argument(
+        "--tree", action="store_true", help="draw all components by their dimensions"
+    )
+    parser.add_argument(
         "--out", metavar="FILE", required=True, help=f"the picture: {', '.join(KINDS)}"
     )
 
@@ -99,13 +110,32 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     Raises:
         UsageError: if it is not said what to draw, or that is not there.
     """
-    asked = [bool(options.joints), options.point is not None, options.graph]
-    if sum(asked) > 1 or (options.onto is not None and (options.joints or options.graph)):
-        raise UsageError("give one of --onto, --joints, --point and --graph; --point takes --onto")
-    if not any(asked) and options.onto is None:
-        raise UsageError("say what to draw: --onto, --joints, --point or --graph")
+    asked = [bool(options.joints), options.point is not None, options.graph, options.mechanism]
+    given = [*asked, options.tree, options.onto is not None and options.point is None]
+    if sum(given) > 1:
+        raise UsageError(f"give one of {', '.join(DRAWN)}; --point takes --onto")
+    if not any(given):
+        raise UsageError(f"say what to draw, one of {', '.join(DRAWN)}")
     check_picture("out", options.out, options.case)
+    if options.tree:
+        return _of_all_components(options)
     return _of_mechanism(options) if any(asked) else _of_components(options)
+
+
+def _of_all_components(options: argparse.Namespace) -> CommandAnswer:
+    from nag.pictures.component_tree import draw_component_tree
+
+    if options.component:
+        raise UsageError("--component is for --onto")
+    found = read_components(options, lambda variables, points: None)
+    answer = found.decomposition
+    return _drawn(
+        options,
+        found.case,
+        [("components", str(len(answer.components)))],
+        list(doubt_rows(found)),
+        lambda path: draw_component_tree(answer, found.title, path),
+    )
 
 
 def _of_components(options: argparse.Namespace) -> CommandAnswer:
@@ -172,7 +202,7 @@ def _of_mechanism(options: argparse.Namespace) -> CommandAnswer:
     from nag.kinematics.scene import scene_of
     from nag.mechanism.problem import in_real_coordinates
 
-    option = "--graph" if options.graph else "--joints" if options.joints else "--point"
+    option = next(name for name in DRAWN if name != "--onto" and getattr(options, name.lstrip("-")))
     if options.component:
         raise UsageError("--component is for --onto")
     if is_export(options.case):
@@ -190,6 +220,8 @@ def _of_mechanism(options: argparse.Namespace) -> CommandAnswer:
         return _drawn(
             options, named, rows, [], lambda path: draw_joint_graph(scene, case.title, path)
         )
+    if options.mechanism:
+        return _of_configuration(options, problem, scene, case)
     from nag.kinematics.shown import circuit_text
     from nag.pictures.motion_picture import (
         draw_joint_values,
@@ -221,6 +253,34 @@ def _of_mechanism(options: argparse.Namespace) -> CommandAnswer:
 
     rows = [(f"circuit {c.number}", circuit_text(found, c)) for c in found.circuits]
     return _drawn(options, named, rows, notes, draw)
+
+
+def _of_configuration(
+    options: argparse.Namespace, problem: Problem, scene: Scene, case: Case
+) -> CommandAnswer:
+    import numpy as np
+
+    from nag.errors import ComponentError
+    from nag.pictures.mechanism_picture import draw_mechanism
+
+    if scene.from_reference and problem.reference is not None:
+        poses = scene.lift(np.array([[float(x) for x in problem.reference]]))
+        where, notes = "the reference configuration", []
+    else:
+        found = _motion(options, problem)
+        notes = [("open", note) for note in found.notes]
+        if not found.circuits:
+            raise ComponentError(f"{options.case}: nothing to draw: {'; '.join(found.notes)}")
+        # Circuits may begin where links are in line.
+        at = len(found.circuits[0]) // 8
+        poses, where = found.circuits[0].poses.at(slice(at, at + 1)), "an eighth along circuit 1"
+    return _drawn(
+        options,
+        name_case(case),
+        [("drawn", where)],
+        notes,
+        lambda path: draw_mechanism(scene, poses, case.title, path),
+    )
 
 
 def _motion(options: argparse.Namespace, problem: Problem) -> Motion:

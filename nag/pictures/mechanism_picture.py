@@ -1,0 +1,127 @@
+"""A mechanism at one configuration: bodies by lines between their joints, joints by marks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from nag.kinematics.poses import Poses
+from nag.kinematics.scene import Scene, SceneJoint
+from nag.page.link_shapes import link_shapes
+from nag.pictures.picture_file import COLOURS, DASHES, STYLE, save
+from nag.pictures.space_curves import AZIMUTH, ELEVATION
+
+# Marks of joints by what they leave free, and half the length at which their axes are drawn, in
+# sizes of the mechanism.
+MARKS = {"revolute": "o", "prismatic": "s", "cylindrical": "D", "universal": "P", "spherical": "."}
+AXIS = 0.09
+# Widths of the ground's lines and of the others'.
+WIDE, THIN = 3.2, 1.8
+# Room round it all.
+MARGIN = 0.08
+
+
+def draw_mechanism(scene: Scene, poses: Poses, title: str, path: str) -> None:
+    """Bodies, each in a style of its own, the ground black; joints with their names and axes.
+
+    A planar mechanism is seen along the normal of its plane, others from a little above.
+
+    Args:
+        scene: the bodies and joints.
+        poses: one configuration.
+
+    Raises:
+        OSError: if the file cannot be written.
+    """
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    frame = _frame(scene.planar)
+    flat = scene.planar is not None
+    with rc_context(STYLE | {"font.size": 8}):
+        figure = Figure(figsize=(5.2, 5.2), layout="constrained")
+        axes = figure.add_subplot() if flat else figure.add_subplot(projection="3d")
+        places = _joint_places(scene, poses)
+        shown = [_show(point, frame, flat) for point in places]
+        for body, name in enumerate(scene.bodies):
+            ground = body == scene.ground
+            style: dict[str, Any] = {
+                "color": "black" if ground else COLOURS[body % len(COLOURS)],
+                "linestyle": "-" if ground else DASHES[body % len(DASHES)],
+                "linewidth": WIDE if ground else THIN,
+            }
+            for line in _lines(scene, poses, places, body):
+                axes.plot(*_show(line, frame, flat).T, label=name, zorder=1, **style)
+        for joint, place, at in zip(scene.joints, places, shown, strict=True):
+            if not flat and joint.axis is not None:
+                ends = _axis_ends(scene, poses, joint, place)
+                axes.plot(*_show(ends, frame, flat).T, color="#777777", linewidth=0.9, zorder=2)
+            axes.plot(*at[:, None], marker=MARKS.get(joint.type, "x"), markersize=6, zorder=3,
+                      color="white", markeredgecolor="black", linestyle="")  # fmt: skip
+            axes.text(*at, f"  {joint.name}", fontsize=7, zorder=4)
+        _set_window(axes, np.array(shown))
+        axes.set_axis_off()
+        axes.set_title(title, fontsize=9)
+        handles = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+        figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4,
+                      frameon=False)  # fmt: skip
+        save(figure, path)
+
+
+def _frame(normal: np.ndarray | None) -> np.ndarray:
+    """Rows: directions to the right, upwards and to the viewer."""
+    if normal is None:
+        return np.eye(3)
+    up = np.eye(3)[1] if abs(normal[1]) < abs(normal).max() else np.eye(3)[2]
+    right = np.cross(up, normal)
+    right /= np.linalg.norm(right)
+    return np.array([right, np.cross(normal, right), normal])
+
+
+def _show(points: np.ndarray, frame: np.ndarray, flat: bool) -> np.ndarray:
+    """Points in the frame of the picture."""
+    seen = points @ frame.T
+    return seen[..., :2] if flat else seen
+
+
+def _joint_places(scene: Scene, poses: Poses) -> list[np.ndarray]:
+    """Where joints are drawn: those that say no place of their own, next to others."""
+    hubs = link_shapes(scene, {}).hubs
+    return [
+        poses.move(joint.bodies[0], np.array(hub))[0]
+        for joint, hub in zip(scene.joints, hubs, strict=True)
+    ]
+
+
+def _lines(scene: Scene, poses: Poses, places: Sequence[np.ndarray], body: int) -> list[np.ndarray]:
+    """What a body is drawn by: lines from its middle to its joints, or between two of them."""
+    joints = zip(scene.joints, places, strict=True)
+    at = [place for joint, place in joints if body in joint.bodies]
+    at += [poses.move(body, point)[0] for b, point in scene.points.values() if b == body]
+    if len(at) == 2:
+        return [np.array(at)]
+    if scene.planar is not None and len(at) > 2:
+        return [np.array([*at, at[0]])]
+    middle = np.mean(at, axis=0) if at else np.zeros(3)
+    return [np.array([middle, point]) for point in at]
+
+
+def _axis_ends(scene: Scene, poses: Poses, joint: SceneJoint, at: np.ndarray) -> np.ndarray:
+    """A piece of a joint's axis, about a place on it."""
+    along = AXIS * scene.size * poses.turn(joint.bodies[0], joint.axis_in(0))[0]
+    return np.array([at - along, at + along])
+
+
+def _set_window(axes: Any, points: np.ndarray) -> None:
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle, half = (low + high) / 2, (0.5 + MARGIN) * max(float((high - low).max()), 1e-9)
+    names: Sequence[str] = "xyz"[: points.shape[1]]
+    for name, centre in zip(names, middle, strict=True):
+        getattr(axes, f"set_{name}lim")(centre - half, centre + half)
+    if len(names) == 2:
+        axes.set_aspect("equal")
+    else:
+        axes.view_init(ELEVATION, AZIMUTH)
+        axes.set_box_aspect((1, 1, 1))
