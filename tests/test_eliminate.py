@@ -8,14 +8,21 @@ from pathlib import Path
 from typing import Any
 
 import jsonschema
+import numpy as np
 import pytest
+from systems import system
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.groebner import Ideal, ideal_of
+from nag.algebra.number import cosine, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.cli import main
 from nag.files.json_schema import schema
+from nag.interpolation.image_ideal import image_ideal
+from nag.interpolation.point_cloud import AmbientVariables, Cloud
+from nag.interpolation.precise_samples import SourceError, source_at
 from nag.symbolic import bennett, bricard
+from nag.tracking.run import Run
 from tests.linkages import CASES, exact
 
 OWN = exact("7/4", "5/6", "1/3")
@@ -234,7 +241,7 @@ def test_a_double_curve_is_proved_by_a_power(tmp_path) -> None:
         (["y - x^2", "z - x^3"], ["--at", "crossing", "--component", "1"], "one of the two"),
         (["x*y", "z"], ["--at", "crossing"], "it is singular; name a component"),
         (["x - 1", "y", "z"], [], "the component is a point"),
-        (["x^2 - sqrt(2)*y", "z"], [], "irrational coefficients; only rational ones"),
+        (["x^2 - cos(1)*y", "z"], [], "coefficients other than rational numbers and sums of"),
     ],
 )
 def test_bad_input_gets_one_line(tmp_path, capsys, equations, argv, part) -> None:
@@ -242,6 +249,44 @@ def test_bad_input_gets_one_line(tmp_path, capsys, equations, argv, part) -> Non
     out, err = capsys.readouterr()
     assert out == "" and err.startswith("nag: ") and err.count("\n") == 1
     assert part in err
+
+
+@pytest.mark.parametrize(
+    ("onto", "found", "maps"),
+    [
+        ("y,z", ["6*y^3 - sqrt(2)*z^2"], {"x": ("sqrt(6)*y^2", "z")}),
+        ("x,y", ["x^2 - sqrt(2)*y"], {"z": ("sqrt(3)*x*y", "1")}),
+    ],
+)
+def test_equations_with_square_roots_have_such_coefficients(tmp_path, onto, found, maps) -> None:
+    content = eliminated(
+        tmp_path, space(tmp_path, "x^2 - sqrt(2)*y", "z - sqrt(3)*x*y"), "--onto", onto
+    )
+    names = content["onto"]
+    texts = [e["polynomial"] for e in content["equations"]]
+    assert polynomials(texts, names) == polynomials(found, names)
+    for m in content["maps"]:
+        above, below = polynomials([m["numerator"], m["denominator"]], names)
+        numerator, denominator = polynomials(list(maps[m["variable"]]), names)
+        assert above * denominator == below * numerator
+    # Proofs are made over the rational numbers alone.
+    assert proofs_of(content) == {"points"}
+    assert content["defines"] is True
+
+
+def test_a_component_is_sampled_through_a_point_with_square_roots() -> None:
+    circles = system("x y z", "x^2 + y^2 - 5", "z - sqrt(3)*x*y")
+    root = square_root(Fraction(2))
+    source = source_at(
+        circles, (root, square_root(Fraction(3)), 3 * root), np.random.default_rng(0)
+    )
+    cloud = Cloud(source, AmbientVariables.itself(circles), np.random.default_rng(1), Run())
+    found = image_ideal(cloud, (0, 2))
+    names = [circles.variables[i] for i in found.coordinates]
+    # The square of the last equation, with the first one's y^2.
+    assert list(found.generators) == polynomials(["3*x^4 - 15*x^2 + z^2"], names)
+    with pytest.raises(SourceError, match="coordinates other than rational numbers"):
+        source_at(circles, (cosine(1), *source.exact[1:]), np.random.default_rng(0))
 
 
 @pytest.mark.parametrize(

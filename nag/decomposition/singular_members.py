@@ -332,6 +332,8 @@ def _images(
     family: _Family, components: Sequence[WitnessSet]
 ) -> tuple[list[_ParameterImage], list[str]]:
     """The images of components, the largest first, and why some are missing."""
+    if components and not family.whole.exact:
+        return [], ["sets of parameters are recognised where all coefficients are rational"]
     found, notes = [], []
     for component in components:
         try:

@@ -14,6 +14,7 @@ from math import inf
 import flint
 import numpy as np
 
+from nag.algebra.number import Exact
 from nag.algebra.polynomial import Polynomial
 from nag.interpolation.point_cloud import (
     MORE_POINTS,
@@ -137,7 +138,7 @@ def _of_degree(
             break
         points = cloud.balls(count, digits)
         values = monomial_values([[p[i] for i in coordinates] for p in points], standard, digits)
-        echelon = Echelon(2 * count, digits)
+        echelon = Echelon(2 * count, digits, cloud.radicands)
         try:
             for e in standard:
                 echelon.add(real_rows(values[e]))
@@ -192,7 +193,7 @@ def _map(
     return None
 
 
-def _combination(k: int, monomials: Sequence[Exponents], c: Sequence[Fraction]) -> Polynomial:
+def _combination(k: int, monomials: Sequence[Exponents], c: Sequence[Exact]) -> Polynomial:
     return Polynomial(k, dict(zip(monomials, c, strict=False)))
 
 
@@ -237,7 +238,7 @@ def _linearly_independent(cloud: Cloud) -> list[int]:
     count = (n + 2) // 2 + MORE_POINTS
     points = cloud.balls(count, digits)
     chosen = []
-    echelon = Echelon(2 * count, digits)
+    echelon = Echelon(2 * count, digits, cloud.radicands)
     echelon.add(real_rows([flint.acb(1)] * count))
     for i in range(n):
         try:

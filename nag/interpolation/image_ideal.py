@@ -50,9 +50,9 @@ MORE_DEGREES, ENOUGH_MONOMIALS = 2, 120
 class ImageIdeal:
     """What is known of the closure of the image of a component.
 
-    Polynomials have rational coefficients: of a component that is not kept by the conjugation of
-    complex numbers, they are those of the image together with its conjugate, and of components that
-    were taken together, of all their images.
+    Coefficients of polynomials are rational, or sums of the square roots in the system's: of a
+    component that is not kept by the conjugation of complex numbers, they are those of the image
+    together with its conjugate, and of components that were taken together, of all their images.
 
     Attributes:
         variables: names of all variables.
@@ -397,6 +397,9 @@ def _proofs(
     """What each statement, a polynomial in all variables that vanishes, rests on."""
     if not statements:
         return []
+    if not cloud.ambient.system.exact:
+        # Proofs are worked out over the rational numbers.
+        return ["points"] * len(statements)
     base = _base(cloud, known, found) or _essential_base(cloud)
     ideal = equations_ideal(cloud) if base is None else None
     proofs = []

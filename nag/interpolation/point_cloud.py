@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import flint
 import numpy as np
 
+from nag.algebra.exact_ranks import roots_of
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.interpolation.precise_samples import Sample, Source, samples
@@ -89,6 +91,11 @@ class Cloud:
         self._rng, self._tracker = rng, run
         self._samples: list[Sample] = []
         self._balls: dict[int, list[list[flint.acb]]] = {}
+
+    @cached_property
+    def radicands(self) -> tuple[int, ...]:
+        """Square-free numbers, 1 first, whose roots span the field of the system's coefficients."""
+        return roots_of(f.terms.values() for f in self.ambient.system.polynomials)
 
     def with_further(self, further: Sequence[Source]) -> Cloud:
         """A cloud of the same source and further ones, without points yet."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from math import log10
 
 import flint
@@ -16,7 +15,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import jacobian_rank
-from nag.algebra.number import Number
+from nag.algebra.number import Exact, Number
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
@@ -34,6 +33,9 @@ from nag.witness.given_component import round_point
 from nag.witness.sampling import move_to_random_slice
 from nag.witness.slices import pad_rows, rows_through
 from nag.witness.witness import WitnessSet
+
+# Of which numbers equations and points are made.
+TAKEN = "rational numbers and sums of their square roots"
 
 
 class SourceError(ComponentError):
@@ -54,7 +56,7 @@ class Source:
     system: PolynomialSystem
     natural: NaturalCoordinates
     fibres: tuple[Fibre, ...]
-    exact: tuple[Fraction, ...] | None = None
+    exact: tuple[Exact, ...] | None = None
 
     @property
     def dimension(self) -> int:
@@ -62,20 +64,14 @@ class Source:
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def source_of_component(
-    system: PolynomialSystem, component: WitnessSet, roots: bool = False
-) -> Source:
+def source_of_component(system: PolynomialSystem, component: WitnessSet) -> Source:
     """The witness points of a component.
 
-    Args:
-        roots: whether coefficients may have square roots in them.
-
     Raises:
-        SourceError: if the coefficients are irrational in another way, or the points are singular
-            in a way that deflation does not mend.
+        SourceError: if coefficients are no sums of square roots, or the points are singular in a
+            way that deflation does not mend.
     """
-    if not (roots and all(f.algebraic for f in system.polynomials)):
-        _check_rational(system)
+    _check_algebraic(system)
     natural = coordinates_of(system).without_scales
     own = natural.system(system)
     component = carry_component(component, natural, own)
@@ -92,12 +88,12 @@ def source_at(
     """The one component through an exact point where the equations are regular.
 
     Raises:
-        SourceError: if the coefficients or the point are irrational, or the point is no zero, is
-            isolated, or is not regular.
+        SourceError: if coefficients or coordinates are no sums of square roots, or the point is no
+            zero, is isolated, or is not regular.
     """
-    _check_rational(system)
-    if not all(isinstance(x, Fraction) for x in point):
-        raise SourceError("the point has irrational coordinates; only rational ones are taken")
+    _check_algebraic(system)
+    if not all(isinstance(x, Exact) for x in point):
+        raise SourceError(f"the point has coordinates other than {TAKEN}")
     if any(f(point) != 0 for f in system.polynomials):
         raise SourceError("the point does not satisfy the equations")
     dimension = system.n - jacobian_rank(system.polynomials, point)
@@ -112,14 +108,12 @@ def source_at(
         raise SourceError("the point is too near to a singular one")
     cut, z = found
     fibre = Fibre(cut, rows, z[None])
-    return Source(system, natural, (fibre,), tuple(Fraction(c) for c in point))
+    return Source(system, natural, (fibre,), tuple(point))
 
 
-def _check_rational(system: PolynomialSystem) -> None:
-    if not system.exact:
-        raise SourceError(
-            "the equations have irrational coefficients; only rational ones are taken"
-        )
+def _check_algebraic(system: PolynomialSystem) -> None:
+    if not all(f.algebraic for f in system.polynomials):
+        raise SourceError(f"the equations have coefficients other than {TAKEN}")
 
 
 @dataclass(frozen=True, eq=False)

@@ -115,8 +115,8 @@ def image_text(found: ImageIdeal) -> str:
     if found.together:
         names = join_words([str(number) for number in found.together])
         return (
-            f"{text}, without rational equations of its own: those of components "
-            f"{names} hold, among which are its conjugates{whole}"
+            f"{text}, without equations of its own over the field of the coefficients: those of "
+            f"components {names} hold, among which are its conjugates{whole}"
         )
     if found.self_conjugate is False:
         return f"{text}, not its own conjugate: the equations hold on both{whole}"

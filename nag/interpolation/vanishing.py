@@ -1,4 +1,6 @@
-"""Polynomials with rational coefficients that vanish on the image of a component, by interpolation.
+"""Polynomials that vanish on the image of a component, by interpolation.
+
+Their coefficients are rational, or in the field that the square roots in the system's span.
 
 Monomials are taken in ascending order, that of degrees and then the reverse lexicographic one. One
 whose values at random points are a combination of those before it is the leading monomial of an
@@ -37,6 +39,7 @@ from nag.numerics.rational_relations import (
     TooFewDigitsError,
     recognise_rational,
 )
+from nag.text.table import join_words
 
 # Digits that are tried one after the other.
 DIGITS = (100, 250, 700)
@@ -55,7 +58,7 @@ class InterpolationError(ComponentError):
 
 
 class NotRationalError(InterpolationError):
-    """Coefficients that are no rational numbers."""
+    """Coefficients that are not in the field that they are looked for in."""
 
 
 class TooManyMonomialsError(InterpolationError):
@@ -121,7 +124,7 @@ def next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
 
     Raises:
         TooManyMonomialsError: if there are too many monomials.
-        InterpolationError: if coefficients are not rational.
+        NotRationalError: if coefficients are not in the field of the system's.
     """
     key = known.coordinates, known.degree
     if key not in cloud.interpolated:
@@ -149,7 +152,7 @@ def _next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
         except TooFewDigitsError:
             continue
     else:
-        raise _not_rational(degree)
+        raise _not_rational(degree, cloud.radicands)
     generators = list(known.generators)
     new = []
     for lead, coefficients in relations:
@@ -174,11 +177,13 @@ def _too_many(count: int, degree: int, variables: int, most: int) -> TooManyMono
     )
 
 
-def _not_rational(degree: int) -> NotRationalError:
+def _not_rational(degree: int, radicands: Sequence[int] = (1,)) -> NotRationalError:
+    numbers = "rational numbers"
+    if len(radicands) > 1:
+        numbers += f" with {join_words([f'sqrt({r})' for r in radicands[1:]])}"
     return NotRationalError(
         f"the polynomials of degree {degree} have coefficients that are not recognised as "
-        f"rational numbers in {DIGITS[-1]} digits: the component is not defined over the "
-        "rational numbers"
+        f"{numbers} in {DIGITS[-1]} digits: the component is not defined over the {numbers}"
     )
 
 
@@ -187,7 +192,6 @@ def _split(
     known: Interpolated,
     candidates: Sequence[Exponents],
     digits: int,
-    radicands: Sequence[int] = (1,),
 ) -> tuple[list[Exponents], list[tuple[Exponents, list[Exact]]]]:
     """The candidates that are independent, after those known to be, and the others' relations."""
     together = [*known.standard, *candidates]
@@ -195,7 +199,7 @@ def _split(
     if clearly_independent(monomials_in_doubles(points, together)):
         return together, []
     columns = columns_at(cloud, known.coordinates, together, digits, 0)
-    echelon = Echelon(len(columns[together[0]]), digits, radicands)
+    echelon = Echelon(len(columns[together[0]]), digits, cloud.radicands)
     standard, relations = [], []
     for e in together:
         relation = echelon.add(columns[e])
@@ -261,14 +265,12 @@ def forms_of_degree(
     coordinates: Sequence[int],
     degree: int,
     known: Sequence[Polynomial],
-    radicands: Sequence[int] = (1,),
 ) -> list[Polynomial]:
     """The homogeneous polynomials of a degree that vanish on the image, beside those known.
 
     Args:
         coordinates: the variables that they are homogeneous in.
         known: forms of lower degrees, whose leading monomials' multiples are left out.
-        radicands: square-free numbers, 1 first, whose roots span the field of coefficients.
 
     Raises:
         NotRationalError: if coefficients are not in this field.
@@ -282,7 +284,7 @@ def forms_of_degree(
     nothing = replace(start(coordinates), standard=())
     for digits in DIGITS:
         try:
-            standard, relations = _split(cloud, nothing, monomials, digits, radicands)
+            standard, relations = _split(cloud, nothing, monomials, digits)
         except TooFewDigitsError:
             continue
         found = []
@@ -290,7 +292,7 @@ def forms_of_degree(
             terms = {e: -c for e, c in zip(standard, coefficients, strict=False) if c}
             found.append(primitive(Polynomial(k, {lead: Fraction(1), **terms})))
         return found
-    raise _not_rational(degree)
+    raise _not_rational(degree, cloud.radicands)
 
 
 def hypersurface_equation(cloud: Cloud, coordinates: Sequence[int], degree: int) -> Interpolated:

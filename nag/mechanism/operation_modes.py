@@ -14,12 +14,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations
+from math import ceil
 from typing import Any
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.exact_ranks import null_space, roots_of
+from nag.algebra.exact_ranks import null_space
 from nag.algebra.given import check_size, is_a
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -104,7 +105,11 @@ def modes(
     model = platform_model(parallel_robot(given, platform), run.random(41))
     paths = fewest_estimated_paths(model.system)
     if paths * LEAST_SECONDS > budget:
-        note = f"up to {paths} paths, which take longer than a budget of {budget:g} s allows"
+        note = (
+            f"up to {paths} paths, which take longer than a budget of {budget:g} s allows; one of "
+            f"{ceil(paths * LEAST_SECONDS)} s or more tracks them, and nag mobility says "
+            "without them what moves at the reference"
+        )
         return OperationModes(model, _no_answer(model, run, note), (), (), (), (note,))
     run.tell("modes", 1, 4)
     found = decompose(model.system, run=run)
@@ -356,7 +361,9 @@ def _describe(
         return replace(mode, reality=reality)
     points = np.array(list(_real_points(model, mode, run)))
     if not len(points):
-        return mode
+        # A real slice of what is its own conjugate has real points, if they are odd in number.
+        odd = mirrored == index and component.degree % 2 == 1
+        return replace(mode, reality=ModeReality.REAL) if odd else mode
     poses = _normalise_real_parts(model.study(points).real)
     residuals = _residuals(model, poses, length, run.random(43), real=True)
     # The pose that most legs reach, the first of several.
@@ -392,11 +399,10 @@ def _with_equations(
         poses = model.study(np.array([point for point, _ in found]))
         motion = motion_of(poses, [_twists(model, *each, length) for each in found], length)
         mode = replace(mode, motion=motion)
-        radicands = roots_of(f.terms.values() for f in model.system.polynomials)
-        linear = tuple(forms_of_degree(cloud, range(8), 1, (), radicands))
+        linear = tuple(forms_of_degree(cloud, range(8), 1, ()))
         study = _reduce_form(study_quadric(), linear)
         known = (*linear, *([primitive(study)] if study else []))
-        quadratic = tuple(forms_of_degree(cloud, range(8), 2, known, radicands))
+        quadratic = tuple(forms_of_degree(cloud, range(8), 2, known))
         return replace(mode, linear=linear, quadratic=quadratic)
     except InterpolationError:
         return replace(mode, note="its linear or quadratic equations are not rational")
@@ -417,7 +423,7 @@ def _cloud(model: PlatformModel, component: WitnessSet, run: Run) -> Cloud:
     names = (COORDINATES[0], *system.variables)
     images = (*_pose(model), *Polynomial.variables(system.n)[7:])
     ambient = AmbientVariables.of(system, names, range(1, len(names)), images)
-    return Cloud(source_of_component(system, component, True), ambient, run.random(44), run)
+    return Cloud(source_of_component(system, component), ambient, run.random(44), run)
 
 
 def _reduce_form(form: Polynomial, linear: Sequence[Polynomial]) -> Polynomial:
