@@ -117,7 +117,7 @@ def test_near_motions_of_lines_that_all_but_meet_are_measured_where_they_are_dra
 
 
 def test_gap_and_change_are_those_of_another_solver() -> None:
-    mechanism = rounded_loop(posed(assembled("goldberg-5r"), 1), 3)
+    mechanism = rounded_loop(posed(assembled("bennett"), 1), 3)
     found = find_near_motion(mechanism, 0.02)
     assert found is not None and found.change is not None
     theirs = measure(mechanism)

@@ -72,7 +72,7 @@ MOST_STEPS = 8
 MOST_EVALUATIONS = 200
 # Steps that close what is left, at least and at most; directions that change a gap by less than a
 # small part are none.
-FEWEST_STEPS, SHORTEST_STEPS = 3, 12
+FEWEST_CLOSING, MOST_CLOSING = 3, 12
 SMALL = 1e-8
 # Decides: Smallest singular value, beside the next, at which a rigid mechanism may be meant to
 # move.
@@ -798,8 +798,8 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
     """The least change of places and axes with which the loops close at a few positions.
 
     First both closing and not changing are least squares, then what is left of the gaps is closed
-    by the shortest steps. None if that leaves gaps, or there are not as many positions with gaps of
-    at most ``widest``.
+    by Gauss and Newton's steps to the least change. None if that leaves gaps, or there are not as
+    many positions with gaps of at most ``widest``.
     """
     from scipy.optimize import least_squares
 
@@ -845,12 +845,17 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
             gtol=ROUNDED,
             max_nfev=MOST_EVALUATIONS,
         ).x
-    for step in range(SHORTEST_STEPS):
+    for step in range(MOST_CLOSING):
         left = opening(x)
         # Where conditions that all but depend on each other bend, a few steps do not close it.
-        if step >= FEWEST_STEPS and np.abs(left).max() < ROUNDING:
+        if step >= FEWEST_CLOSING and np.abs(left).max() < ROUNDING:
             break
-        x = x - np.linalg.lstsq(derivative(x), left, rcond=SMALL)[0]
+        u, s, v = np.linalg.svd(derivative(x))
+        rank = int((s > SMALL * s[0]).sum())
+        x = x - v[:rank].T @ ((u[:, :rank].T @ left) / s[:rank])
+        # Of all that closes it as well, to first order, the least change.
+        free = v[rank:].T
+        x = x - free @ np.linalg.lstsq(free[:m], x[:m], rcond=SMALL)[0]
     closed = np.abs(opening(x)).max() < ROUNDING
     return chains.with_change(x[:m]) if closed else None
 
