@@ -18,15 +18,22 @@ SPHERE = "x^2 + y^2 + z^2 - 1"
 
 
 def met(
-    first: str, second: str, seed: int = 0, *, nonzero: tuple[str, ...] = ()
+    first: str | tuple[str, ...],
+    second: str | tuple[str, ...],
+    seed: int = 0,
+    *,
+    names: str = "x y z",
+    nonzero: tuple[str, ...] = (),
 ) -> tuple[Superset, Reduction]:
-    """The meeting of two surfaces in space, and the coordinates that its points have."""
-    factors = []
-    for equation in (first, second):
-        of = system("x y z", equation)
+    """The meeting of two surfaces, and the coordinates that its points have."""
+    factors, every = [], []
+    for equations in (first, second):
+        own = (equations,) if isinstance(equations, str) else equations
+        of = system(names, *own)
         (component,) = decompose(of).components
         factors.append(Operand.of(of, component))
-    common = Reduction.of(system("x y z", first, second, nonzero=nonzero))
+        every += own
+    common = Reduction.of(system(names, *every, nonzero=nonzero))
     return meet_on_diagonal(*factors, common, np.random.default_rng(seed), Run()), common
 
 
@@ -116,3 +123,12 @@ def test_a_point_among_larger_sets_that_are_excluded_is_left_out() -> None:
     common = Reduction.of(system("x y z w", *union, nonzero=("x",)))
     found = meet_on_diagonal(*factors, common, np.random.default_rng(0), Run())
     assert (sizes(found), found.bare, found.notes) == ({}, (), ())
+
+
+def test_a_double_point_beside_a_curve_is_told_from_it_in_digits() -> None:
+    # Graphs over x and y that meet where x (10^5 x - 1)^2 and x (y - 1) vanish: in a conic, and
+    # in a double point at a distance of 10^-5.
+    graph = ("z - x*y", "w - y^2")
+    other = ("10^10*(z - x*y) - x*(10^5*x - 1)^2", "w - y^2 - x*(y - 1)")
+    found, _ = met(graph, other, names="x y z w")
+    assert found.notes == () and sizes(found) == {1: 2, 0: 1}

@@ -337,7 +337,8 @@ class _Diagonal:
             self.notes.append("the equations of both components are too near to dependent ones")
             return
         self.fibres[d] = []
-        singular = SingularEnds(common.equations, rows, self.rng, self.run, whole=True)
+        place = common.equations, rows, self.rng, self.run
+        singular = SingularEnds(*place, whole=True, members=False)
         for cluster in clusters(x, accuracy):
             ends = [(x[i], float(accuracy[i])) for i in cluster]
             settled = singular.add(ends, self.fibres)

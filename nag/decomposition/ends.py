@@ -185,6 +185,8 @@ class SingularEnds:
         later: further equations, which may hold on some of the sets.
         avoid: polynomials that must not vanish.
         whole: whether errors are relative to the point, not to each of its coordinates.
+        members: whether those that lie on larger sets as far as doubles can tell are looked at in
+            digits. Where sets meet, most ends do, and are multiple.
     """
 
     equations: Equations
@@ -194,6 +196,7 @@ class SingularEnds:
     later: Sequence[Polynomial] = ()
     avoid: Sequence[Polynomial] = ()
     whole: bool = False
+    members: bool = True
 
     def add(self, cluster: Cluster, kept: dict[int, list[Fibre]], deflate: bool = True) -> Settled:
         """Add the points that a cluster of ends stands for to those known, by dimension.
@@ -221,6 +224,8 @@ class SingularEnds:
             return Settled()
         answer, counts = is_on_larger_set(x, accuracy, kept, d, self.rng, self.run)
         untold = f"a point of dimension {d} could not be told from a larger set"
+        if answer is Membership.MEMBER and not self.members:
+            return Settled(counts=counts)
         if answer is not Membership.FOREIGN:
             # Singular ends mostly lie on the set that they seem to lie on, however hard to judge.
             patience = IN_PASSING if answer is Membership.MEMBER else 1.0
