@@ -537,9 +537,62 @@ def test_forms_of_a_leg_with_square_roots_vanish_at_its_poses_exactly() -> None:
         assert any(f([*pose[:7], pose[7] + 1]) != 0 for f in image.forms)
 
 
-def test_irrational_robots_are_refused() -> None:
-    joints = [replace(j, point=("cos(pi/7)", *j.point[1:])) for j in robot("3-rrr-planar").joints]
-    with pytest.raises(MechanismError, match="no sums of square roots"):
+def heptagon_robot() -> Mechanism:
+    """Four UPU legs at corners of regular heptagons, their outer axes upright."""
+    joints = []
+    for k in (0, 1, 2, 4):
+        turn = f"({2 * k}*pi/7)"
+        middle = (f"-sin{turn}", f"cos{turn}", 0)
+        joints += [
+            Joint(
+                f"U{k}",
+                "universal",
+                ("base", f"low{k}"),
+                (f"3*cos{turn}", f"3*sin{turn}", 0),
+                Z,
+                middle,
+            ),
+            Joint(
+                f"P{k}",
+                "prismatic",
+                (f"low{k}", f"high{k}"),
+                axis=(f"-2*cos{turn}", f"-2*sin{turn}", 4),
+            ),
+            Joint(
+                f"V{k}",
+                "universal",
+                (f"high{k}", "plate"),
+                (f"cos{turn}", f"sin{turn}", 4),
+                middle,
+                Z,
+            ),
+        ]
+    return Mechanism("base", tuple(joints))
+
+
+def test_a_robot_with_cosines_has_the_modes_of_one_with_rational_numbers() -> None:
+    found, alike = nag.modes(heptagon_robot()), found_modes("4-upu-upright")
+    assert kinds(found) == kinds(alike)
+    assert [(m.limits, m.reality) for m in found.modes] == [
+        (m.limits, m.reality) for m in alike.modes
+    ]
+    assert [str(m.motion) for m in found.modes[:2]] == [str(m.motion) for m in alike.modes[:2]]
+    assert all("cosines" in m.note for m in found.modes)
+
+
+def test_the_forms_of_a_leg_with_cosines_vanish_at_its_poses() -> None:
+    legs = parallel_robot(heptagon_robot()).legs
+    elements = legs[1].elements()
+    (form,) = image_of_chain(elements, np.random.default_rng(0)).forms
+    values = {e.factor: [Fraction(1), Fraction(k, 3)] for k, e in enumerate(elements, 1)}
+    pose = [x for part in displacement(elements, values, lambda c: c) for x in part]
+    assert form(pose) == 0
+    assert form([*pose[:5], pose[5] + 1, *pose[6:]]) != 0
+
+
+def test_robots_in_no_field_of_cosines_are_refused() -> None:
+    joints = [replace(j, point=("cos(1)", *j.point[1:])) for j in robot("3-rrr-planar").joints]
+    with pytest.raises(MechanismError, match="sines and cosines of rational multiples of pi"):
         nag.modes(Mechanism("base", tuple(joints)))
 
 

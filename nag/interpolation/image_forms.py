@@ -7,9 +7,10 @@ degrees are left out: their leading monomials are, by Gauss' elimination. What i
 reduced basis, whose coefficients are recognised from their residues modulo as many primes as that
 takes, and has to vanish at points modulo one prime more.
 
-A map with square roots in its coefficients is taken modulo primes that have these roots. Where the
-roots of primes change sign, the image's reduced basis goes into its conjugates', so that the bases
-of all choices of signs together have the rational parts of each coefficient.
+A map with coefficients in a field that is normal over the rational numbers, as that of square roots
+or of cosines, is taken modulo primes that have these numbers. Where the field is mapped to itself,
+the image's reduced basis goes into its conjugates', so that the bases of all conjugates together
+have the rational parts of each coefficient.
 """
 
 from __future__ import annotations
@@ -21,13 +22,13 @@ from itertools import combinations, pairwise
 from math import isqrt, prod
 from typing import Protocol
 
+import flint
 import numpy as np
 
 from nag.algebra.exact_ranks import PrimeField, fields_with_roots
-from nag.algebra.flint_numbers import to_rational
-from nag.algebra.number import Exact
+from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
-from nag.algebra.surd import normal_sum, pow_inverse
+from nag.algebra.surd import normal_sum
 from nag.interpolation.vanishing import InterpolationError, monomials_of_degree, primitive
 
 # Points beyond the number of monomials: so many more conditions, each of which a form that does not
@@ -35,19 +36,62 @@ from nag.interpolation.vanishing import InterpolationError, monomials_of_degree,
 MORE_POINTS = 8
 # Primes for one coefficient; each gives it 31 bits for its numerator and as many below.
 MOST_PRIMES = 9
-# Roots of primes in the coefficients: each doubles the number of bases.
-MOST_ROOTS = 4
+# Conjugates of the coefficients, and with them bases.
+MOST_CONJUGATES = 16
+
+
+class CoefficientField(Protocol):
+    """A number field that is normal over the rational numbers.
+
+    Attributes:
+        basis: numbers whose rational combinations it is, 1 first.
+    """
+
+    @property
+    def basis(self) -> tuple[Number, ...]: ...
+
+    def fields(self, count: int) -> Sequence[PrimeField]:
+        """So many primes modulo which it has images, fewer if they are not found."""
+
+    def conjugates(self, field: PrimeField) -> Sequence[PrimeField]:
+        """Its images modulo one of these primes, as many as the basis has numbers."""
+
+
+@dataclass(frozen=True)
+class RootField:
+    """The field of square roots of prime numbers, a `CoefficientField`.
+
+    Attributes:
+        primes: these numbers.
+    """
+
+    primes: frozenset[int]
+
+    @property
+    def basis(self) -> tuple[Number, ...]:
+        """The products of roots."""
+        return tuple(normal_sum({prod(own): flint.fmpq(1)}) for own in _subsets(self.primes))
+
+    def fields(self, count: int) -> tuple[PrimeField, ...]:
+        """So many primes that have the roots, fewer if they are not found."""
+        return fields_with_roots(self.primes, count=count)
+
+    def conjugates(self, field: PrimeField) -> tuple[PrimeField, ...]:
+        """All choices of signs."""
+        return tuple(
+            PrimeField(field.modulus, frozenset(flipped)) for flipped in _subsets(self.primes)
+        )
 
 
 class ModularMap(Protocol):
     """A map to a projective space of which values modulo primes are known.
 
     Attributes:
-        roots: the primes whose square roots its coefficients are made of.
+        coefficients: the field of its coefficients.
     """
 
     @property
-    def roots(self) -> frozenset[int]: ...
+    def coefficients(self) -> CoefficientField: ...
 
     def value(self, field: PrimeField, rng: np.random.Generator) -> Sequence[int]:
         """The image of a random point, in homogeneous coordinates."""
@@ -103,12 +147,13 @@ def find_image_forms(
 
     Raises:
         InterpolationError: if a coefficient takes more primes than `MOST_PRIMES`, or the
-            coefficients have more than `MOST_ROOTS` roots of primes in them.
+            field of coefficients has more than `MOST_CONJUGATES` conjugates.
         ZeroDivisionError: if the prime divides a denominator of the map's.
     """
-    if len(source.roots) > MOST_ROOTS:
-        names = ", ".join(f"sqrt({p})" for p in sorted(source.roots))
-        raise InterpolationError(f"forms are not found with so many roots as {names}")
+    basis = source.coefficients.basis
+    if len(basis) > MOST_CONJUGATES:
+        names = ", ".join(map(str, basis[1:MOST_CONJUGATES]))
+        raise InterpolationError(f"forms are not found with so many numbers as {names} and others")
     field = _fields(source, 1)[0]
     value, tangents = source.tangents(field, rng)
     dimension = field.rank([value, *tangents]) - 1
@@ -138,11 +183,11 @@ def _fields(source: ModularMap, count: int) -> list[PrimeField]:
     """The first of the fields that values are taken in.
 
     Raises:
-        InterpolationError: if there are not so many that have the map's roots.
+        InterpolationError: if there are not so many that have the map's coefficients.
     """
-    found = fields_with_roots(source.roots, count=count)
+    found = source.coefficients.fields(count)
     if len(found) < count:
-        raise InterpolationError("no primes are found that have all the roots")
+        raise InterpolationError("no primes are found modulo which there are all coefficients")
     return list(found)
 
 
@@ -165,12 +210,12 @@ def _without_multiples(found: ImageForms, degree: int) -> list[Exponents]:
 
 def _vanishing(
     found: ImageForms, degree: int, candidates: Sequence[Exponents], rng: np.random.Generator
-) -> list[dict[Exponents, Exact]]:
+) -> list[dict[Exponents, Number]]:
     """A reduced basis of the forms in these monomials that vanish on the image."""
     modulus = 1
     residues: list[list[list[int]]] = []
     fields = _fields(found.source, MOST_PRIMES + 1)
-    radicands = [prod(own) for own in _subsets(found.source.roots)]
+    numbers = found.source.coefficients.basis
     for field, other in pairwise(fields):
         parts = _parts_modulo(field, found, degree, candidates, rng)
         if not parts[0]:
@@ -182,7 +227,7 @@ def _vanishing(
             parts = [_chinese(old, modulus, new, field.modulus) for old, new in both]
         residues = parts
         modulus *= field.modulus
-        forms = _recognise_forms(residues, radicands, modulus, candidates)
+        forms = _recognise_forms(residues, numbers, modulus, candidates)
         if forms is not None and _hold(forms, found, degree, other, rng):
             return forms
     raise InterpolationError(
@@ -203,25 +248,21 @@ def _parts_modulo(
     candidates: Sequence[Exponents],
     rng: np.random.Generator,
 ) -> list[list[list[int]]]:
-    """The rational parts of a reduced basis modulo a prime, for each product of roots."""
-    p, subsets = field.modulus, _subsets(found.source.roots)
-    bases = [
-        _basis_modulo(PrimeField(p, frozenset(flipped)), found, degree, candidates, rng)
-        for flipped in subsets
-    ]
+    """The rational parts of a reduced basis modulo a prime, for each number of the field."""
+    p, coefficients = field.modulus, found.source.coefficients
+    images = coefficients.conjugates(field)
+    bases = [_basis_modulo(image, found, degree, candidates, rng) for image in images]
     if len({len(basis) for basis in bases}) > 1:
-        raise InterpolationError("forms are not the same for conjugate roots")
-    parts = []
-    for radicand in subsets:
-        factor = pow_inverse(len(subsets) * prod(map(field.root, radicand)) % p, p)
-        signs = [(-1) ** len({*radicand} & {*flipped}) * factor for flipped in subsets]
-        parts.append(
-            [
-                [sum(s * c for s, c in zip(signs, own, strict=True)) % p for own in columns]
-                for columns in (list(zip(*rows, strict=True)) for rows in zip(*bases, strict=True))
-            ]
-        )
-    return parts
+        raise InterpolationError("forms are not the same for conjugate coefficients")
+    values = field.matrix([[image.of(c) for c in coefficients.basis] for image in images])
+    inverse = values.inv().tolist()
+    return [
+        [
+            [sum(int(s) * c for s, c in zip(weights, own, strict=True)) % p for own in columns]
+            for columns in (list(zip(*rows, strict=True)) for rows in zip(*bases, strict=True))
+        ]
+        for weights in inverse
+    ]
 
 
 def _basis_modulo(
@@ -270,23 +311,21 @@ def _chinese(
 
 def _recognise_forms(
     residues: Sequence[Sequence[Sequence[int]]],
-    radicands: Sequence[int],
+    numbers: Sequence[Number],
     modulus: int,
     monomials: Sequence[Exponents],
-) -> list[dict[Exponents, Exact]] | None:
+) -> list[dict[Exponents, Number]] | None:
     """The forms of these coefficients; None if a part is no residue of a short fraction."""
     forms = []
     for rows in zip(*residues, strict=True):
-        terms: dict[Exponents, Exact] = {}
+        terms: dict[Exponents, Number] = {}
         for e, own in zip(monomials, zip(*rows, strict=True), strict=True):
             fractions = [_short_fraction(residue, modulus) for residue in own]
             if None in fractions:
                 return None
-            total = normal_sum(
-                {r: to_rational(c) for r, c in zip(radicands, fractions, strict=True) if c}
-            )
-            if total:
-                terms[e] = total
+            if any(fractions):
+                parts = (c * b for c, b in zip(fractions, numbers, strict=True) if c)
+                terms[e] = sum(parts, Fraction(0))
         forms.append(terms)
     return forms
 
@@ -303,7 +342,7 @@ def _short_fraction(residue: int, modulus: int) -> Fraction | None:
 
 
 def _hold(
-    forms: Sequence[Mapping[Exponents, Exact]],
+    forms: Sequence[Mapping[Exponents, Number]],
     found: ImageForms,
     degree: int,
     field: PrimeField,

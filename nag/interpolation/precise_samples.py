@@ -64,14 +64,20 @@ class Source:
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def source_of_component(system: PolynomialSystem, component: WitnessSet) -> Source:
+def source_of_component(
+    system: PolynomialSystem, component: WitnessSet, exact: bool = True
+) -> Source:
     """The witness points of a component.
 
+    Args:
+        exact: whether coefficients have to be such as can be recognised from values.
+
     Raises:
-        SourceError: if coefficients are no sums of square roots, or the points are singular in a
-            way that deflation does not mend.
+        SourceError: if they have to be and are no sums of square roots, or the points are singular
+            in a way that deflation does not mend.
     """
-    _check_algebraic(system)
+    if exact:
+        _check_algebraic(system)
     natural = coordinates_of(system).without_scales
     own = natural.system(system)
     component = carry_component(component, natural, own)

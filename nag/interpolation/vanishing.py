@@ -218,8 +218,11 @@ def leading_monomial(f: Polynomial) -> Exponents:
 def primitive(f: Polynomial) -> Polynomial:
     """The multiple with coprime whole coefficients, the leading one positive.
 
-    Of sums of square roots the rational parts are whole numbers, and coprime together.
+    Of sums of square roots the rational parts are whole numbers, and coprime together. With other
+    numbers in it the leading coefficient is made positive.
     """
+    if not f.algebraic:
+        return f if f.terms[leading_monomial(f)] > 0 else -f
     parts = [
         part
         for c in f.terms.values()

@@ -399,6 +399,8 @@ def _with_equations(
         poses = model.study(np.array([point for point, _ in found]))
         motion = motion_of(poses, [_twists(model, *each, length) for each in found], length)
         mode = replace(mode, motion=motion)
+        if not all(f.algebraic for f in model.system.polynomials):
+            return replace(mode, note="its equations have cosines in them and are not looked for")
         linear = tuple(forms_of_degree(cloud, range(8), 1, ()))
         study = _reduce_form(study_quadric(), linear)
         known = (*linear, *([primitive(study)] if study else []))
@@ -423,7 +425,7 @@ def _cloud(model: PlatformModel, component: WitnessSet, run: Run) -> Cloud:
     names = (COORDINATES[0], *system.variables)
     images = (*_pose(model), *Polynomial.variables(system.n)[7:])
     ambient = AmbientVariables.of(system, names, range(1, len(names)), images)
-    return Cloud(source_of_component(system, component), ambient, run.random(44), run)
+    return Cloud(source_of_component(system, component, False), ambient, run.random(44), run)
 
 
 def _reduce_form(form: Polynomial, linear: Sequence[Polynomial]) -> Polynomial:

@@ -18,6 +18,8 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.cyclotomic import MOST_DEGREE as MOST_DEGREE_OF_COSINES
+from nag.algebra.cyclotomic import field_of_cosines
 from nag.algebra.number import Irrational, Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -182,10 +184,12 @@ def _check_leg(leg: Leg) -> None:
         raise MechanismError(f"leg {leg.name} has loops of its own; only serial chains are legs")
     for joint in leg.joints:
         vectors = (joint.point, joint.axis, joint.second_axis)
-        if any(isinstance(x, Irrational) for v in vectors if v is not None for x in v):
+        entries = [x for v in vectors if v is not None for x in v]
+        if any(isinstance(x, Irrational) for x in entries) and field_of_cosines(entries) is None:
             raise MechanismError(
-                f"joint {joint.name!r} has coordinates that are no sums of square roots; operation "
-                "modes are found of rational numbers and such sums"
+                f"joint {joint.name!r} has coordinates other than rational numbers, square roots "
+                "and sines and cosines of rational multiples of pi, in fields of degree "
+                f"{MOST_DEGREE_OF_COSINES} at most; operation modes are found of these"
             )
 
 
