@@ -58,7 +58,7 @@ class CoefficientField(Protocol):
 
 
 @dataclass(frozen=True)
-class RootField:
+class SquareRootField:
     """The field of square roots of prime numbers, a `CoefficientField`.
 
     Attributes:

@@ -24,7 +24,7 @@ from nag.algebra.surd import Surd
 from nag.interpolation.image_forms import (
     CoefficientField,
     ImageForms,
-    RootField,
+    SquareRootField,
     find_image_forms,
 )
 from nag.interpolation.vanishing import InterpolationError
@@ -70,7 +70,7 @@ class ProductOfFactors:
         """
         entries = [c for e in self.elements for g in e.generators for part in g for c in part]
         if all(isinstance(c, Exact) for c in entries):
-            return RootField(
+            return SquareRootField(
                 frozenset(p for c in entries if isinstance(c, Surd) for p in c.primes())
             )
         field = field_of_cosines(entries)
