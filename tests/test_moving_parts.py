@@ -102,9 +102,22 @@ def test_what_moves_does_not_depend_on_where_it_is_looked_at(seed: int) -> None:
     assert kinds[0] == kinds[1] == (3, 2, 1)
 
 
+def test_what_hangs_on_a_joint_turns_about_it() -> None:
+    bars = {"A": (0, 0), "B": (0, 1), "C": (3, 2), "D": (3, 0), "E": (4, 1)}
+    bodies = ["base crank", "crank coupler", "coupler rocker", "rocker base", "rocker tail"]
+    joints = [
+        nag.Joint(name, "revolute", tuple(own.split()), (*place, 0), (0, 0, 1))
+        for (name, place), own in zip(bars.items(), bodies, strict=True)
+    ]
+    report = nag.mobility(nag.Mechanism("base", joints), detail="local")
+    assert report.moving.idle_text == "tail turns about E"
+
+
 def test_the_report_names_the_body_that_is_asked_for_first(capsys) -> None:
     report = nag.mobility(mechanism("robots/tripteron"), of="platform", detail="local")
-    assert report.sentence.startswith("platform: 3 freedoms, translations; it moves with 3 ")
+    assert report.sentence.startswith(
+        "platform: 3 freedoms, translations; the mechanism moves with "
+    )
     assert report.document()["moving"]["of"]["kind"] == "translations"
     with pytest.raises(MechanismError, match="of: 'nobody' is no body; they are B0, B1"):
         nag.mobility(mechanism("bennett"), of="nobody")

@@ -320,7 +320,10 @@ def _sentence(report: MobilityReport) -> str:
         )
     if report.general is None:
         asked = report.moving.body if report.moving is not None else None
-        return f"{asked}; {_meaning(report)}" if asked is not None else _meaning(report)
+        if asked is None:
+            return _meaning(report)
+        # "It" would be the body.
+        return f"{asked}; the mechanism {_meaning(report).removeprefix('it ')}"
     if status is MobilityStatus.RIGID:
         return "no configuration moves, not even infinitesimally"
     text = f"at a general configuration of those with the most freedoms {_meaning(report)}"

@@ -42,11 +42,18 @@ class IdleFreedom:
         bodies: one body, or several that are a chain between two others.
         count: of the freedoms.
         turns: whether it is one, a turn about a line or, if three, about a point.
+        joint: the only one of a body that hangs on it, and turns about it; else empty.
     """
 
     bodies: tuple[str, ...]
     count: int
     turns: bool
+    joint: str = ""
+
+    @property
+    def alike(self) -> tuple[int, bool, int, str]:
+        """What freedoms have in common that are told together."""
+        return self.count, self.turns, len(self.bodies), self.joint
 
 
 @dataclass(frozen=True)
@@ -106,16 +113,17 @@ class MovingParts:
     def idle_text(self) -> str:
         """Which parts are idle; empty where none is."""
         texts = []
-        for count in sorted({(e.count, e.turns, len(e.bodies)) for e in self.idle}):
-            own = [e for e in self.idle if (e.count, e.turns, len(e.bodies)) == count]
+        for count, turns, bodies, joint in sorted({e.alike for e in self.idle}):
+            own = [e for e in self.idle if e.alike == (count, turns, bodies, joint)]
             names = join_words([" with ".join(e.bodies) for e in own])
             one = len(own) == 1
             about = "itself" if one else "themselves"
-            if count[1]:
+            if turns:
                 what = f"turn{'s' * one} about "
-                what += about if count[0] == 1 else ("its point" if one else "their points")
+                alone = joint or about
+                what += alone if count == 1 else ("its point" if one else "their points")
             else:
-                freedoms = count_text(count[0], "freedom")
+                freedoms = count_text(count, "freedom")
                 what = f"move{'s' * one} by {about}, {'' if one else 'each '}with {freedoms}"
             texts.append(f"{names} {what}")
         return "; ".join(texts)
@@ -239,7 +247,9 @@ def _idle(
         single[k] = count
         if count:
             turns = _are_turns(twists[first[k]] @ basis)
-            found.append(IdleFreedom(own, count, turns))
+            at = [j.name for j in mechanism.joints if [unit_of[b] for b in j.bodies].count(k) == 1]
+            hangs = turns and count == 1 and len(at) == 1
+            found.append(IdleFreedom(own, count, turns, at[0] if hangs else ""))
     for chain in _chains(mechanism, unit_of, ground):
         count = alone(chain)[0] - sum(single[k] for k in chain)
         if count > 0:
