@@ -116,7 +116,7 @@ def _axis_ends(scene: Scene, poses: Poses, joint: SceneJoint, at: np.ndarray) ->
 
 def _set_window(axes: Any, points: np.ndarray) -> None:
     low, high = points.min(axis=0), points.max(axis=0)
-    middle, half = (low + high) / 2, (0.5 + MARGIN) * max(float((high - low).max()), 1e-9)
+    middle, half = (low + high) / 2, (0.5 + MARGIN) * (float((high - low).max()) or 1.0)
     names: Sequence[str] = "xyz"[: points.shape[1]]
     for name, centre in zip(names, middle, strict=True):
         getattr(axes, f"set_{name}lim")(centre - half, centre + half)
