@@ -44,7 +44,7 @@ def draw_component_tree(answer: Decomposition, title: str, path: str) -> None:
             if len(texts) > MOST_BOXES:
                 texts = [*texts[: MOST_BOXES - 1], f"and {len(texts) - MOST_BOXES + 1} kinds more"]
             y = len(levels) - 1 - k
-            plane.text(0, y, f"dimension {dimension}  ", ha="right", va="center")
+            plane.text(0, y, f"dimension {dimension}", ha="right", va="center")
             for i, text in enumerate(texts):
                 x = (i + 0.5) / len(texts)
                 plane.plot([top[0], x], [top[1], y], color="#b8c0c8", linewidth=0.9, zorder=0)
