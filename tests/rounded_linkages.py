@@ -295,7 +295,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             rng = np.random.default_rng(seed)
             axes, points = known.posed(make(), seed)
             across = np.cross(axes[0], rng.standard_normal(3))
-            points[0] += 10 ** rng.uniform(-2, 0) * across / np.linalg.norm(across)
+            # Turned as well: a Sarrus linkage with an axis that stays parallel is another one.
+            aside = 10 ** rng.uniform(-2, 0) * across / np.linalg.norm(across)
+            points[0] += aside
+            axes[0] += np.linalg.norm(axes[0]) * aside
             mechanism = known.rounded_loop((axes, points), 9)
             wrong += _is_claimed(mechanism, f"{name} with an axis out of place, seed {seed}")
     return int(wrong > 0)
