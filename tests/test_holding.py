@@ -231,3 +231,26 @@ def test_a_held_value_of_thirty_degrees_is_exact() -> None:
     assert all(
         isinstance(c, Fraction) for f in rounded.system.polynomials for c in f.terms.values()
     )
+
+
+def test_an_arm_that_nothing_holds_is_held_where_its_hand_is_put() -> None:
+    # Two links of lengths 2 and sqrt(2), and a hand that turns by 2 atan(1/5): two elbows.
+    points = [(0, 0, 0), (2, 0, 0), (3, 1, 0)]
+    names = ["base", "upper", "fore", "hand"]
+    arm = nag.Mechanism(
+        "base",
+        tuple(
+            nag.Joint(f"j{i}", "revolute", (names[i], names[i + 1]), point, UP)
+            for i, point in enumerate(points)
+        ),
+    )
+    motion = nag.motion(arm, pose={"hand": (0.1, 0.2, 0, 1, 0, 0, 0.2)})
+    assert motion.complete and len(motion.assemblies) == 2
+    for each in motion.assemblies:
+        first, second, third = each.values
+        assert first + second + third == pytest.approx(2 * math.atan(0.2), abs=FIT)
+        # The wrist is where the hand takes it.
+        turn = np.exp(2j * math.atan(0.2))
+        wrist = 0.1 + 0.2j + turn * (3 + 1j)
+        elbow = 2 * np.exp(1j * first)
+        assert abs(elbow + np.exp(1j * (first + second)) * (1 + 1j) - wrist) < FIT

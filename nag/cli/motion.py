@@ -148,7 +148,10 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if case.kind == "system":
         raise UsageError(f"{options.case}: is a polynomial system; only mechanisms have a motion")
 
-    problem = problem_of_case(case, options.formulation or "auto")
+    from nag.kinematics.driven import tie_held
+
+    given = tie_held(case, (body for body, _ in options.pose or ()))
+    problem = problem_of_case(given, options.formulation or "auto")
     drives = _with_radians(problem, options.drive or ())
     ranges = [each for each in drives if len(each[1]) > 1]
     if len(ranges) > 1:

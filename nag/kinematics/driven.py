@@ -8,13 +8,14 @@ moves, or nothing does, they are solutions of the equations with the joints held
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
+from nag.algebra.given import is_a
 from nag.errors import NagError
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values
 from nag.kinematics.path import Path
@@ -23,7 +24,8 @@ from nag.kinematics.scene import Scene, scene_of
 from nag.kinematics.turning_points import STILL, Values
 from nag.mechanism.dh import DHEulerModel, DHModel, hold_rows
 from nag.mechanism.given_rotation import GivenFrame, given_point, given_quaternion, shortened
-from nag.mechanism.holding import HeldMechanism, held_model, hold_joint, place_body
+from nag.mechanism.graph import Mechanism
+from nag.mechanism.holding import HeldMechanism, held_model, hold_joint, place_body, tie_bodies
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.quaternion import conjugate, multiply
@@ -131,6 +133,15 @@ def read_poses(given: Any) -> tuple[Pose, ...]:
             raise NagError(f"pose: {body!r} has {len(x)} numbers; give 3, or 7 with a quaternion")
         found.append(Pose(str(body), x[:3], x[3:] or None))  # type: ignore[arg-type]
     return tuple(found)
+
+
+def tie_held(given: Any, bodies: Iterable[str]) -> Any:
+    """A mechanism, or a case of one, with bodies held that are to be placed; else what is given."""
+    if isinstance(given, Mechanism):
+        return tie_bodies(given, tuple(bodies))
+    if is_a(given, "nag.files.cases", "Case") and given.mechanism is not None:
+        return replace(given, mechanism=tie_bodies(given.mechanism, tuple(bodies)))
+    return given
 
 
 def check_drive(scene: Scene, drive: Drive) -> int:

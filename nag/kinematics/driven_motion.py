@@ -20,6 +20,7 @@ from nag.kinematics.driven import (
     check_drive,
     read_drives,
     read_poses,
+    tie_held,
 )
 from nag.kinematics.joint_values import Coordinate, joint_coordinates
 from nag.kinematics.motion import (
@@ -147,11 +148,12 @@ def driven_motion(
     """
     if not 1 <= len(values) <= MOST_VALUES:
         raise NagError(f"values: give 1 to {MOST_VALUES}, not {len(values)}")
-    problem = in_real_coordinates(problem_of(mechanism, formulation=formulation))
+    others, poses = read_drives(drive), read_poses(pose)
+    given = tie_held(mechanism, (each.body for each in poses))
+    problem = in_real_coordinates(problem_of(given, formulation=formulation))
     scene = scene_of(problem)
     column = check_drive(scene, Drive(coordinate, float(values[0])))
     steps = [Drive(coordinate, float(value)) for value in values]
-    others, poses = read_drives(drive), read_poses(pose)
     motions = _motions(problem, steps, others, poses, samples, run)
     return DrivenMotion(
         joint_coordinates(scene)[column],

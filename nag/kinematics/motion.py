@@ -21,6 +21,7 @@ from nag.kinematics.driven import (
     isolated_assemblies,
     read_drives,
     read_poses,
+    tie_held,
 )
 from nag.kinematics.joint_values import joint_coordinates
 from nag.kinematics.path import Curve, Path, sample_path, singular_places
@@ -329,8 +330,9 @@ def motion(
     [(True, 14.97)]
     """
     check_choice(circuit, "circuit", get_args(Which))
-    problem = in_real_coordinates(problem_of(mechanism, formulation=formulation))
     drives, poses = read_drives(drive), read_poses(pose)
+    given = tie_held(mechanism, (each.body for each in poses))
+    problem = in_real_coordinates(problem_of(given, formulation=formulation))
     if poses or len(drives) > 1 or (drives and moves_widely(problem, run)):
         return held_motion(problem, drives, poses, samples=samples, run=run)
     held = drives[0] if drives else None

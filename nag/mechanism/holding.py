@@ -98,16 +98,32 @@ def hold_joint(given: HeldMechanism, joint: str, freedom: str, value: Number) ->
     )
 
 
+def tie_bodies(mechanism: Mechanism, bodies: Sequence[str]) -> Mechanism:
+    """The mechanism with bodies held by the ground where they are drawn, as an arm's hand is.
+
+    Args:
+        mechanism: one that may have no loop yet.
+        bodies: names; what is no body, or tied already, makes no difference.
+    """
+    joints = list(mechanism.joints)
+    for body in bodies:
+        moving = body in mechanism.body_names and body != mechanism.ground
+        if moving and _find_tie(joints, body, mechanism.ground) is None:
+            name = _new_name(f"{body} held", joints)
+            joints.append(Joint(name, "rigid", (mechanism.ground, body)))
+    return replace(mechanism, joints=tuple(joints))
+
+
 def place_body(given: HeldMechanism, body: str, place: GivenFrame) -> HeldMechanism:
     """The mechanism with a body held by the ground somewhere else.
 
     Args:
-        given: the mechanism; if its ground holds the body already, by a rigid joint, not any more.
+        given: the mechanism, whose ground holds the body already (`tie_bodies`).
         body: its name.
         place: where what is at x in the drawing goes, as seen from the ground.
 
     Raises:
-        MechanismError: if there is no such body, or it is the ground.
+        MechanismError: if there is no such body, it is the ground, or not held.
     """
     mechanism = given.mechanism
     names = mechanism.body_names
@@ -115,9 +131,10 @@ def place_body(given: HeldMechanism, body: str, place: GivenFrame) -> HeldMechan
         raise MechanismError(f"pose: {body[:40]!r} is no body; they are {', '.join(names)}")
     if body == mechanism.ground:
         raise MechanismError(f"pose: {body!r} is the ground, which does not move")
-    ends = {body, mechanism.ground}
-    tie = next((j for j in mechanism.joints if j.of_type.is_rigid and set(j.bodies) == ends), None)
-    name = tie.name if tie is not None else _new_name(f"{body} held", mechanism)
+    tie = _find_tie(mechanism.joints, body, mechanism.ground)
+    if tie is None:
+        raise MechanismError(f"pose: {body!r} is not held by the ground; add a rigid joint")
+    name = tie.name
     others = tuple(j for j in mechanism.joints if j.name != name)
     held = Joint(name, "rigid", (mechanism.ground, body))
     origin = tuple(x / 2 for x in place.origin)
@@ -172,8 +189,13 @@ def _find_joint(mechanism: Mechanism, name: str) -> Joint:
     raise MechanismError(f"hold: {name[:40]!r} is no joint; they are {names}")
 
 
-def _new_name(name: str, mechanism: Mechanism) -> str:
-    taken = {j.name for j in mechanism.joints}
+def _find_tie(joints: Sequence[Joint], body: str, ground: str) -> Joint | None:
+    """The rigid joint by which the ground holds a body."""
+    return next((j for j in joints if j.of_type.is_rigid and set(j.bodies) == {body, ground}), None)
+
+
+def _new_name(name: str, joints: Sequence[Joint]) -> str:
+    taken = {j.name for j in joints}
     while name in taken:
         name += "'"
     return name
