@@ -16,6 +16,7 @@ from nag.kinematics.driven import Drive, hold
 from nag.kinematics.joint_values import joint_coordinates, joint_errors
 from nag.kinematics.motion import Motion, held_motion
 from nag.kinematics.poses import turn_product, turn_vectors
+from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.mechanism.problem import problem_of
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -254,3 +255,27 @@ def test_an_arm_that_nothing_holds_is_held_where_its_hand_is_put() -> None:
         wrist = 0.1 + 0.2j + turn * (3 + 1j)
         elbow = 2 * np.exp(1j * first)
         assert abs(elbow + np.exp(1j * (first + second)) * (1 + 1j) - wrist) < FIT
+
+
+def link(name: str, pins: str, length: int) -> Link:
+    places = ((Fraction(0), Fraction(0)), (Fraction(length), Fraction(0)))
+    return Link(name, tuple(pins), places)
+
+
+def test_a_linkages_pins_are_held_between_the_links_that_they_count_from() -> None:
+    links = [("base", "AE", 5), ("crank", "AB", 2), ("rod", "BC", 4), ("arm", "CD", 4)]
+    linkage = Linkage("base", tuple(link(*each) for each in (*links, ("rocker", "ED", 1))))
+    drive = {"A": math.radians(60), "E": 0.3}
+    motion = nag.motion(linkage_model(linkage), drive=drive)
+    assert motion.complete and len(motion.assemblies) == 2
+    # The dyad between the ends of both cranks.
+    ends = 2 * np.exp(1j * drive["A"]), 5 + np.exp(1j * drive["E"])
+    gap = ends[1] - ends[0]
+    for each, sign in zip(motion.assemblies, (-1, 1), strict=True):
+        values = dict(zip(names_of(motion), each.values, strict=True))
+        rod = gap / abs(gap) * np.exp(1j * sign * math.acos(abs(gap) / 8))
+        assert abs(np.exp(1j * (values["A"] + values["B"])) - rod) < FIT
+        assert all(abs(values[name] - drive[name]) < FIT for name in drive)
+        assert joint_errors(motion.scene, each.poses).max() < FIT
+    one = nag.motion(linkage_model(linkage), drive={"B": 0.4, "C": -1.0}, samples=60)
+    assert all(joint_errors(one.scene, each.poses).max() < FIT for each in one.assemblies)

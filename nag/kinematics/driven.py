@@ -19,13 +19,14 @@ from nag.algebra.given import is_a
 from nag.errors import NagError
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values
 from nag.kinematics.path import Path
-from nag.kinematics.poses import Poses
+from nag.kinematics.poses import Poses, turn_product
 from nag.kinematics.scene import Scene, scene_of
 from nag.kinematics.turning_points import STILL, Values
 from nag.mechanism.dh import DHEulerModel, DHModel, hold_rows
 from nag.mechanism.given_rotation import GivenFrame, given_point, given_quaternion, shortened
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.holding import HeldMechanism, held_model, hold_joint, place_body, tie_bodies
+from nag.mechanism.linkage import Linkage, LinkageModel, hold_pin, linkage_model
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.quaternion import conjugate, multiply
@@ -173,10 +174,12 @@ def hold(problem: Problem, drives: Sequence[Drive], poses: Sequence[Pose]) -> tu
         angles = {each.joint: Fraction(drive.value) for each, drive in chosen}
         held = problem_of(hold_rows(made.loop, angles))
         return held, scene_of(held)
+    if isinstance(made, LinkageModel) and not poses:
+        return _hold_pins(made.linkage, scene, chosen)
     if not isinstance(made, Model):
         raise NagError(
-            "drive: of linkages, frameworks and tables bodies cannot be placed, and joints of the "
-            "first two not be held; give a mechanism at a reference configuration"
+            "drive: of frameworks no angle can be held, and but for mechanisms at a reference "
+            "configuration no body be placed; give one of these"
         )
     mechanism = HeldMechanism(made.mechanism, {})
     for each, drive in chosen:
@@ -190,6 +193,71 @@ def hold(problem: Problem, drives: Sequence[Drive], poses: Sequence[Pose]) -> tu
         j for j in scene.joints if j.type != "rigid" or j.name not in mechanism.displacements
     )
     return held, replace(scene_of(held), joints=joints)
+
+
+@dataclass(frozen=True)
+class _Part:
+    """A link as a part of a plate.
+
+    Attributes:
+        plate: name of the plate, one of its links.
+        angle: by which the link's frame is turned in that of the plate.
+        place: of its origin there, in the plane.
+    """
+
+    plate: str
+    angle: float = 0.0
+    place: complex = 0j
+
+    def inside(self, outer: _Part) -> _Part:
+        """The same link, where its plate is a part of another one."""
+        moved = outer.place + np.exp(1j * outer.angle) * self.place
+        return _Part(outer.plate, self.angle + outer.angle, complex(moved))
+
+
+def _hold_pins(
+    linkage: Linkage, scene: Scene, chosen: Sequence[tuple[Coordinate, Drive]]
+) -> tuple[Problem, Scene]:
+    """A linkage with pins held, each between the links that it counts from."""
+    parts = {link.name: _Part(link.name) for link in linkage.links}
+    for each, drive in chosen:
+        joint = next(j for j in scene.joints if j.name == each.joint)
+        first, second = (parts[scene.bodies[b]] for b in joint.bodies)
+        if first.plate == second.plate:
+            raise NagError(f"drive: {each.name} is between links that are held already")
+        angle = drive.value + first.angle - second.angle
+        if second.plate == linkage.ground:
+            first, second, angle = second, first, -angle
+        pin = each.joint.split(":")[0]
+        at = [_pin_place(linkage, part.plate, pin) for part in (first, second)]
+        linkage = hold_pin(linkage, pin, first.plate, second.plate, Fraction(angle))
+        outer = _Part(first.plate, angle, complex(at[0] - np.exp(1j * angle) * at[1]))
+        for name, part in parts.items():
+            if part.plate == second.plate:
+                parts[name] = part.inside(outer)
+    held = problem_of(linkage_model(linkage))
+    plates = scene_of(held)
+
+    def lift(points: np.ndarray) -> Poses:
+        poses, count = plates.lift(points), len(points)
+        turns, places = [], []
+        for name in scene.bodies:
+            part = parts[name]
+            body = plates.bodies.index(part.plate)
+            half = part.angle / 2
+            own = np.array([np.cos(half), 0.0, 0.0, np.sin(half)])
+            turns.append(turn_product(poses.turns[body], own))
+            places.append(poses.move(body, np.array([part.place.real, part.place.imag, 0.0])))
+        return Poses.of(turns, places, count)
+
+    return held, replace(scene, variables=plates.variables, lift=lift)
+
+
+def _pin_place(linkage: Linkage, link: str, pin: str) -> complex:
+    """Where a pin is in a link's frame."""
+    own = next(k for k in linkage.links if k.name == link)
+    x, y = own.shape[own.pins.index(pin)]
+    return complex(float(x), float(y))
 
 
 def _displacement(made: Model, pose: Pose) -> GivenFrame:

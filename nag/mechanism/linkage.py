@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 from nag.algebra.number import Number, is_zero, square_root
@@ -25,6 +26,8 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
 from nag.mechanism.assembly import AssemblyModel, Side
+from nag.mechanism.axes import difference
+from nag.mechanism.given_rotation import GivenFrame, turn_about
 from nag.mechanism.graph import connected_to
 from nag.mechanism.loops import minimum_cycles
 from nag.mechanism.path_estimates import Alternative
@@ -116,6 +119,34 @@ class Linkage:
         pins = {p for link in self.links for p in link.pins}
         joints = sum(sum(p in link.pins for link in self.links) - 1 for p in pins)
         return 3 * (len(self.links) - 1) - 2 * joints
+
+
+def hold_pin(linkage: Linkage, pin: str, first: str, second: str, angle: Number) -> Linkage:
+    """The linkage with two links fixed at a pin that they share, as one plate.
+
+    Args:
+        linkage: the links.
+        pin: name of the pin.
+        first: the link that stays as it is, and gives the plate its name and frame.
+        second: the other one, turned against the first by the angle.
+        angle: in radians; rounded to 16 digits where it is no multiple of pi/12.
+
+    Raises:
+        LinkageError: if two pins of the plate are at one place.
+    """
+    links = {link.name: link for link in linkage.links}
+    kept, moved = links[first], links[second]
+    turn = GivenFrame(turn_about((0, 0, 1), angle).quaternion)
+    base, origin = kept.shape[kept.pins.index(pin)], moved.shape[moved.pins.index(pin)]
+    pins, shape = list(kept.pins), list(kept.shape)
+    for name, place in zip(moved.pins, moved.shape, strict=True):
+        if name not in pins:
+            x, y, _ = turn.turned((*difference(place, origin), Fraction(0)))
+            pins.append(name)
+            shape.append((base[0] + x, base[1] + y))
+    plate = Link(first, tuple(pins), tuple(shape))
+    left = tuple(plate if k.name == first else k for k in linkage.links if k.name != second)
+    return Linkage(first if linkage.ground == second else linkage.ground, left)
 
 
 @dataclass(frozen=True)
