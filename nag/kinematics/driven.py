@@ -196,7 +196,7 @@ def hold(problem: Problem, drives: Sequence[Drive], poses: Sequence[Pose]) -> tu
 
 
 @dataclass(frozen=True)
-class _Part:
+class _LinkInPlate:
     """A link as a part of a plate.
 
     Attributes:
@@ -209,17 +209,17 @@ class _Part:
     angle: float = 0.0
     place: complex = 0j
 
-    def inside(self, outer: _Part) -> _Part:
+    def inside(self, outer: _LinkInPlate) -> _LinkInPlate:
         """The same link, where its plate is a part of another one."""
         moved = outer.place + np.exp(1j * outer.angle) * self.place
-        return _Part(outer.plate, self.angle + outer.angle, complex(moved))
+        return _LinkInPlate(outer.plate, self.angle + outer.angle, complex(moved))
 
 
 def _hold_pins(
     linkage: Linkage, scene: Scene, chosen: Sequence[tuple[Coordinate, Drive]]
 ) -> tuple[Problem, Scene]:
     """A linkage with pins held, each between the links that it counts from."""
-    parts = {link.name: _Part(link.name) for link in linkage.links}
+    parts = {link.name: _LinkInPlate(link.name) for link in linkage.links}
     for each, drive in chosen:
         joint = next(j for j in scene.joints if j.name == each.joint)
         first, second = (parts[scene.bodies[b]] for b in joint.bodies)
@@ -231,7 +231,7 @@ def _hold_pins(
         pin = each.joint.split(":")[0]
         at = [_pin_place(linkage, part.plate, pin) for part in (first, second)]
         linkage = hold_pin(linkage, pin, first.plate, second.plate, Fraction(angle))
-        outer = _Part(first.plate, angle, complex(at[0] - np.exp(1j * angle) * at[1]))
+        outer = _LinkInPlate(first.plate, angle, complex(at[0] - np.exp(1j * angle) * at[1]))
         for name, part in parts.items():
             if part.plate == second.plate:
                 parts[name] = part.inside(outer)
