@@ -204,6 +204,7 @@ def test_what_is_held_is_written_as_its_schema_says(tmp_path, capsys) -> None:
         (["--drive", "A=1:2:1"], "between 2 and 1000"),
         (["--drive", "A=1:2:3", "--drive", "B=1:2:3"], "one joint is driven"),
         (["--drive", "A=x"], "is not of the form"),
+        (["--drive", "A=1", "--drive", "A=2"], "'A' is given twice"),
         (["--pose", "rod1=1,2"], "is not of the form"),
         (["--pose", "nobody=1,2,3"], "'nobody' is no body"),
         (["--pose", "base=1,2,3"], "is the ground"),

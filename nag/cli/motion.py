@@ -150,6 +150,13 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
     from nag.kinematics.driven import tie_held
 
+    for option, names in (
+        ("--drive", [each.name for each in options.drive or ()]),
+        ("--pose", [body for body, _ in options.pose or ()]),
+    ):
+        for i, name in enumerate(names):
+            if name in names[:i]:
+                raise UsageError(f"{option}: {name[:40]!r} is given twice; give it once")
     given = tie_held(case, (body for body, _ in options.pose or ()))
     problem = problem_of_case(given, options.formulation or "auto")
     drives = _with_radians(problem, options.drive or ())

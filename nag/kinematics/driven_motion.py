@@ -146,14 +146,18 @@ def driven_motion(
     >>> [len(motion.assemblies) for motion in driven]
     [1, 1]
     """
-    if not 1 <= len(values) <= MOST_VALUES:
-        raise NagError(f"values: give 1 to {MOST_VALUES}, not {len(values)}")
+    try:
+        numbers = [float(value) for value in values]
+    except (TypeError, ValueError):
+        raise NagError("values: give a list of numbers, [0.1, 0.2]") from None
+    if not 1 <= len(numbers) <= MOST_VALUES:
+        raise NagError(f"values: give 1 to {MOST_VALUES}, not {len(numbers)}")
     others, poses = read_drives(drive), read_poses(pose)
     given = tie_held(mechanism, (each.body for each in poses))
     problem = in_real_coordinates(problem_of(given, formulation=formulation))
     scene = scene_of(problem)
-    column = check_drive(scene, Drive(coordinate, float(values[0])))
-    steps = [Drive(coordinate, float(value)) for value in values]
+    steps = [Drive(coordinate, value) for value in numbers]
+    column = check_drive(scene, steps[0])
     motions = _motions(problem, steps, others, poses, samples, run)
     return DrivenMotion(
         joint_coordinates(scene)[column],
