@@ -235,18 +235,19 @@ def test_a_held_value_of_thirty_degrees_is_exact() -> None:
     )
 
 
-def test_an_arm_that_nothing_holds_is_held_where_its_hand_is_put() -> None:
-    # Two links of lengths 2 and sqrt(2), and a hand that turns by 2 atan(1/5): two elbows.
+def open_arm() -> nag.Mechanism:
     points = [(0, 0, 0), (2, 0, 0), (3, 1, 0)]
     names = ["base", "upper", "fore", "hand"]
-    arm = nag.Mechanism(
-        "base",
-        tuple(
-            nag.Joint(f"j{i}", "revolute", (names[i], names[i + 1]), point, UP)
-            for i, point in enumerate(points)
-        ),
+    joints = (
+        nag.Joint(f"j{i}", "revolute", (names[i], names[i + 1]), point, UP)
+        for i, point in enumerate(points)
     )
-    motion = nag.motion(arm, pose={"hand": (0.1, 0.2, 0, 1, 0, 0, 0.2)})
+    return nag.Mechanism("base", tuple(joints))
+
+
+def test_an_arm_that_nothing_holds_is_held_where_its_hand_is_put() -> None:
+    # Two links of lengths 2 and sqrt(2), and a hand that turns by 2 atan(1/5): two elbows.
+    motion = nag.motion(open_arm(), pose={"hand": (0.1, 0.2, 0, 1, 0, 0, 0.2)})
     assert motion.complete and len(motion.assemblies) == 2
     for each in motion.assemblies:
         first, second, third = each.values
@@ -280,3 +281,53 @@ def test_a_linkages_pins_are_held_between_the_links_that_they_count_from() -> No
         assert joint_errors(motion.scene, each.poses).max() < FIT
     one = nag.motion(linkage_model(linkage), drive={"B": 0.4, "C": -1.0}, samples=60)
     assert all(joint_errors(one.scene, each.poses).max() < FIT for each in one.assemblies)
+
+
+def test_assemblies_beyond_where_a_circuit_to_infinity_is_followed_are_found() -> None:
+    # Newton's method on the closure from many starts finds these two, with slides up to 27.
+    case = CASES / "spatial" / "rccc.toml"
+    motion = nag.motion(case, circuit="all", drive=("A", math.radians(88.9)), samples=24)
+    slides = sorted(tuple(each.values[[2, 4, 6]].round(2)) for each in motion.assemblies)
+    assert slides == [(-20.43, 14.72, -19.43), (20.3, -13.33, 27.21)]
+    assert all(each.circuit is None for each in motion.assemblies)
+
+
+def test_an_assembly_where_circuits_cross_counts_once() -> None:
+    motion = nag.motion(CASES / "planar" / "four-bar-parallelogram.toml", drive=("A", 0.0))
+    assert len(motion.assemblies) == 1
+
+
+def straight_arm(reach: float) -> Motion:
+    """The open arm with its wrist so far away, in rounded numbers."""
+    turn, out = np.exp(0.7j), np.exp(0.3j)
+    place = reach * out - turn * (3 + 1j)
+    pose = (place.real, place.imag, 0, math.cos(0.35), 0, 0, math.sin(0.35))
+    return nag.motion(open_arm(), pose={"hand": pose})
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-15, -1e-15])
+def test_a_pose_that_is_singular_but_for_rounding_is_said_to_be(off: float) -> None:
+    motion = straight_arm(2 + math.sqrt(2) + off)
+    assert not motion.complete and "singular" in motion.notes[0]
+    assert straight_arm(3.0).complete and len(straight_arm(3.0).assemblies) == 2
+    assert straight_arm(4.0).complete and not straight_arm(4.0).assemblies
+
+
+def test_a_pose_that_asks_for_too_much_in_rounded_numbers_is_left_open() -> None:
+    pose = (-2.998876829652815, 1.6650327512175565, 0, 0.7188563932301292, 0, 0, -0.695158604860912)
+    motion = nag.motion(CASES / "planar" / "five-bar.toml", pose={"rod1": pose})
+    assert not motion.assemblies and not motion.complete
+
+
+def test_what_holds_a_joint_and_a_body_at_once_may_leave_no_unknown_of_a_loop() -> None:
+    case = CASES / "planar" / "five-bar.toml"
+    motion = nag.motion(case, pose={"rod1": (0, 0, 0)}, drive={"A": 0.0})
+    assert len(motion.assemblies) == 2
+
+
+def test_assemblies_are_a_table_where_there_is_no_circuit(tmp_path) -> None:
+    table = tmp_path / "a.csv"
+    five = str(CASES / "planar" / "five-bar.toml")
+    main(["motion", five, "--drive", "A=30", "--drive", "E=-20", "--csv", str(table), "--quiet"])
+    head, *lines = table.read_text().splitlines()
+    assert head.startswith("circuit,arc,A,B,C,D,E,base.x") and len(lines) == 2

@@ -103,7 +103,8 @@ def _drive(text: str) -> _Drive:
     parts = value.split(":")
     try:
         numbers = [Fraction(part.strip()) for part in parts[:2]]
-    except (ValueError, ZeroDivisionError):
+        _ = [float(x) for x in numbers]
+    except (ValueError, ZeroDivisionError, OverflowError):
         numbers = []
     if not equals or not name.strip() or not numbers or len(parts) not in (1, 3):
         raise argparse.ArgumentTypeError(
@@ -224,7 +225,7 @@ def _run_through(
     from nag.kinematics.shown import continuation_rows, driven_rows, motion_rows
 
     if options.circuit is not None:
-        raise UsageError(f"{options.case}: --circuit: leave it out where a joint is driven")
+        raise UsageError("--circuit: leave it out where a joint is driven through values")
     found = driven_motion(problem, *drive, **held)
     if options.csv is not None:
         write_document(_table_text(found.motions, options.angles, found), options.csv, "csv")
@@ -285,8 +286,10 @@ def _table_text(motions: Sequence[Motion], angles: str, driven: DrivenMotion | N
     writer = csv.writer(text, lineterminator="\n")
     headed = False
     for i, found in enumerate(motions):
-        for circuit in found.circuits:
-            columns = found.table(circuit.number, angles=angles)
+        tables = [found.table(circuit.number, angles=angles) for circuit in found.circuits]
+        if not tables and found.assemblies:
+            tables = [found.assembly_table(angles=angles)]
+        for columns in tables:
             before = []
             if driven is not None:
                 in_degrees = driven.coordinate.kind == "angle" and angles == "degrees"

@@ -15,7 +15,9 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import is_a
+from nag.algebra.polynomial import Polynomial
 from nag.errors import NagError
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values
 from nag.kinematics.path import Path
@@ -35,8 +37,16 @@ from nag.text.table import join_words
 from nag.tracking.run import Run
 from nag.witness.witness import WitnessSet
 
+# Decides: Smallest singular value of a Jacobian beside the sizes of its terms, below which a number
+# that is rounded may stand for a singular place: the root of rounding, and 1e-5 in others.
+NEARLY = 1e-7
+# Decides: Imaginary parts beside the point of what rounding of 16 digits may have parted from a
+# double real zero: their root, with room.
+BESIDE = 1e-6
 # Decimals of values by which assemblies are put in order.
 DECIMALS = 9
+# Places of bodies, and slides, at most: nothing is that far away.
+LARGEST = 1e12
 # Steps that narrow an interval in which a joint has a value, to nothing.
 STEPS = 60
 
@@ -78,12 +88,14 @@ class DrivenAssembly:
         arc: how far along that.
         values: angles, between -pi and pi, and slides, shape ``(coordinates,)``.
         poses: of the bodies, at this one configuration.
+        point: of one that is on no circuit, in the variables of the equations.
     """
 
     circuit: int | None
     arc: float | None
     values: np.ndarray
     poses: Poses
+    point: np.ndarray | None = None
 
     def document(self) -> dict[str, Any]:
         """The assembly as a JSON object."""
@@ -155,8 +167,8 @@ def check_drive(scene: Scene, drive: Drive) -> int:
     if drive.coordinate not in names:
         there = f"they are {join_words(names)}" if names else "no joint has one"
         raise NagError(f"drive: {drive.coordinate[:40]!r} is no angle or slide; {there}")
-    if not np.isfinite(drive.value):
-        raise NagError("drive: the value has to be a finite number")
+    if not abs(drive.value) <= LARGEST:
+        raise NagError(f"drive: the value has to be a number, {LARGEST:.0e} at most")
     return names.index(drive.coordinate)
 
 
@@ -263,8 +275,8 @@ def _pin_place(linkage: Linkage, link: str, pin: str) -> complex:
 def _displacement(made: Model, pose: Pose) -> GivenFrame:
     """Where a pose takes a body from where it is drawn."""
     numbers = (*pose.place, *(pose.quaternion or ()))
-    if not all(np.isfinite(x) for x in numbers):
-        raise NagError(f"pose: the numbers of {pose.body!r} have to be finite")
+    if not all(abs(x) <= LARGEST for x in numbers):
+        raise NagError(f"pose: the numbers of {pose.body!r} have to be {LARGEST:.0e} at most")
     origin = given_point([Fraction(x) for x in pose.place])
     if pose.quaternion is None:
         return GivenFrame(origin=origin)
@@ -286,8 +298,51 @@ def isolated_assemblies(
         poses = scene.lift(points)
         values = joint_values(scene, poses)
         for i in range(len(points)):
-            found.append(DrivenAssembly(None, None, values[i], poses.at(slice(i, i + 1))))
+            here = poses.at(slice(i, i + 1))
+            found.append(DrivenAssembly(None, None, values[i], here, points[i]))
     return sorted(found, key=lambda each: tuple(np.round(each.values, DECIMALS)))
+
+
+def doubts_of_held(
+    problem: Problem, assemblies: Sequence[DrivenAssembly], components: Sequence[WitnessSet]
+) -> list[str]:
+    """Why assemblies may not be all that is meant: next to numbers that are rounded, others move.
+
+    Args:
+        problem: what is left with joints and bodies held.
+        assemblies: the real ones that do not move.
+        components: of dimension 0, all of them.
+    """
+    known = [each.point for each in assemblies if each.point is not None]
+    near = [str(i + 1) for i, x in enumerate(known) if _is_nearly_singular(problem, x)]
+    notes = []
+    if near:
+        noun = "assembly" if len(near) == 1 else "assemblies"
+        notes.append(
+            f"{noun} {join_words(near)}: all but singular: what is held in rounded numbers may "
+            "stand for a place at which it moves, or where two meet"
+        )
+    points = [x for component in components for x in np.asarray(component.points)]
+    aside = [x for x in points if 0 < np.abs(x.imag).max() < BESIDE * (1 + np.abs(x).max())]
+    if any(_is_nearly_singular(problem, x) for x in aside if not _is_among(x.real, known)):
+        notes.append(
+            "two assemblies that are all but real and singular: what is held in rounded numbers "
+            "may stand for a place where two meet"
+        )
+    return notes
+
+
+def _is_among(x: np.ndarray, known: Sequence[np.ndarray]) -> bool:
+    return any(np.abs(x - y).max() <= BESIDE * (1 + np.abs(y).max()) for y in known)
+
+
+def _is_nearly_singular(problem: Problem, x: np.ndarray) -> bool:
+    """Whether a Jacobian is, to the root of rounding, each row beside the size of its terms."""
+    n, polynomials = problem.system.n, problem.system.polynomials
+    terms = [Polynomial(n, {e: abs(c) for e, c in f.terms.items()}) for f in polynomials]
+    sizes = np.abs(Evaluator.of(terms, n).jacobian(np.abs(x) + 0j)).max(axis=1)
+    rows = Evaluator.of(polynomials, n).jacobian(x + 0j) / np.where(sizes > 0, sizes, 1)[:, None]
+    return bool(np.linalg.svd(rows, compute_uv=False)[n - 1] < NEARLY)
 
 
 def assemblies_on(

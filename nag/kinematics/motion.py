@@ -17,6 +17,7 @@ from nag.kinematics.driven import (
     Pose,
     assemblies_on,
     check_drive,
+    doubts_of_held,
     hold,
     isolated_assemblies,
     read_drives,
@@ -254,6 +255,28 @@ class Motion:
             columns |= {f"{name}.q{k}": own.poses.turns[i, :, k] for k in range(4)}
         return columns
 
+    def assembly_table(self, *, angles: str = "degrees") -> dict[str, np.ndarray]:
+        """The assemblies with joints or bodies held, a row each, with the columns of `table`.
+
+        Circuit and arc are 0 and NaN of what is on no circuit.
+        """
+        check_choice(angles, "angles", ("degrees", "radians"))
+        own = self.assemblies
+        columns = {
+            "circuit": np.array([a.circuit or 0 for a in own]),
+            "arc": np.array([np.nan if a.arc is None else a.arc for a in own]),
+        }
+        for i, each in enumerate(joint_coordinates(self.scene)):
+            column = np.array([a.values[i] for a in own])
+            turned = each.kind == "angle" and angles == "degrees"
+            columns[each.name] = np.degrees(column) if turned else column
+        for i, name in enumerate(self.scene.bodies):
+            for k, x in enumerate("xyz"):
+                columns[f"{name}.{x}"] = np.array([a.poses.places[i, 0, k] for a in own])
+            for k in range(4):
+                columns[f"{name}.q{k}"] = np.array([a.poses.turns[i, 0, k] for a in own])
+        return columns
+
     def circuit(self, number: int) -> Circuit:
         """The circuit of a number, from 1.
 
@@ -263,7 +286,8 @@ class Motion:
         own = next((c for c in self.circuits if c.number == number), None)
         if own is None:
             numbers = ", ".join(str(c.number) for c in self.circuits)
-            raise NagError(f"circuit: {number} is none; they are {numbers}")
+            there = f"they are {numbers}" if numbers else "there is none"
+            raise NagError(f"circuit: {number} is none; {there}")
         return own
 
     def document(self) -> dict[str, Any]:
@@ -376,7 +400,13 @@ def held_motion(
     """
     left, scene = hold(problem, drives, poses)
     found, _ = _motion_on(left, scene, "all", samples, run, holding=True)
-    return replace(found, held=tuple(drives), poses=tuple(poses))
+    notes = list(found.notes)
+    if not found.circuits and not found.assemblies and found.counted < 0:
+        notes.append(
+            "what is held asks for more than there are freedoms, and its numbers are taken as they "
+            "are written: rounded ones leave nothing"
+        )
+    return replace(found, held=tuple(drives), poses=tuple(poses), notes=tuple(notes))
 
 
 def motion_of(
@@ -399,7 +429,9 @@ def motion_of(
         check_drive(scene, each)
     which: Which = circuit if scene.from_reference else "all"
     found, made = _motion_on(problem, scene, which, samples, run, curve_of=curve_of)
-    return _at_value(found, made, drive) if drive is not None else found
+    if drive is None:
+        return found
+    return _at_value(problem, found, made, drive, run)
 
 
 def drive_circuits(
@@ -410,17 +442,39 @@ def drive_circuits(
     for each in drives:
         check_drive(scene, each)
     found, made = _motion_on(problem, scene, "all", samples, run)
-    return [_at_value(found, made, each) for each in drives]
+    return [_at_value(problem, found, made, each, run) for each in drives]
 
 
-def _at_value(motion: Motion, made: Sequence[_FoundCircuit], drive: Drive) -> Motion:
-    """A motion with the assemblies on its circuits at a value of a joint."""
-    assemblies = [
+def _at_value(
+    problem: Problem, motion: Motion, made: Sequence[_FoundCircuit], drive: Drive, run: Run
+) -> Motion:
+    """A motion with the assemblies on its circuits at a value of a joint, each once.
+
+    Circuits to infinity are not followed all the way: with the joint held, the others are found.
+    """
+    candidates = [
         assembly
         for each in made
         for assembly in assemblies_on(each.path, each.values, drive, each.circuit.number, each.end)
     ]
-    return replace(motion, drive=drive, assemblies=tuple(assemblies))
+    notes = list(motion.notes)
+    if motion.which == "all" and any(each.circuit.unbounded for each in made):
+        try:
+            rest = held_motion(problem, [drive], samples=LEAST_SAMPLES, run=run)
+            candidates += rest.assemblies
+            notes += rest.notes
+        except NagError as error:
+            notes.append(f"assemblies beyond where circuits to infinity are followed: {error}")
+    scene, assemblies = motion.scene, list[DrivenAssembly]()
+    for each in candidates:
+        if not any(_is_one(scene, each, other) for other in assemblies):
+            assemblies.append(each)
+    return replace(motion, drive=drive, assemblies=tuple(assemblies), notes=tuple(notes))
+
+
+def _is_one(scene: Scene, one: DrivenAssembly, other: DrivenAssembly) -> bool:
+    """Whether two assemblies are the same configuration, as where circuits cross."""
+    return pose_distances(one.poses, other.poses, scene.centres, scene.size)[0] < SAME
 
 
 def _motion_on(
@@ -461,6 +515,7 @@ def _motion_on(
     if holding:
         points = [c for c in others.components if c.dimension == 0]
         isolated = isolated_assemblies(scene, points, run)
+        notes += doubts_of_held(problem, isolated, points)
     if not circuits and not notes and not holding:
         raise MotionError(_no_motion(curves, left_out))
     finished = _with_crossings(circuits, others, found, run)

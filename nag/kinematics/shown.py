@@ -130,7 +130,7 @@ def assembly_rows(motion: Motion) -> list[str]:
     for number, each in enumerate(motion.assemblies, start=1):
         values = zip(coordinates, each.values, strict=True)
         texts = [value_text(c, value) for c, value in values]
-        rows.append([str(number), *(str(each.circuit) for _ in circuit), *texts])
+        rows.append([str(number), *(str(each.circuit or "-") for _ in circuit), *texts])
     return align(rows)
 
 

@@ -162,7 +162,9 @@ def held_model(given: HeldMechanism) -> Model:
     try:
         form = LoopClosures.of(structure, displacements=given.displacements).model
     except ValueError as error:
-        raise ModelError(f"formulation H: {error}") from None
+        raise ModelError(
+            f"with {', '.join(given.held)} held too little is left that moves; hold less ({error})"
+        ) from None
     space = space_of(structure.joints)
     loops = count_text(len(structure.loops), "loop")
     unknowns = count_text(form.system.n, "unknown")
