@@ -54,7 +54,7 @@ DENSE: dict[str, tuple[str, ...]] = {
     "moved-planar": (
         "planar/four-bar-folding", "planar/four-bar-kite", "planar/four-bar-parallelogram",
         "planar/four-bar-rhombus", "planar/four-bar", "planar/slider-crank-equal",
-        "planar/elliptic-trammel", "planar/oldham",
+        "planar/elliptic-trammel", "planar/oldham", "planar/five-bar",
     ),
     "moved-loops": (
         "spatial/bennett-isogram-equilateral", "spatial/bennett", "spatial/goldberg-5r",
@@ -128,8 +128,9 @@ SPARSE: dict[str, tuple[str, ...]] = {
     "sparse-robots": (
         "robots/3-prs", "robots/3-rps", "robots/3-rrr-planar", "robots/3-rrr-spherical",
         "robots/3-rrs", "robots/3-sps-s", "robots/3-upu-snu", "robots/3-upu-tangential",
-        "robots/3-upu-tsai", "robots/3-upu-wrist", "robots/3-uu-locked", "robots/exechon",
-        "robots/hexapod", "robots/quadrupteron", "robots/tricept", "robots/tripteron",
+        "robots/3-upu-tsai", "robots/3-upu-wrist", "robots/3-uu-locked", "robots/4-upu-upright",
+        "robots/exechon", "robots/hexapod", "robots/quadrupteron", "robots/tricept",
+        "robots/tripteron",
     ),
     "sparse-robots-with-roots": (
         "robots/3-rps-120", "robots/3-upu-snu-120", "robots/3-upu-tsai-120",
