@@ -76,7 +76,6 @@ def test_huge_coefficients_still_fit_into_doubles() -> None:
         (system("x y z", "x*y*z", "x*y*(z-1)"), {("x",), ("y",)}),
         (system("x y z", "x - y", "z^2 - 3*z*x", nonzero=("z",)), {("3*x - z", "3*y - z")}),
     ],
-    ids=str,
 )
 def test_branches_are_those_that_are_known(of, expected) -> None:
     found = texts(of)
