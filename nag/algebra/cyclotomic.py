@@ -40,7 +40,7 @@ class CosinesModulo(PrimeField):
     power: int = 1
 
     @cached_property
-    def doubled(self) -> tuple[int, ...]:
+    def doubled_cosines(self) -> tuple[int, ...]:
         """2 cos(2 pi j k / n) for j from 0 to n - 1."""
         p, n = self.modulus, self.order
         plain = _doubled_cosines(n, p)
@@ -82,7 +82,7 @@ class CosinesModulo(PrimeField):
         if j.denominator > 1:
             raise ArithmeticError(f"the cosine of {turns} turns is not one of n-ths of a turn")
         half = (self.modulus + 1) // 2
-        return self.doubled[int(j) % self.order] * half % self.modulus
+        return self.doubled_cosines[int(j) % self.order] * half % self.modulus
 
 
 @dataclass(frozen=True)

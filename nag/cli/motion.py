@@ -20,6 +20,7 @@ from nag.cli.arguments import (
 )
 from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case, write_document
 from nag.errors import NagError
+from nag.kinematics import MOST_VALUES
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from nag.mechanism.problem import Problem
 
 FORMAT, DRIVEN_FORMAT = "nag-motion", "nag-driven-motion"
-MOST_VALUES = 1_000
 MOST_SAMPLES = 100_000
 MOST_CIRCUITS = 100_000
 
@@ -95,7 +95,6 @@ class _Drive:
 
     name: str
     values: tuple[Fraction, ...]
-    is_range: bool
 
 
 def _drive(text: str) -> _Drive:
@@ -112,11 +111,11 @@ def _drive(text: str) -> _Drive:
             "JOINT=FIRST:LAST:COUNT"
         )
     if len(parts) == 1:
-        return _Drive(name.strip(), (numbers[0],), False)
+        return _Drive(name.strip(), (numbers[0],))
     count = whole(parts[2], 2, MOST_VALUES)
     first, last = numbers
     values = tuple(first + (last - first) * i / (count - 1) for i in range(count))
-    return _Drive(name.strip(), values, True)
+    return _Drive(name.strip(), values)
 
 
 def _pose(text: str) -> tuple[str, tuple[float, ...]]:
@@ -149,7 +148,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if case.kind == "system":
         raise UsageError(f"{options.case}: is a polynomial system; only mechanisms have a motion")
 
-    from nag.kinematics.driven import tie_held
+    from nag.kinematics.driven import tie_placed_bodies
 
     for option, names in (
         ("--drive", [each.name for each in options.drive or ()]),
@@ -158,7 +157,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         for i, name in enumerate(names):
             if name in names[:i]:
                 raise UsageError(f"{option}: {name[:40]!r} is given twice; give it once")
-    given = tie_held(case, (body for body, _ in options.pose or ()))
+    given = tie_placed_bodies(case, (body for body, _ in options.pose or ()))
     problem = problem_of_case(given, options.formulation or "auto")
     drives = _with_radians(problem, options.drive or ())
     ranges = [each for each in drives if len(each[1]) > 1]

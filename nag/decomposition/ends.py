@@ -235,7 +235,7 @@ class SingularEnds:
             if answer is Membership.MEMBER:
                 # A multiple zero is where paths of the set end, if its local ring is too long.
                 return Settled(doubts if found.located else [*doubts, untold], counts)
-        holding = self._holding(x, accuracy)
+        holding = self._add_vanishing_equations(x, accuracy)
         if answer is Membership.FOREIGN and admit_end(
             x, accuracy, own, holding, self.rows, self.rng, deflate=False
         ):
@@ -259,7 +259,7 @@ class SingularEnds:
         doubts = [f"a singular point of dimension {d} could not be made regular"]
         return Settled(doubts, counts, regular=False)
 
-    def _holding(self, x: np.ndarray, accuracy: float) -> Equations:
+    def _add_vanishing_equations(self, x: np.ndarray, accuracy: float) -> Equations:
         """The equations, and the later ones that seem to vanish at a point as well.
 
         A component that is multiple for the first equations may be a simple one for all.

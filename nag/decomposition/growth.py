@@ -297,14 +297,14 @@ class _Growing:
         while found:
             found = False
             for there, back in zip_longest(*ways):
-                if there is not None and (some := self._waiting(there, self.points)):
+                if there is not None and (some := self._choose_waiting_points(there, self.points)):
                     other, found = self._carry(self.points, some, other, there), True
-                if back is not None and (some := self._waiting(back, other)):
+                if back is not None and (some := self._choose_waiting_points(back, other)):
                     self.points, found = self._carry(other, some, self.points, back), True
             self.run.tell("points of the component", len(self.points), 0)
         return other
 
-    def _waiting(self, way: _Way, points: Points) -> range:
+    def _choose_waiting_points(self, way: _Way, points: Points) -> range:
         """Those that were not carried along a way yet, as many as can be afforded."""
         return range(way.tried, min(len(points), way.tried + self.allowance.most(DOUBLE)))
 

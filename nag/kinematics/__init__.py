@@ -8,3 +8,6 @@ follow each other), `path` on `scene` and `walks` (one motion along them, evenly
 `motion` (all that is said of a mechanism; `shown` for users) and `driven_motion` (one value of a
 joint after another).
 """
+
+# For whoever must not load the rest: values that a joint is driven through, at most.
+MOST_VALUES = 1_000

@@ -32,14 +32,12 @@ from nag.mechanism.linkage import Linkage, LinkageModel, hold_pin, linkage_model
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.quaternion import conjugate, multiply
+from nag.numerics.double_ranks import NEARLY_SINGULAR
 from nag.real.real_pieces import find_real_points
 from nag.text.table import join_words
 from nag.tracking.run import Run
 from nag.witness.witness import WitnessSet
 
-# Decides: Smallest singular value of a Jacobian beside the sizes of its terms, below which a number
-# that is rounded may stand for a singular place: the root of rounding, and 1e-5 in others.
-NEARLY = 1e-7
 # Decides: Imaginary parts beside the point of what rounding of 16 digits may have parted from a
 # double real zero: their root, with room.
 BESIDE = 1e-6
@@ -148,7 +146,7 @@ def read_poses(given: Any) -> tuple[Pose, ...]:
     return tuple(found)
 
 
-def tie_held(given: Any, bodies: Iterable[str]) -> Any:
+def tie_placed_bodies(given: Any, bodies: Iterable[str]) -> Any:
     """A mechanism, or a case of one, with bodies held that are to be placed; else what is given."""
     if isinstance(given, Mechanism):
         return tie_bodies(given, tuple(bodies))
@@ -303,7 +301,7 @@ def isolated_assemblies(
     return sorted(found, key=lambda each: tuple(np.round(each.values, DECIMALS)))
 
 
-def doubts_of_held(
+def find_doubts_of_held(
     problem: Problem, assemblies: Sequence[DrivenAssembly], components: Sequence[WitnessSet]
 ) -> list[str]:
     """Why assemblies may not be all that is meant: next to numbers that are rounded, others move.
@@ -342,7 +340,7 @@ def _is_nearly_singular(problem: Problem, x: np.ndarray) -> bool:
     terms = [Polynomial(n, {e: abs(c) for e, c in f.terms.items()}) for f in polynomials]
     sizes = np.abs(Evaluator.of(terms, n).jacobian(np.abs(x) + 0j)).max(axis=1)
     rows = Evaluator.of(polynomials, n).jacobian(x + 0j) / np.where(sizes > 0, sizes, 1)[:, None]
-    return bool(np.linalg.svd(rows, compute_uv=False)[n - 1] < NEARLY)
+    return bool(np.linalg.svd(rows, compute_uv=False)[n - 1] < NEARLY_SINGULAR)
 
 
 def assemblies_on(

@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 
 from nag.errors import NagError
+from nag.kinematics import MOST_VALUES
 from nag.kinematics.driven import (
     Drive,
     Pose,
     check_drive,
     read_drives,
     read_poses,
-    tie_held,
+    tie_placed_bodies,
 )
 from nag.kinematics.joint_values import Coordinate, joint_coordinates
 from nag.kinematics.motion import (
@@ -29,8 +30,8 @@ from nag.kinematics.motion import (
     FreedomsError,
     Motion,
     drive_circuits,
+    has_several_freedoms,
     held_motion,
-    moves_widely,
 )
 from nag.kinematics.poses import Poses, pose_distances
 from nag.kinematics.scene import Scene, scene_of
@@ -38,8 +39,6 @@ from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
-# Values that a joint is driven through, at most.
-MOST_VALUES = 1_000
 # Samples of a circuit that are compared with those of another one.
 COMPARED = 60
 
@@ -153,7 +152,7 @@ def driven_motion(
     if not 1 <= len(numbers) <= MOST_VALUES:
         raise NagError(f"values: give 1 to {MOST_VALUES}, not {len(numbers)}")
     others, poses = read_drives(drive), read_poses(pose)
-    given = tie_held(mechanism, (each.body for each in poses))
+    given = tie_placed_bodies(mechanism, (each.body for each in poses))
     problem = in_real_coordinates(problem_of(given, formulation=formulation))
     scene = scene_of(problem)
     steps = [Drive(coordinate, value) for value in numbers]
@@ -176,7 +175,7 @@ def _motions(
     run: Run,
 ) -> list[Motion]:
     """What is left at each value."""
-    if not others and not poses and not moves_widely(problem, run):
+    if not others and not poses and not has_several_freedoms(problem, run):
         try:
             return drive_circuits(problem, steps, samples=samples, run=run)
         except FreedomsError:

@@ -17,12 +17,12 @@ from nag.kinematics.driven import (
     Pose,
     assemblies_on,
     check_drive,
-    doubts_of_held,
+    find_doubts_of_held,
     hold,
     isolated_assemblies,
     read_drives,
     read_poses,
-    tie_held,
+    tie_placed_bodies,
 )
 from nag.kinematics.joint_values import joint_coordinates
 from nag.kinematics.path import Curve, Path, sample_path, singular_places
@@ -355,9 +355,9 @@ def motion(
     """
     check_choice(circuit, "circuit", get_args(Which))
     drives, poses = read_drives(drive), read_poses(pose)
-    given = tie_held(mechanism, (each.body for each in poses))
+    given = tie_placed_bodies(mechanism, (each.body for each in poses))
     problem = in_real_coordinates(problem_of(given, formulation=formulation))
-    if poses or len(drives) > 1 or (drives and moves_widely(problem, run)):
+    if poses or len(drives) > 1 or (drives and has_several_freedoms(problem, run)):
         return held_motion(problem, drives, poses, samples=samples, run=run)
     held = drives[0] if drives else None
     try:
@@ -368,7 +368,7 @@ def motion(
         return held_motion(problem, drives, samples=samples, run=run)
 
 
-def moves_widely(problem: Problem, run: Run) -> bool:
+def has_several_freedoms(problem: Problem, run: Run) -> bool:
     """Whether a mechanism has two freedoms or more at its reference configuration."""
     if not isinstance(problem.model, Model) or not problem.reference:
         return False
@@ -458,7 +458,13 @@ def _at_value(
         for assembly in assemblies_on(each.path, each.values, drive, each.circuit.number, each.end)
     ]
     notes = list(motion.notes)
-    if motion.which == "all" and any(each.circuit.unbounded for each in made):
+    unbounded = any(each.circuit.unbounded for each in made)
+    if unbounded and motion.which == "reference":
+        notes.append(
+            "assemblies beyond where circuits to infinity are followed are looked for on all "
+            "circuits only"
+        )
+    elif unbounded:
         try:
             rest = held_motion(problem, [drive], samples=LEAST_SAMPLES, run=run)
             candidates += rest.assemblies
@@ -515,7 +521,7 @@ def _motion_on(
     if holding:
         points = [c for c in others.components if c.dimension == 0]
         isolated = isolated_assemblies(scene, points, run)
-        notes += doubts_of_held(problem, isolated, points)
+        notes += find_doubts_of_held(problem, isolated, points)
     if not circuits and not notes and not holding:
         raise MotionError(_no_motion(curves, left_out))
     finished = _with_crossings(circuits, others, found, run)

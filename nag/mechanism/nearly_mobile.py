@@ -411,7 +411,7 @@ class Chains:
         """The largest gap of a loop, an angle and a distance in sizes."""
         gaps = []
         for product in self.products:
-            turn, place = self._placed(q, product)[-1]
+            turn, place = self._place_factors(q, product)[-1]
             gaps.append((2 * atan2(hypot(*turn[1:]), abs(turn[0])), hypot(*place)))
         return max(g[0] for g in gaps), max(g[1] for g in gaps)
 
@@ -427,7 +427,7 @@ class Chains:
         """
         values, slopes = [], np.zeros((6 * len(self.products), len(self.screws)))
         for i, product in enumerate(self.products):
-            *placed, (turn, place) = self._placed(q, product)
+            *placed, (turn, place) = self._place_factors(q, product)
             sign = -2.0 if turn[0] < 0 else 2.0
             values += [x * sign for x in turn[1:]] + place
             for (k, direction), (before, at) in zip(product, placed, strict=True):
@@ -451,7 +451,7 @@ class Chains:
         lines = zip(self.axis.tolist(), self.point.tolist(), self.turning.tolist(), strict=True)
         return list(lines)
 
-    def _placed(
+    def _place_factors(
         self, q: Array, product: Sequence[tuple[int, int]]
     ) -> list[tuple[Sequence[float], list[float]]]:
         """Where each factor of a product finds what it moves, and at last where that is."""

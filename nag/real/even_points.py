@@ -23,7 +23,7 @@ FEWEST, KEPT = 24, 0.2
 LIKE = 0.9
 # Times that points are put between others where the tangent turns by more than this cosine, as it
 # may in the last step to a fold.
-ROUNDS, WIDE = 6, 0.98
+ROUNDS, WIDE = 6, float(np.cos(2 * TURN))
 
 
 def even_points(
@@ -35,7 +35,7 @@ def even_points(
         points: normalised, neighbours of like signs, shape ``(k, size)``.
     """
     length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
-    kept = _filled(closure, points[_thinned(points, KEPT * min(CHORD, length / FEWEST))])
+    kept = _insert_points(closure, points[_thinned(points, KEPT * min(CHORD, length / FEWEST))])
     chords = np.diff(kept, axis=0)
     sizes = np.linalg.norm(chords, axis=1)
     tangents = _tangents(closure, kept, chords / sizes[:, None])
@@ -71,7 +71,7 @@ def _on_cubics(
     )
 
 
-def _filled(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray:
+def _insert_points(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray:
     """The points, with others between them where the tangent turns by much."""
     for _ in range(ROUNDS):
         chords = np.diff(points, axis=0)

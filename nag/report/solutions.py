@@ -9,7 +9,7 @@ from nag.algebra.given import is_a
 from nag.algebra.system import system_line
 from nag.report.assemblies import real_rows
 from nag.report.model import model_row
-from nag.solving.shown import MOST_ROWS, Reality, answer_text, by_coordinates, solution_rows
+from nag.solving.shown import MOST_ROWS, Reality, answer_text, has_real_coordinates, solution_rows
 from nag.solving.solve import METHOD_TEXTS
 from nag.text.table import Row, align, sheet
 
@@ -79,11 +79,11 @@ def _reality(problem: Problem) -> Reality:
     """What makes a solution real: of parts, that the assembly is."""
     parts = problem.parts
     if parts is None:
-        return by_coordinates
+        return has_real_coordinates
     return lambda solution: parts.is_real(solution.point)
 
 
-def solution_table(result: SolveResult, is_real: Reality = by_coordinates) -> list[str]:
+def solution_table(result: SolveResult, is_real: Reality = has_real_coordinates) -> list[str]:
     """One row a solution, the real ones first."""
     if not result.solutions:
         return []

@@ -24,12 +24,12 @@ SHOWN = 6
 Reality: TypeAlias = "Callable[[Solution], bool]"
 
 
-def by_coordinates(solution: Solution) -> bool:
+def has_real_coordinates(solution: Solution) -> bool:
     """Whether a solution is real: its coordinates are."""
     return solution.real
 
 
-def answer_text(result: SolveResult, is_real: Reality = by_coordinates) -> str:
+def answer_text(result: SolveResult, is_real: Reality = has_real_coordinates) -> str:
     """The answer in one sentence."""
     count, real = len(result.solutions), sum(map(is_real, result.solutions))
     text = f"{count} isolated solution{'' if count == 1 else 's'}, {real} real"
@@ -49,7 +49,7 @@ def solution_rows(
     result: SolveResult,
     most: int | None = None,
     columns: int | None = None,
-    is_real: Reality = by_coordinates,
+    is_real: Reality = has_real_coordinates,
 ) -> list[list[str]]:
     """Headings, and a row for each of at most ``most`` solutions, the real ones first.
 
