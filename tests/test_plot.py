@@ -199,7 +199,8 @@ def test_the_papers_curves_are_drawn_in_space_without_corners(
     for arc in own.arcs:
         steps = np.diff(arc / np.ptp(arc, axis=0), axis=0)
         steps /= np.linalg.norm(steps, axis=1)[:, None]
-        assert (steps[1:] * steps[:-1]).sum(axis=1).min() > 0.9
+        # Without points put in the last step to a fold it is 0.916.
+        assert (steps[1:] * steps[:-1]).sum(axis=1).min() > 0.95
 
 
 def test_curves_in_space_are_written_as_a_picture_with_three_axes(tmp_path) -> None:

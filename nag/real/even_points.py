@@ -19,8 +19,6 @@ CHORD, TURN, HALF_ANGLE = 0.05, 0.1, 0.1
 # Fewest points of an arc; and distance of points that are kept, beside that of points that are made
 # at the same length.
 FEWEST, KEPT = 24, 0.2
-# Cosine of the angle between a smooth end's tangent and that of the parabola, at least.
-LIKE = 0.9
 # Times that points are put between others where the tangent turns by more than this cosine, as it
 # may in the last step to a fold.
 ROUNDS, WIDE = 6, float(np.cos(2 * TURN))
@@ -103,14 +101,11 @@ def _thinned(points: np.ndarray, least: float) -> list[int]:
 
 
 def _tangents(closure: ProjectiveClosure, points: np.ndarray, chords: np.ndarray) -> np.ndarray:
-    """Unit tangents; at ends where the curve is singular those of a parabola."""
+    """Unit tangents; at the ends, where the curve may be singular, those of a parabola."""
     if len(points) == 2:
         return np.vstack([chords, chords])
     near = chords[1:] + chords[:-1]
     inner = tangents_at(closure, points[1:-1], near / np.linalg.norm(near, axis=1)[:, None])
     ends = np.vstack([2 * chords[0] - inner[0], 2 * chords[-1] - inner[-1]])
     ends /= np.linalg.norm(ends, axis=1)[:, None]
-    own = tangents_at(closure, points[[0, -1]], ends)
-    # What equations say at a singular point has nothing to do with the parabola.
-    ends = np.where((own * ends).sum(axis=1)[:, None] > LIKE, own, ends)
     return np.vstack([ends[:1], inner, ends[1:]])
