@@ -180,7 +180,7 @@ def test_the_check_runs_the_commands_of_the_readme() -> None:
     script = check.read_text("utf-8").replace(" --quiet", "")
     for line in (
         "python -m pip install . && nag decompose cases/bennett.toml",
-        'python -m pip install -e ".[test]" && python -m pytest',
+        'python -m pip install -e ".[test]" && python -m pytest -n auto --dist loadfile',
     ):
         assert line in README
         for command in line.split(" && "):
