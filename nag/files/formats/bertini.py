@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 
+from nag.algebra.number import PI
 from nag.algebra.tokens import names_in, quote
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
@@ -19,6 +20,7 @@ _RECOGNISED = re.compile(
 _WORD = re.compile(r"\s*([A-Za-z_]+)\b")
 _ASSIGNED = re.compile(r"\s*([^\W\d][\w\[\],]*)\s*=(?!=)")
 IMAGINARY = ("I", "i")
+NUMBERS = {"Pi": PI}
 _DECLARED = ("variable_group", "hom_variable_group", "variable", "function", "constant")
 _REFUSED = {
     "pathvariable": "a homotopy of the user's own is not read; write the system at its end",
@@ -127,6 +129,7 @@ def _given(
         tuple(tuple(n.text for n in group) for group in (*groups, *projective)),
         tuple(tuple(n.text for n in group) for group in projective),
         IMAGINARY,
+        {name: value for name, value in NUMBERS.items() if name not in {*variables, *assigned}},
     )
 
 

@@ -15,6 +15,9 @@ from nag.algebra.tokens import (
 )
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
+# Before a polynomial that is no equation, in a comment in the files of all programs.
+NONZERO = "must not vanish: "
+
 _COMMENT = re.compile(r"(?:#|//|%|--)[^\n]*")
 _HEAD = re.compile(r"(variables?|imaginary)\s*:?\s+", re.IGNORECASE)
 _END = re.compile(r"[\s,;]+$")
@@ -80,5 +83,6 @@ def write(system: PolynomialSystem, title: str) -> str:
     unit = []
     if system.imaginary:
         names, texts, unit = names[:-1], texts[:-1], [f"imaginary {names[-1]}"]
-    lines = [f"# {title}", f"variables {', '.join(names)}", *unit, *texts]
+    nonzero = [f"# {NONZERO}{f.text(system.variables)}" for f in system.nonzero]
+    lines = [f"# {title}", *nonzero, f"variables {', '.join(names)}", *unit, *texts]
     return "\n".join(lines) + "\n"

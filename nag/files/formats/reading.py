@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.files.formats import bertini, macaulay2, phcpack, plain, singular
-from nag.files.formats.source import GivenSystem, SourceFile, free_parameters, read_given
+from nag.files.formats.source import (
+    GivenSystem,
+    Passage,
+    SourceFile,
+    free_parameters,
+    read_given,
+)
 
 READERS: Mapping[str, Callable[[SourceFile], GivenSystem]] = {
     "bertini": bertini.read,
@@ -22,6 +30,8 @@ _RECOGNISED: Mapping[str, Callable[[str], bool]] = {
     "m2": macaulay2.recognise,
     "phc": phcpack.recognise,
 }
+
+_NONZERO = re.compile(rf"^[ \t]*(?:%|#|//|--)?[ \t]*{plain.NONZERO}([^\n]*)", re.MULTILINE)
 
 
 def recognise_format(text: str) -> str:
@@ -48,6 +58,8 @@ def read_system_text(
     """
     source = SourceFile(file, text.replace("\r\n", "\n").replace("\r", "\n"))
     given = READERS[format](source)
+    nonzero = [Passage(m[1], m.start(1)).stripped() for m in _NONZERO.finditer(source.text)]
+    given = replace(given, nonzero=tuple(nonzero))
     if freed:
         given = free_parameters(source, given, freed)
     return read_given(source, given, values)

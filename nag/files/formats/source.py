@@ -97,8 +97,10 @@ class GivenSystem:
         parameters: expressions for numbers that have names, each of names before it.
         definitions: expressions of the variables that have names, each of names before it.
         groups: groups of variables.
-        imaginary: names of the imaginary unit.
         patches: groups of homogeneous variables, for each of which an affine patch is chosen.
+        imaginary: names of the imaginary unit.
+        numbers: those that the program has a name for.
+        nonzero: polynomials that must not vanish at a solution.
     """
 
     variables: tuple[str, ...]
@@ -108,6 +110,8 @@ class GivenSystem:
     groups: tuple[tuple[str, ...], ...] = ()
     patches: tuple[tuple[str, ...], ...] = ()
     imaginary: tuple[str, ...] = ()
+    numbers: Mapping[str, Number] = field(default_factory=dict)
+    nonzero: tuple[Passage, ...] = ()
 
 
 def check_names(source: SourceFile, names: Iterable[Passage]) -> tuple[str, ...]:
@@ -146,16 +150,17 @@ def read_given(
             raise CaseError(line_of(source.file, quote(name), f"is no parameter; it has {known}"))
     parameters: dict[str, Number] = {}
     for name, text in given.parameters.items():
+        known = {**given.numbers, **parameters}
         if values and name in values:
             try:
-                parameters[name] = parse_number(values[name], parameters, budget)
+                parameters[name] = parse_number(values[name], known, budget)
             except ExpressionError as error:
                 raise CaseError(line_of(source.file, name, str(error))) from None
             continue
-        parameters[name] = _number(source, text, parameters, budget)
+        parameters[name] = _number(source, text, known, budget)
     unit = _unit_name(given)
     names = given.variables if unit is None else (*given.variables, unit)
-    read = _Reading(source, names, {**parameters}, budget)
+    read = _Reading(source, names, {**given.numbers, **parameters}, budget)
     if unit is not None:
         variable = Polynomial.variable(len(names), len(names) - 1)
         read.known.update(dict.fromkeys(given.imaginary, variable))
@@ -168,18 +173,22 @@ def read_given(
         source.fail(at, f"more than {MAX_ENTRIES} equations; at most that many are read")
     equations = [read.polynomial(text) for text in given.equations]
     equations += [_patch(names, group) for group in given.patches]
+    if len(given.nonzero) > MAX_ENTRIES:
+        at = given.nonzero[MAX_ENTRIES].offset
+        source.fail(at, f"more than {MAX_ENTRIES} of these; at most that many are read")
+    nonzero = [read.polynomial(text) for text in given.nonzero]
     grouped = {name for group in given.groups for name in group}
     whole = given.groups if grouped == set(given.variables) and len(given.groups) > 1 else ()
     groups = tuple(tuple(given.variables.index(name) for name in group) for group in whole)
     if unit is not None:
-        return adjoin_unit(names, equations, groups=groups), parameters
-    return PolynomialSystem(names, tuple(equations), groups=groups), parameters
+        return adjoin_unit(names, equations, nonzero, groups), parameters
+    return PolynomialSystem(names, tuple(equations), tuple(nonzero), groups), parameters
 
 
 def _unit_name(given: GivenSystem) -> str | None:
     """A name for the imaginary unit, if it occurs."""
     units = set(given.imaginary) - {*given.variables, *given.parameters, *given.definitions}
-    texts = (*given.equations, *given.definitions.values())
+    texts = (*given.equations, *given.definitions.values(), *given.nonzero)
     if not any(names_in(text.text) & units for text in texts):
         return None
     return name_unit((*given.variables, *given.parameters, *given.definitions))

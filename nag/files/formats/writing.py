@@ -51,9 +51,17 @@ def _plain_names(names: Sequence[str], allowed: str) -> dict[str, str]:
     return {name: written[name] for name in names}
 
 
-def _renamed_lines(names: Mapping[str, str]) -> list[str]:
+def _remarks(
+    system: PolynomialSystem, names: Mapping[str, str], unit: str, rounded: bool = False
+) -> list[str]:
+    """Lines of comment: names that were changed, what must not vanish, what was rounded."""
     changed = [f"{new} is {old}" for old, new in names.items() if new != old]
-    return [f"names: {', '.join(changed)}"] if changed else []
+    lines = [f"names: {', '.join(changed)}"] if changed else []
+    if rounded and not system.exact:
+        lines.append(f"irrational numbers are rounded to {DECIMALS} digits")
+    written = [*names.values(), unit]
+    texts = [_polynomial_text(f, written[: f.n], number_text, "^") for f in system.nonzero]
+    return [*lines, *(f"{plain.NONZERO}{text}" for text in texts)]
 
 
 def _decimal(value: Number) -> str:
@@ -130,7 +138,7 @@ def write_phc(system: PolynomialSystem, title: str) -> str:
     for text in _texts(system, list(names.values()), _decimal, "^", "i"):
         lines.append(f"{order}{text};")
         order = ""
-    return "\n".join([*lines, "", f"TITLE : {title}", *_renamed_lines(names)]) + "\n"
+    return "\n".join([*lines, "", f"TITLE : {title}", *_remarks(system, names, "i", True)]) + "\n"
 
 
 def write_bertini(system: PolynomialSystem, title: str) -> str:
@@ -140,7 +148,7 @@ def write_bertini(system: PolynomialSystem, title: str) -> str:
     groups = [[i for i in g if i < len(variables)] for g in system.groups or [range(system.n)]]
     functions = [f"f{k}" for k in range(1, len(_polynomials(system)) + 1)]
     functions = [f if f not in names.values() else f"nag_{f}" for f in functions]
-    lines = [f"% {line}" for line in (title, *_renamed_lines(names))]
+    lines = [f"% {line}" for line in (title, *_remarks(system, names, "I", True))]
     lines += ["CONFIG", "END;", "INPUT"]
     written = list(names.values())
     lines += [f"variable_group {', '.join(written[i] for i in g)};" for g in groups if g]
@@ -154,7 +162,7 @@ def write_macaulay2(system: PolynomialSystem, title: str) -> str:
     """A ring over QQ and an ideal in it, for Macaulay2; the imaginary unit is a variable of it."""
     _only_rational(system, "Macaulay2")
     names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9]*(?:_[0-9]+)?")
-    lines = [f"-- {line}" for line in (title, *_renamed_lines(names))]
+    lines = [f"-- {line}" for line in (title, *_remarks(system, names, ""))]
     written = list(names.values())
     texts = [_wide(t) for t in _texts(as_real(system), written, number_text, "^", "")]
     lines.append(f"R = QQ[{', '.join(written)}]")
@@ -170,7 +178,7 @@ def write_singular(system: PolynomialSystem, title: str) -> str:
     """A ring over QQ and an ideal in it, for Singular; the imaginary unit is a variable of it."""
     _only_rational(system, "Singular")
     names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9]*")
-    lines = [f"// {line}" for line in (title, *_renamed_lines(names))]
+    lines = [f"// {line}" for line in (title, *_remarks(system, names, ""))]
     written = list(names.values())
     texts = _texts(as_real(system), written, number_text, "^", "")
     ring, ideal = "nagring", "nagideal"
@@ -184,7 +192,7 @@ def write_sympy(system: PolynomialSystem, title: str) -> str:
     written = [f"{n}_" if n in ("lambda", "sqrt", "Rational") else n for n in names.values()]
     symbols = ", ".join(repr(n) for n in names)
     texts = _texts(system, written, lambda c: _NUMBER.sub(r"S(\g<0>)", number_text(c)), "**", "I")
-    lines = [f"# {line}" for line in (title, *_renamed_lines(names))]
+    lines = [f"# {line}" for line in (title, *_remarks(system, names, "I"))]
     lines += ["from sympy import I, S, Symbol, cos, pi, sin, sqrt", ""]
     lines.append(f"{', '.join(written)}, = (Symbol(name) for name in ({symbols},))")
     return "\n".join([*lines, "equations = ["] + [f"    {t}," for t in texts] + ["]"]) + "\n"
@@ -195,7 +203,7 @@ def write_julia(system: PolynomialSystem, title: str) -> str:
     names = _plain_names(_variables(system), r"[A-Za-z]\w*")
     written = list(names.values())
     texts = _texts(system, written, lambda c: number_text(c).replace("/", "//"), "^", "im")
-    lines = [f"# {line}" for line in (title, *_renamed_lines(names))]
+    lines = [f"# {line}" for line in (title, *_remarks(system, names, "im"))]
     lines += ["using HomotopyContinuation", f"@var {' '.join(written)}", "F = System(["]
     return "\n".join([*lines, *(f"    {t}," for t in texts)]) + (
         f"\n], variables = [{', '.join(written)}])\n"
@@ -210,7 +218,10 @@ def write_latex(system: PolynomialSystem, title: str) -> str:
         text = "".join(_latex_term(e, f.terms[e], names[: f.n]) for e in _ordered(f)) or " + 0"
         text = text.removeprefix(" + ")
         lines.append(f"  {'-' + text[3:] if text.startswith(' - ') else text} &= 0")
-    return f"% {title}\n\\begin{{align*}}\n" + " \\\\\n".join(lines) + "\n\\end{align*}\n"
+    head = "".join(
+        f"% {line}\n" for line in (title, *_remarks(system, {n: n for n in system.variables}, ""))
+    )
+    return f"{head}\\begin{{align*}}\n" + " \\\\\n".join(lines) + "\n\\end{align*}\n"
 
 
 def _ordered(f: Polynomial) -> list[tuple[int, ...]]:
@@ -254,8 +265,8 @@ WRITERS: Mapping[str, Callable[[PolynomialSystem, str], str]] = {
 def write_system(system: PolynomialSystem, format: str, title: str = "") -> str:
     """The system as the text of another program, one of `WRITERS`.
 
-    Names that the program does not take are changed, which a comment tells. What must not vanish
-    is no part of it.
+    Names that the program does not take are changed, which a comment tells, as it does what must
+    not vanish at a solution: `nag.read` finds that there, the other program does not.
 
     Raises:
         NagError: if the format is unknown, or has no numbers that the system has.
