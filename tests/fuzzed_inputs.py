@@ -29,7 +29,7 @@ from pathlib import Path
 
 from foreign_files import FILES
 from test_formats import BERTINI, MACAULAY2, PHC, SINGULAR
-from test_robots import DELTA, FOUR_BAR, HEXAPOD, SCARA, SRS, UR5
+from test_robots import BAR, BAR_CASE, DELTA, FOUR_BAR, HEXAPOD, SCARA, SRS, UR5
 
 from nag.cli import main
 from nag.cli.show import _describe_case
@@ -37,7 +37,7 @@ from nag.errors import NagError
 from nag.files.cases import read_case
 from nag.files.formats.writing import write_system
 
-FORMATS = ("toml", "bertini", "phc", "m2", "singular", "text", "urdf", "mjcf")
+FORMATS = ("toml", "bertini", "phc", "m2", "singular", "text", "urdf", "mjcf", "robot")
 SECONDS, BYTES = 2.0, 10**9
 CASES = Path(__file__).parent.parent / "cases"
 # Cases longer than this are no good start: most of what is changed is far from what is read first.
@@ -80,6 +80,8 @@ def good_files(format: str) -> list[str]:
     if format == "toml":
         texts = [path.read_text() for path in sorted(CASES.rglob("*.toml"))]
         return [text for text in texts if len(text) < LONGEST]
+    if format == "robot":
+        return [BAR_CASE]
     if format in ("urdf", "mjcf"):
         return [UR5, SRS, SCARA] if format == "urdf" else [FOUR_BAR, HEXAPOD, DELTA]
     own = {"bertini": [BERTINI], "phc": [PHC], "m2": [MACAULAY2], "singular": [SINGULAR]}
@@ -259,12 +261,17 @@ def run(format: str, count: int, seed: int, keep: Path | None = None) -> Tally:
     """Damage and read ``count`` files of a format."""
     files, tally = good_files(format), Tally()
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / ("case.toml" if format == "toml" else "case")
+        # A case of a robot names its file.
+        in_toml = format in ("toml", "robot")
+        path = Path(folder) / ("case.toml" if in_toml else "case")
+        (path.parent / "bar.urdf").write_text(BAR)
         for number in range(count):
             content = damaged(files, random.Random(f"{format} {seed} {number}"))
             path.write_bytes(content)
             began = time.process_time()
-            outcome, said = _within_limits(path, None if number % 2 else format)
+            outcome, said = _within_limits(
+                path, None if number % 2 else "toml" if in_toml else format
+            )
             tally.slowest = max(tally.slowest, time.process_time() - began)
             tally.counts[outcome] += 1
             if outcome not in ("read", "refused") and outcome not in tally.faults:

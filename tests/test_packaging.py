@@ -239,6 +239,9 @@ def _blocks(language: str) -> list[tuple[str, str]]:
 def test_the_cases_that_are_shown_give_what_they_say_is_known(text: str, tmp_path, capsys) -> None:
     file = tmp_path / "case.toml"
     file.write_text(text, encoding="utf-8")
+    for _, block in _blocks("xml"):
+        name = re.match(r"<!-- (\S+) -->", block)[1]
+        (tmp_path / name).write_text(block, encoding="utf-8")
     assert main(["decompose", str(file), "--quiet"]) == 0
     assert re.search(r"^known +agrees with what is known: ", capsys.readouterr().out, re.MULTILINE)
 

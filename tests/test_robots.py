@@ -187,3 +187,129 @@ def test_links_and_joints_are_asked_for_by_name(
         assert len(capsys.readouterr().err.splitlines()) == 1
     assert main(["mobility", path, "--hold", "l4", "--at", "j2=pi/3", "--local", "--quiet"]) == 0
     assert "l4 held" in capsys.readouterr().out
+
+
+BAR = urdf(
+    ("revolute", "0 0 0", "0 0 0", "0 0 1"),
+    ("revolute", "0 1 0", "0 0 0", "0 0 1"),
+    ("revolute", "2 0.5 0", "0 0 0", "0 0 1"),
+)
+BAR_CASE = """\
+title = "a four-bar"
+kind = "robot"
+file = "bar.urdf"
+
+[parameters]
+q = 0
+
+[at]
+j1 = "q"
+
+[[closure]]
+name = "D"
+type = "revolute"
+bodies = ["l3", "l0"]
+point = [0.5, -1.5, 0]
+axis = [0, 0, 1]
+"""
+
+
+def robot_case(folder: Path, text: str = BAR_CASE) -> Path:
+    (folder / "bar.urdf").write_text(BAR)
+    (folder / "bar.toml").write_text(text)
+    return folder / "bar.toml"
+
+
+def test_a_case_of_a_robot_says_what_the_options_say(tmp_path: Path) -> None:
+    (tmp_path / "ur5.urdf").write_text(UR5)
+    values = "\n".join(f'{joint} = "{value}"' for joint, value in ELBOW.items())
+    case = f'title = "UR5"\nkind = "robot"\nfile = "ur5.urdf"\nhold = ["l7"]\n[at]\n{values}\n'
+    (tmp_path / "ur5.toml").write_text(case)
+    by_options = read_case(tmp_path / "ur5.urdf", hold=["l7"], at=ELBOW)
+    by_case = read_case(tmp_path / "ur5.toml")
+    assert by_case.mechanism == by_options.mechanism
+    assert by_case.notes == by_options.notes
+
+
+def test_a_loop_of_urdf_is_closed_where_its_joints_stand(tmp_path: Path) -> None:
+    path = robot_case(tmp_path)
+    for q in ("0", "0.3", "-2"):
+        case = read_case(path, {"q": q})
+        closing = case.mechanism.joints[-1]
+        assert (closing.name, closing.bodies) == ("D", ("l3", "l0"))
+        assert nag.mobility(case, detail="local").local_dimension == 1
+    # With j1 at zero, by the lengths in the file.
+    assert read_case(path).mechanism.joints[-1].point == (Fraction(5, 2), 0, 0)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"bar.urdf"', '"../bar.urdf"', "file: '../bar.urdf' does not lie beside the case"),
+        ('"bar.urdf"', '"/etc/passwd"', "file: '/etc/passwd' does not lie beside the case"),
+        ('"bar.urdf"', '"none.urdf"', "cannot be read"),
+        ('"bar.urdf"', '"bar.toml"', "is no robot"),
+        ("j1 = ", "j9 = ", "at: 'j9' is no joint"),
+        ('"q"', '"p"', "[at]: j1: column 1: unknown name 'p'"),
+        ('"revolute"', '"revolt"', "type: 'revolt' is unknown (did you mean 'revolute'?)"),
+        ('"l0"]', '"l9"]', "[[closure]] 1 'D': bodies: 'l9' is no link"),
+        ('"l0"]', '"l3"]', "bodies: are the same"),
+        ("axis = [0, 0, 1]", "axis = [0, 0, 0]", "axis: has length zero"),
+        ("axis = [0, 0, 1]", "", "axis: is missing"),
+        ("axis = ", "second_axis = [1, 0, 0]\naxis = ", "second_axis: a revolute joint has none"),
+        ("axis = ", "second_point = [2, 0, 0]\naxis = ", "the loop is open by 0.5"),
+        ('name = "D"', 'name = "j1"', "another joint has that name"),
+        ("[parameters]", 'hold = ["l0"]\n[parameters]', "hold: 'l0' is fixed as it is"),
+    ],
+)
+def test_a_bad_case_of_a_robot_is_one_line(
+    old: str, new: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert BAR_CASE.count(old) == 1 or old == '"l0"]'
+    path = robot_case(tmp_path, BAR_CASE.replace(old, new))
+    assert main(["show", str(path)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert message in line
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["model"], "4 revolute joints"),
+        (["decompose"], "1 component of dimension 1, degree 4"),
+        (["motion"], "it moves with 1 freedom"),
+        (["mobility"], "mobile: it moves with 1 freedom"),
+        (["sample", "--count", "1"], "dimension 1, degree 4"),
+    ],
+)
+def test_commands_take_cases_of_robots(
+    words: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([words[0], str(robot_case(tmp_path)), *words[1:]]) == 0
+    assert said in capsys.readouterr().out
+
+
+HELD = ["--hold", "l7", "--at", ", ".join(f"{joint} = {v}" for joint, v in ELBOW.items())]
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (["model"], 0, "6 revolute joints"),
+        (["solve"], 0, "8 isolated solutions"),
+        (["decompose"], 0, "8 components of dimension 0"),
+        (["motion", "--circuit", "all"], 2, "does not move"),
+        (["modes"], 2, "3 legs"),
+    ],
+)
+def test_commands_take_robots_with_their_hands_held(
+    words: list[str],
+    status: int,
+    said: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    path = str(written(tmp_path, UR5))
+    assert main([words[0], path, *words[1:], *HELD]) == status
+    shown = capsys.readouterr()
+    assert said in shown.out + shown.err

@@ -77,11 +77,51 @@ def add_case(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "case",
         metavar="CASE",
-        help="case file (TOML), or a system in a file of Bertini, PHCpack, Macaulay2 or Singular, "
-        "or of one polynomial a line",
+        help="case file (TOML); or a system in a file of Bertini, PHCpack, Macaulay2 or Singular, "
+        "or of one polynomial a line; or a robot in URDF or MJCF",
     )
     add_formulation(parser)
     add_parameters(parser)
+
+
+def add_robot(parser: argparse.ArgumentParser, at: str = "") -> None:
+    """How a robot in URDF or MJCF stands, and what of it is held.
+
+    Args:
+        at: what else ``--at`` gives in this command, in words that end in "; ".
+    """
+    parser.add_argument(
+        "--hold",
+        metavar="LINK",
+        action="append",
+        default=[],
+        help="of a robot in URDF or MJCF: this link is fixed to the ground; may be repeated",
+    )
+    parser.add_argument(
+        "--at",
+        metavar="VALUES",
+        action="append",
+        help=f"{at}of a robot in URDF or MJCF where its joints stand, 'J = pi/3, K = 0.2' in "
+        "radians and lengths, the others at 0; may be repeated",
+    )
+
+
+def robot_values(options: argparse.Namespace) -> dict[str, str] | None:
+    """The values of a robot's joints that ``--at`` gives.
+
+    Raises:
+        UsageError: if it is no list of names and values.
+    """
+    given = getattr(options, "at", None)
+    if not isinstance(given, list):
+        return None
+    values: dict[str, str] = {}
+    for part in ", ".join(given).split(","):
+        name, equals, value = (text.strip() for text in part.partition("="))
+        if not equals or name in values:
+            raise UsageError(f"--at: {part.strip()[:40]!r}: write 'JOINT = value', each joint once")
+        values[name] = value
+    return values
 
 
 def add_format(parser: argparse.ArgumentParser) -> None:
@@ -212,10 +252,20 @@ def read_case_file(
         raise UsageError(f"{path}: {error.strerror or error}") from None
 
 
+def read_given_case(options: argparse.Namespace) -> Case:
+    """The case that the options of `add_case`, `add_format` and `add_robot` give."""
+    return read_case_file(
+        options.case,
+        getattr(options, "set", ()),
+        getattr(options, "format", "auto"),
+        getattr(options, "hold", ()),
+        robot_values(options),
+    )
+
+
 def read_problem(arguments: argparse.Namespace) -> tuple[Case, Problem]:
     """The case, and the problem that it describes in the formulation that is asked for."""
-    values = getattr(arguments, "set", ())
-    case = read_case_file(arguments.case, values, getattr(arguments, "format", "auto"))
+    case = read_given_case(arguments)
     tell = getattr(arguments, "progress", None)
     if tell is not None:
         tell("choosing the model", 0, 0)

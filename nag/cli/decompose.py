@@ -10,6 +10,7 @@ from nag.cli.arguments import (
     add_case,
     add_certify,
     add_format,
+    add_robot,
     add_running,
     only_assembled,
     read_problem,
@@ -36,6 +37,7 @@ def _starts(text: str) -> int:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag decompose``."""
     add_case(parser)
+    add_robot(parser)
     add_format(parser)
     add_running(parser)
     add_certify(parser)

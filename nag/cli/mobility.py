@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any
 from nag.cli.arguments import (
     UsageError,
     add_case,
+    add_robot,
     add_running,
     problem_of_case,
     read_case_file,
+    read_given_case,
     whole,
 )
 from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case, say_first
@@ -37,23 +39,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag mobility`` has besides those of every command that runs a case."""
     add_case(parser)
     add_running(parser)
-    parser.add_argument(
-        "--hold",
-        metavar="LINK",
-        action="append",
-        default=[],
-        help="of a robot in URDF or MJCF: this link is fixed to the ground; may be repeated",
-    )
-    parser.add_argument(
-        "--at",
-        metavar="VALUES",
-        action="append",
-        help="a configuration in the variables of `nag model`: 'c1 = 3/5, s1 = 4/5', all of them, "
+    add_robot(
+        parser,
+        "a configuration in the variables of `nag model`: 'c1 = 3/5, s1 = 4/5', all of them, "
         "where a rounded one stands for the configuration next to it "
         "(default: the reference configuration; of parts that are not assembled a general one); of "
-        "a framework in the plane the points' x_P and y_P, the first bar from (0, 0) to (1, 0); "
-        "of a robot in URDF or MJCF values of joints, 'J = pi/3', the "
-        "others 0; may be repeated",
+        "a framework in the plane the points' x_P and y_P, the first bar from (0, 0) to (1, 0); ",
     )
     how_far = parser.add_mutually_exclusive_group()
     how_far.add_argument(
@@ -266,18 +257,13 @@ def _read_case(options: argparse.Namespace) -> Case:
     """The case; what is given of a robot's joints is part of it, and `options.at` None then."""
     from nag.files.cases import is_robot
 
+    if is_robot(options.case):
+        case = read_given_case(options)
+        options.at = None
+        return case
     if options.at is not None:
         options.at = ", ".join(options.at)
-    if not is_robot(options.case):
-        return read_case_file(options.case, options.set, hold=options.hold)
-    values: dict[str, str] = {}
-    for part in (options.at or "").split(",") if options.at is not None else ():
-        name, equals, value = (text.strip() for text in part.partition("="))
-        if not equals or name in values:
-            raise UsageError(f"--at: {part.strip()[:40]!r}: write 'JOINT = value', each joint once")
-        values[name] = value
-    options.at = None
-    return read_case_file(options.case, options.set, hold=options.hold, at=values)
+    return read_case_file(options.case, options.set, hold=options.hold)
 
 
 def _detail(options: argparse.Namespace) -> Detail:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from nag.cli.arguments import UsageError, add_case, add_json, read_problem
+from nag.cli.arguments import UsageError, add_case, add_json, add_robot, read_problem
 from nag.cli.running import CommandAnswer, document_head, name_case
 from nag.errors import NagError
 
@@ -14,6 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from nag.files.formats import WRITTEN
 
     add_case(parser)
+    add_robot(parser)
     add_json(parser)
     parser.add_argument(
         "--format",

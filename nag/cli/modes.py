@@ -8,9 +8,10 @@ from dataclasses import asdict
 from nag.cli.arguments import (
     UsageError,
     add_parameters,
+    add_robot,
     add_running,
     only_assembled,
-    read_case_file,
+    read_given_case,
     whole,
 )
 from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
@@ -22,8 +23,9 @@ MOST_SECONDS = 1_000_000
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag modes`` has besides those of every command that runs a case."""
-    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    parser.add_argument("case", metavar="CASE", help="case file (TOML), or a robot in URDF or MJCF")
     add_parameters(parser)
+    add_robot(parser)
     add_running(parser)
     parser.add_argument(
         "--platform",
@@ -51,7 +53,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.text.json_text import pairs
     from nag.witness.shown import paths_text
 
-    case = read_case_file(options.case, options.set)
+    case = read_given_case(options)
     if case.mechanism is None:
         raise only_assembled(case, "nag modes")
     try:

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any
 from nag.cli.arguments import (
     UsageError,
     add_case,
+    add_robot,
     add_running,
     problem_of_case,
-    read_case_file,
+    read_given_case,
     whole,
 )
 from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case, write_document
@@ -36,6 +37,7 @@ MOST_CIRCUITS = 100_000
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag motion`` has besides those of every command that runs a case."""
     add_case(parser)
+    add_robot(parser)
     add_running(parser)
     parser.add_argument(
         "--circuit",
@@ -144,7 +146,7 @@ def _circuit(text: str) -> str | int:
 
 def run(options: argparse.Namespace) -> CommandAnswer:
     """How a mechanism of one freedom really moves."""
-    case = read_case_file(options.case, options.set)
+    case = read_given_case(options)
     if case.kind == "system":
         raise UsageError(f"{options.case}: is a polynomial system; only mechanisms have a motion")
 

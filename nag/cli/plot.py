@@ -10,9 +10,10 @@ from nag.cli.arguments import (
     UsageError,
     add_formulation,
     add_parameters,
+    add_robot,
     add_tracking,
     problem_of_case,
-    read_case_file,
+    read_given_case,
 )
 from nag.cli.chart_files import KINDS, check_picture, write_picture
 from nag.cli.running import CommandAnswer, chosen_run, name_case, run_row
@@ -42,6 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_formulation(parser)
     add_parameters(parser)
+    add_robot(parser)
     add_tracking(parser)
     parser.add_argument(
         "--onto",
@@ -207,7 +209,7 @@ def _of_mechanism(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError("--component is for --onto")
     if is_export(options.case):
         raise UsageError(f"{options.case}: is an export; {option} is for cases of mechanisms")
-    case = read_case_file(options.case, options.set)
+    case = read_given_case(options)
     if case.kind == "system":
         raise UsageError(f"{options.case}: is a polynomial system; {option} is for mechanisms")
     problem = in_real_coordinates(problem_of_case(case, options.formulation or "auto"))

@@ -9,6 +9,7 @@ from nag.cli.arguments import (
     add_case,
     add_certify,
     add_format,
+    add_robot,
     add_running,
     read_problem,
 )
@@ -20,6 +21,7 @@ from nag.solving.start import ASKED_FOR
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag solve``."""
     add_case(parser)
+    add_robot(parser)
     add_format(parser)
     add_running(parser)
     add_certify(parser)

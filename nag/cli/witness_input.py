@@ -94,8 +94,9 @@ def read_components(options: argparse.Namespace, check: Check | None = None) -> 
 
         if options.formulation is not None:
             raise UsageError(f"{options.case}: is an export; --formulation is for cases")
-        if options.set:
-            raise UsageError(f"{options.case}: is an export; --set is for cases")
+        if options.set or getattr(options, "hold", ()):
+            option = "--set" if options.set else "--hold"
+            raise UsageError(f"{options.case}: is an export; {option} is for cases")
         export = read_export(options.case)
         if check is not None:
             check(export.decomposition.system.variables, {})

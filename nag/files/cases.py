@@ -49,7 +49,7 @@ __all__ = ["Case", "CaseError", "NamedPoint", "Truth", "TruthAtReference", "read
 
 _TOML = re.compile(r"^[ \t]*(?:title|kind)[ \t]*=[ \t]*[\"']", re.MULTILINE)
 
-CaseKind = Literal["system", "mechanism", "dh", "framework", "linkage"]
+CaseKind = Literal["system", "mechanism", "dh", "robot", "framework", "linkage"]
 
 _KEYS = {
     "system": (
@@ -67,6 +67,7 @@ _KEYS = {
     ),
     "mechanism": ("title", "kind", "ground", "parameters", "joint", "body", "truth"),
     "dh": ("title", "kind", "parameters", "joint", "truth"),
+    "robot": ("title", "kind", "parameters", "file", "hold", "at", "closure", "truth"),
     "framework": (
         "title",
         "kind",
@@ -206,7 +207,8 @@ def read_case(
         return _robot_case(path, text, chosen, values, hold, at or {})
     if hold or at is not None:
         option = "hold" if hold else "at"
-        raise CaseError(line_of(str(path), f"{option} is for robots in URDF or MJCF; leave it out"))
+        message = f"{option} is for robots in URDF or MJCF; leave it out, or write it in the case"
+        raise CaseError(line_of(str(path), message))
     if chosen != "toml":
         return _system_case(path, text, chosen, values)
     top = CaseTable(str(path), "", parse_toml(path, text))
@@ -231,9 +233,10 @@ def read_case(
         parameters = changed
     numbers = _Numbers(parameters, budget)
     if kind != "system":
-        made = _read_parts(kind, top, numbers.number)
+        made, notes = _read_parts(kind, top, numbers.number)
         case = _assembly_case(made, title=title, kind=kind, path=path, truth=truth, of=parameters)
-        return _with_points(replace(case, truth_at_reference=at_reference), top, numbers)
+        case = replace(case, truth_at_reference=at_reference, notes=notes)
+        return _with_points(case, top, numbers)
     system, family = _read_system(top, numbers)
     return Case(
         title,
@@ -257,12 +260,9 @@ def _format_of(path: Path, text: str, format: str) -> str:
     if path.suffix == ".toml" or _TOML.search(text):
         return "toml"
     if text.lstrip().startswith("<"):
-        from nag.files.robots import mjcf, urdf
+        from nag.files.robots.reading import recognise_robot
 
-        found = [name for name, one in (("urdf", urdf), ("mjcf", mjcf)) if one.recognise(text)]
-        if not found:
-            raise CaseError(line_of(str(path), "is XML, but has no <robot> and no <mujoco>"))
-        return found[0]
+        return recognise_robot(str(path), text)
     if text.lstrip().startswith("{"):
         raise CaseError(f"{path}: is JSON, as exports are; give the case file")
     from nag.files.formats.reading import recognise_format
@@ -283,12 +283,12 @@ def _robot_case(
     hold: Sequence[str],
     at: Mapping[str, str | Number],
 ) -> Case:
-    from nag.files.robots import mjcf, urdf
+    from nag.files.robots.reading import read_robot
     from nag.files.robots.robot import assemble
 
     if values:
         raise CaseError(line_of(str(path), "has no parameters; joint values are given by `at`"))
-    robot = (urdf if format == "urdf" else mjcf).read(str(path), text)
+    robot = read_robot(str(path), text, format)
     mechanism, notes = assemble(robot, str(path), hold, at)
     held = f", {', '.join(hold)} held" if hold else ""
     return Case(robot.title + held, "mechanism", path, {}, mechanism=mechanism, notes=notes)
@@ -344,23 +344,32 @@ def freed_system(
     return PolynomialSystem(variables, tuple(equations))
 
 
-def _read_parts(kind: str, top: CaseTable, number: ReadNumber) -> AssemblyModel | Mechanism:
-    """The model of all assemblies, or a mechanism where the case fixes how it is assembled."""
+def _read_parts(
+    kind: str, top: CaseTable, number: ReadNumber
+) -> tuple[AssemblyModel | Mechanism, tuple[str, ...]]:
+    """The model of all assemblies, or a mechanism where the case fixes how it is assembled; notes.
+
+    The notes are those of `Case`.
+    """
+    if kind == "robot":
+        from nag.files.robot_case import read_robot_case
+
+        return read_robot_case(top, number)
     if kind == "mechanism":
         from nag.files.mechanism_case import read_mechanism
 
-        return read_mechanism(top, number)
+        return read_mechanism(top, number), ()
     if kind == "dh":
         from nag.files.dh_case import read_dh
 
-        return read_dh(top, number)
+        return read_dh(top, number), ()
     if kind == "framework":
         from nag.files.framework_case import read_framework
 
-        return read_framework(top, number)
+        return read_framework(top, number), ()
     from nag.files.linkage_case import read_linkage
 
-    return read_linkage(top, number)
+    return read_linkage(top, number), ()
 
 
 def _assembly_case(
@@ -376,6 +385,8 @@ def _assembly_case(
     from nag.mechanism.problem import problem_of
 
     if isinstance(made, Mechanism):
+        # A robot is a mechanism once its file is read.
+        kind = "mechanism" if kind == "robot" else kind
         return Case(title, kind, path, of, mechanism=made, truth=truth)
     problem = problem_of(made)
     # What is known of half-angles says nothing of Euler parameters.
@@ -557,7 +568,7 @@ def _read_truth(top: CaseTable, kind: str) -> tuple[tuple[Truth, ...], TruthAtRe
     components = tuple(_read_component(t, kind) for t in known.tables("component", "truth."))
     if "reference" not in known.values:
         return components, None
-    placed = kind == "mechanism" or isinstance(top.values.get("points"), dict)
+    placed = kind in ("mechanism", "robot") or isinstance(top.values.get("points"), dict)
     if not placed:
         known.fail("reference", "there is no reference configuration; give components instead")
     table = known.table("reference")
@@ -573,7 +584,7 @@ def _read_component(table: CaseTable, kind: str) -> Truth:
     table.allow(_TRUTH_KEYS)
     formulation = None
     if "formulation" in table.values:
-        if kind not in ("mechanism", "dh"):
+        if kind not in ("mechanism", "dh", "robot"):
             table.fail("formulation", "a system has no formulation; leave it out")
         formulation = table.text("formulation")
         if formulation not in (*FORMULATIONS, PLATFORM_ALONE):

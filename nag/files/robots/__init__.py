@@ -2,5 +2,6 @@
 
 Read in this order, bottom-up: `xml_file` (elements that know their lines), `robot` (the tree, and
 the mechanism that it is with its hand held, on `nag.mechanism.given_rotation`); then `urdf` and
-`mjcf` on these.
+`mjcf` on these, and `reading`, which tells them apart. A case of kind ``robot``
+(`nag.files.robot_case`) says more about such a file.
 """

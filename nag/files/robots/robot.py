@@ -67,6 +67,8 @@ class LoopClosure:
         second_axis: likewise.
         second_point: the same point in the second link's frame, where the file gives it.
         second_frame: the second link's frame in the first link's, where the file gives it.
+        closed_here: whether what is not given of the second link is where both meet with the joints
+            as they stand, not where the file draws them.
     """
 
     name: str
@@ -78,6 +80,7 @@ class LoopClosure:
     second_axis: Vector | None = None
     second_point: Vector | None = None
     second_frame: GivenFrame | None = None
+    closed_here: bool = False
 
 
 @dataclass(frozen=True)
@@ -171,13 +174,11 @@ def _moved(
             valued = [j.name for j in robot.joints if j.type in VALUED]
             fail(
                 file,
-                f"--at: {quote(name)} is no joint{nearest(name, valued)}; those with a value are "
+                f"at: {quote(name)} is no joint{nearest(name, valued)}; those with a value are "
                 f"{', '.join(valued[:12]) or 'none'}",
             )
         if joint.type not in VALUED or joint.axis is None:
-            fail(
-                file, f"--at: {quote(name)}: a {joint.type} joint; revolute and prismatic ones move"
-            )
+            fail(file, f"at: {quote(name)}: a {joint.type} joint; revolute and prismatic ones move")
         try:
             value = parse_number(given) - joint.zero
             if joint.type == "revolute":
@@ -187,7 +188,7 @@ def _moved(
                 taken += turn.taken
                 continue
         except (ExpressionError, NagError) as error:
-            fail(file, f"--at: {quote(name)}", str(error))
+            fail(file, f"at: {quote(name)}", str(error))
         moved[name] = GivenFrame(origin=_slid(joint.axis, value))
     return moved, taken
 
@@ -214,11 +215,11 @@ def _held(robot: Robot, file: str, link: str, number: int) -> Joint:
     if link not in links:
         fail(
             file,
-            f"--hold: {quote(link)} is no link{nearest(link, links)}; the links are "
+            f"hold: {quote(link)} is no link{nearest(link, links)}; the links are "
             f"{', '.join(links[:12])}{', ...' if len(links) > 12 else ''}",
         )
     if link == robot.ground:
-        fail(file, f"--hold: {quote(link)} is fixed as it is; name a link that moves")
+        fail(file, f"hold: {quote(link)} is fixed as it is; name a link that moves")
     taken = {j.name for j in robot.joints} | {c.name for c in robot.closures}
     name = f"hold {number}"
     while name in taken:
@@ -231,7 +232,8 @@ def _closing(
 ) -> tuple[Joint, float]:
     """The joint that closes a loop, and how far that is open at these values of the joints."""
     first, second = (frames[body] for body in closure.bodies)
-    first_zero, second_zero = (zero[body] for body in closure.bodies)
+    drawn = frames if closure.closed_here else zero
+    first_zero, second_zero = (drawn[body] for body in closure.bodies)
     joint = _joint(
         closure.name,
         closure.type,
@@ -269,7 +271,7 @@ def _closing(
     if open_by > APART:
         fail(
             closure.where,
-            f"the loop is open by {open_by:.3g} here; give values of joints by --at at which it "
+            f"the loop is open by {open_by:.3g} here; give values of joints (at) at which it "
             "closes, or the same place twice",
         )
     return joint, open_by

@@ -51,8 +51,7 @@ def read(file: str, text: str) -> Robot:
         if joint.child in children:
             element.fail(
                 f"{quote(joint.child)} is the child of a joint already (line "
-                f"{children[joint.child].line}); MJCF closes "
-                "loops, URDF does not"
+                f'{children[joint.child].line}); a case of kind "robot" closes loops'
             )
         children[joint.child] = element
     roots = [name for name in links if name not in children]
