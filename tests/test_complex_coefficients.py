@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 import nag
 from nag.cli import main
+from nag.files.cases import freed_system
 from nag.files.formats import WRITTEN
 from nag.files.formats.reading import READERS, read_system_text
 from nag.files.formats.writing import write_system
@@ -133,4 +134,93 @@ def test_an_imaginary_unit_that_is_a_variable_is_refused(
         'title = "t"\nkind = "system"\nvariables = ["x"]\nimaginary = "x"\nequations = ["x"]\n'
     )
     assert main(["solve", str(case)]) == 2
-    assert "imaginary: 'x' is no name, or taken" in capsys.readouterr().err
+    assert "imaginary: 'x' is taken; write a letter of its own" in capsys.readouterr().err
+
+
+CASE = """\
+title = "a square root"
+kind = "system"
+variables = ["x", "y"]
+equations = ["x^2 - c", "y - x/d"]
+[parameters]
+a = 2
+c = "(a + I)^2"
+d = "1/(1 - I)"
+"""
+
+
+def with_parameters(folder: Path, text: str = CASE) -> Path:
+    path = folder / "case.toml"
+    path.write_text(text)
+    return path
+
+
+def test_parameters_of_a_case_may_be_complex(tmp_path: Path) -> None:
+    path = with_parameters(tmp_path)
+    case = nag.read_case(path)
+    assert {name: str(value) for name, value in case.parameters.items()} == {
+        "a": "2",
+        "c": "3 + 4*I",
+        "d": "1/2 + 1/2*I",
+    }
+    assert np.allclose(points_of(nag.solve(case)), [[-2 - 1j, -3 + 1j], [2 + 1j, 3 - 1j]])
+    for value in (2j, "2*I", np.complex128(2j), 2 * sympy.I):
+        found = points_of(nag.solve(nag.read_case(path, {"c": value})))
+        assert np.allclose(found[:, 0], [-1 - 1j, 1 + 1j])
+
+
+def test_parameters_whose_imaginary_parts_cancel_are_real(tmp_path: Path) -> None:
+    text = CASE.replace('"(a + I)^2"', '"I^2 + 5"').replace('"1/(1 - I)"', '"(1 + I)^-2*I"')
+    case = nag.read_case(with_parameters(tmp_path, text))
+    assert (case.parameters["c"], case.parameters["d"]) == (4, 0.5)
+    assert not case.system.imaginary
+
+
+def test_complex_parameters_are_freed(tmp_path: Path) -> None:
+    found = freed_system(with_parameters(tmp_path), ["c"])
+    assert found.variables == ("x", "y", "c", "I")
+    assert found.imaginary
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("1/(1 - I)", "1/(I^2 + 1)", "d: column 2: division by zero"),
+        ("1/(1 - I)", "sqrt(I)", "d: column 1: sqrt of a variable is no polynomial"),
+        ("(a + I)^2", "a + i", "c: 'i' looks like the imaginary unit; write imaginary"),
+        ('"x", "y"', '"x", "y", "I"', "c: unknown name 'I'"),
+        ("a = 2", "a = 2\nI = 3", "a square root"),
+        ("[parameters]", 'imaginary = "a"\n[parameters]', "c: unknown name 'I'"),
+        (
+            "[parameters]",
+            '[[point]]\nname = "p"\nat = { x = 1, y = 1 }\n[parameters]',
+            "point: coefficients are complex",
+        ),
+        ('"system"', '"dh"', "belongs to a case of kind 'system'"),
+    ],
+)
+def test_what_is_wrong_with_complex_parameters_is_one_line(
+    old: str, new: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    main(["show", str(with_parameters(tmp_path, CASE.replace(old, new)))])
+    shown = capsys.readouterr()
+    assert message in shown.out + shown.err
+    assert len(shown.err.splitlines()) <= 1
+
+
+def test_lengths_are_not_complex(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = Path("cases/planar-four-bar.toml").read_text()
+    text = text.replace("[parameters]", '[parameters]\nbb = "1 + I"')
+    assert main(["show", str(with_parameters(tmp_path, text))]) == 2
+    assert "unknown name 'I'" in capsys.readouterr().err
+
+
+def test_complex_constants_of_bertini_may_be_set(tmp_path: Path) -> None:
+    path = tmp_path / "input"
+    path.write_text(
+        "variable_group x;\nconstant a, b;\na = 1 + I;\nb = a^2;\nfunction f;\nf = x - b;\n"
+    )
+    assert np.allclose(points_of(nag.solve(path)), [[2j]])
+    case = nag.read_case(path, {"a": "2 - I"})
+    assert str(case.parameters["b"]) == "3 - 4*I"
+    assert np.allclose(points_of(nag.solve(case)), [[3 - 4j]])

@@ -51,11 +51,12 @@ class BoundedArithmetic:
 
     A constant stays a number until it meets a polynomial. Every operation raises
     `ExpressionError` before it takes more than the budget or its result grows beyond the limits of
-    this module.
+    this module. The variable of index ``unit`` is the imaginary unit, if there is one.
     """
 
     n: int
     budget: Budget = field(default_factory=Budget)
+    unit: int | None = None
 
     def add(self, parts: Iterable[tuple[int, Value]]) -> Value:
         """The sum of values with signs 1 or -1."""
@@ -102,12 +103,30 @@ class BoundedArithmetic:
     def divide(self, left: Value, right: Value) -> Value:
         """The quotient by a constant."""
         if isinstance(right, Polynomial):
-            raise ExpressionError(
-                "the divisor contains a variable; multiply the equation by it instead"
-            )
+            parts = self._parts(right)
+            if parts is None:
+                raise ExpressionError(
+                    "the divisor contains a variable; multiply the equation by it instead"
+                )
+            real, imaginary = parts
+            norm = self.add((1, self.multiply(part, part)) for part in parts)
+            conjugate = real - imaginary * Polynomial.variable(self.n, self.unit)
+            return self.multiply(left, self.divide(conjugate, norm))
         if is_zero(right):
             raise ExpressionError("division by zero; write a divisor that is not zero")
         return self.multiply(left, 1 / right)
+
+    def _parts(self, value: Polynomial) -> tuple[Number, Number] | None:
+        """The real and the imaginary part of a constant with the imaginary unit, else None."""
+        if self.unit is None:
+            return None
+        parts: list[Number] = [Fraction(0), Fraction(0)]
+        for e, c in value.terms.items():
+            power = e[self.unit]
+            if sum(e) != power:
+                return None
+            parts[power % 2] += -c if power % 4 > 1 else c
+        return parts[0], parts[1]
 
     def power(self, base: Value, exponent: Value) -> Value:
         """The power with a whole exponent."""
@@ -118,6 +137,8 @@ class BoundedArithmetic:
             raise ExpressionError(f"the exponent {shown} is not whole; write sqrt(...) for a root")
         k = int(exponent)
         shown = str(k) if abs(k) < 10**30 else "of more than 30 digits"
+        if isinstance(base, Polynomial) and k < 0 and self._parts(base) is not None:
+            base, k = self.divide(Fraction(1), base), -k
         if isinstance(base, Polynomial):
             if k < 0:
                 raise ExpressionError(

@@ -82,16 +82,19 @@ def parse_polynomial(
     variables: Sequence[str],
     parameters: Mapping[str, Value] | None = None,
     budget: Budget | None = None,
+    *,
+    unit: str | None = None,
 ) -> Polynomial:
     """The polynomial in ``variables`` that ``text`` spells; ``lhs = rhs`` stands for lhs - rhs.
 
     Args:
         parameters: numbers, or polynomials in the same variables, by name.
+        unit: the variable that is the imaginary unit; numbers with it are divisors, too.
 
     Raises:
         ExpressionError: if it spells none, or one beyond the limits of `nag.algebra.bounded`.
     """
-    return _Parser(text, variables, parameters or {}, budget or Budget()).polynomial()
+    return _Parser(text, variables, parameters or {}, budget or Budget(), unit).polynomial()
 
 
 def _kind(value: object) -> str:
@@ -123,6 +126,7 @@ class _Parser:
         variables: Sequence[str],
         parameters: Mapping[str, Value],
         budget: Budget,
+        unit: str | None = None,
     ) -> None:
         self.tokens = tokenize(text)
         budget.spend(len(self.tokens))
@@ -130,7 +134,8 @@ class _Parser:
         self.depth = 0
         self.variables = {name: i for i, name in enumerate(variables)}
         self.parameters = parameters
-        self.arithmetic = BoundedArithmetic(len(variables), budget)
+        place = None if unit is None else self.variables[unit]
+        self.arithmetic = BoundedArithmetic(len(variables), budget, place)
 
     def number(self) -> Number:
         value = self._sum()

@@ -14,14 +14,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Complex, Integral, Rational, Real
-from typing import Any, NamedTuple
+from typing import Any
 
 from nag.algebra.bounded import Budget, Value, representable
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.from_sympy import is_sympy, symbol_names, sympy_value
 from nag.algebra.given import check_listed, check_type, is_a, value_text
-from nag.algebra.imaginary_unit import adjoin_unit, name_unit, reduce_unit
-from nag.algebra.number import Number
+from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, values_with_unit
+from nag.algebra.number import ComplexNumber, Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import (
@@ -132,7 +132,7 @@ def system(
     check_type({} if parameters is None else parameters, Mapping, "parameters", advice)
     check_listed(groups, "groups", "a list of groups, each a list of variables")
     values = {
-        str(name): _parameter(value, f"parameters[{str(name)!r}]")
+        str(name): parameter(value, f"parameters[{str(name)!r}]")
         for name, value in (parameters or {}).items()
     }
     occurring = [
@@ -146,7 +146,7 @@ def system(
         imaginary = "I"
     names = _names(variables, occurring, values, imaginary)
     unit = imaginary if imaginary not in (*names, *values) else None
-    is_complex = any(isinstance(value, _Complex) for value in values.values()) or any(
+    is_complex = any(isinstance(value, ComplexNumber) for value in values.values()) or any(
         _is_complex(f, unit) for f, _ in occurring
     )
     read = _Reader(names, values, unit, name_unit((*names, *values)) if is_complex else None)
@@ -158,28 +158,25 @@ def system(
     return adjoin_unit(read.names, *parts) if is_complex else PolynomialSystem(names, *parts)
 
 
-class _Complex(NamedTuple):
-    """A complex number, exact."""
+def parameter(value: Any, place: str) -> Number | ComplexNumber:
+    """The exact number that a parameter is, real or complex; ``I`` in a text is the unit.
 
-    real: Number
-    imaginary: Number
-
-
-def _parameter(value: Any, place: str) -> Number | _Complex:
-    """The exact number that a parameter is, real or complex; ``I`` in a text is the unit."""
+    Raises:
+        ExpressionError: if it is none.
+    """
     if isinstance(value, str) and "I" in names_in(value):
         try:
-            whole = reduce_unit(parse_polynomial(value, ["I"]))
+            return parse_parameter(value, ["I"], {}, Budget())
         except ExpressionError as error:
             raise ExpressionError(f"{place}: {error}") from None
-        return _Complex(whole.terms.get((0,), Fraction(0)), whole.terms.get((1,), Fraction(0)))
     if is_sympy(value) and value.is_number and value.has(sys.modules["sympy"].I):
         parts = value.expand(complex=True).as_real_imag()
     elif not isinstance(value, str | Real | Decimal) and isinstance(value, Complex):
         parts = value.real, value.imag
     else:
         return exact_number(value, place)
-    return _Complex(*(exact_number(part, place) for part in parts))
+    real, imaginary = (exact_number(part, place) for part in parts)
+    return real if is_zero(imaginary) else ComplexNumber(real, imaginary)
 
 
 def _is_complex(equation: Any, unit: str | None) -> bool:
@@ -263,18 +260,13 @@ class _Reader:
     def __init__(
         self,
         names: tuple[str, ...],
-        values: Mapping[str, Number | _Complex],
+        values: Mapping[str, Number | ComplexNumber],
         unit: str | None,
         adjoined: str | None,
     ) -> None:
         self.names = names if adjoined is None else (*names, adjoined)
         variables = Polynomial.variables(len(self.names))
-        self.values: dict[str, Value] = {
-            name: value.real + value.imaginary * variables[-1]
-            if isinstance(value, _Complex)
-            else value
-            for name, value in values.items()
-        }
+        self.values = values_with_unit(values, self.names)
         if adjoined is not None and unit is not None:
             self.values[unit] = variables[-1]
         self.known: dict[str, Value] = {
@@ -296,7 +288,8 @@ class _Reader:
         try:
             if isinstance(equation, str):
                 known = {k: v for k, v in self.values.items() if k not in self.names}
-                return parse_polynomial(equation, self.names, known)
+                unit = None if self.unit is None else self.names[-1]
+                return parse_polynomial(equation, self.names, known, unit=unit)
             if not is_sympy(equation):
                 return Polynomial.constant(n, parse_number(_plain(equation)))
             symbol_names(equation)

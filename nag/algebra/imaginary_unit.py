@@ -8,13 +8,17 @@ exact stays rational; whoever hands out zeros leaves the second set out.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from nag.algebra.number import Number
+from nag.algebra.bounded import Budget, Value
+from nag.algebra.expression import parse_number, parse_polynomial
+from nag.algebra.number import ComplexNumber, Number, is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import names_in
 
 if TYPE_CHECKING:
     import numpy as np
@@ -63,6 +67,43 @@ def reduce_unit(f: Polynomial) -> Polynomial:
         c = -c if e[-1] % 4 > 1 else c
         terms[key] = terms[key] + c if key in terms else c
     return Polynomial(f.n, terms)
+
+
+def values_with_unit(
+    values: Mapping[str, Number | ComplexNumber], variables: Sequence[str]
+) -> dict[str, Value]:
+    """Numbers by name, complex ones as polynomials in variables of which the unit is the last."""
+    unit = Polynomial.variable(len(variables), len(variables) - 1)
+    return {
+        name: value.real + value.imaginary * unit if isinstance(value, ComplexNumber) else value
+        for name, value in values.items()
+    }
+
+
+def parse_parameter(
+    text: str, units: Sequence[str], known: Mapping[str, Number | ComplexNumber], budget: Budget
+) -> Number | ComplexNumber:
+    """The number that a text spells, real or complex.
+
+    Args:
+        units: names of the imaginary unit; none where there are no complex numbers.
+        known: numbers that have names.
+
+    Raises:
+        ExpressionError: if it spells no number.
+    """
+    if not units:
+        return parse_number(text, known, budget)  # type: ignore[arg-type]
+    unit = Polynomial.variable(1, 0)
+    values = values_with_unit(known, units[:1])
+    used = names_in(text) & {*units, *(n for n, v in known.items() if isinstance(v, ComplexNumber))}
+    if not used:
+        return parse_number(text, values, budget)
+    values |= dict.fromkeys(units[1:], unit)
+    name = units[0]
+    whole = reduce_unit(parse_polynomial(text, (name,), values, budget, unit=name))
+    real, imaginary = (whole.terms.get((k,), Fraction(0)) for k in range(2))
+    return real if is_zero(imaginary) else ComplexNumber(real, imaginary)
 
 
 def as_real(system: PolynomialSystem) -> PolynomialSystem:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 from nag.algebra.surd import Surd, root_of_fraction, root_of_surd
 from nag.errors import NagError
@@ -193,6 +193,24 @@ class Irrational:
 # Numbers that are known exactly, and numbers.
 Exact = Fraction | Surd
 Number = Fraction | Surd | Irrational
+
+
+class ComplexNumber(NamedTuple):
+    """A complex number, exact; not a `Number`, all of which are real."""
+
+    real: Number
+    imaginary: Number
+
+    def __str__(self) -> str:
+        """The number in the grammar of `nag.algebra.expression`; ``I`` is the imaginary unit."""
+        size = number_text(self.imaginary)
+        sign, size = ("-", size[1:]) if size.startswith("-") else ("+", size)
+        size = f"({size})" if " " in size else size
+        unit = "I" if size == "1" else f"{size}*I"
+        if is_zero(self.real):
+            return unit if sign == "+" else f"-{unit}"
+        return f"{number_text(self.real)} {sign} {unit}"
+
 
 PI = Irrational("pi")
 

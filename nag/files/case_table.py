@@ -19,9 +19,20 @@ from typing import Any, NoReturn
 
 from nag.algebra.bounded import Budget
 from nag.algebra.expression import parse_number
+from nag.algebra.from_python import parameter
 from nag.algebra.given import check_type
-from nag.algebra.number import Number
-from nag.algebra.tokens import ExpressionError, is_name, names_in, nearest, quote
+from nag.algebra.imaginary_unit import parse_parameter
+from nag.algebra.number import ComplexNumber, Irrational, Number, Surd
+from nag.algebra.tokens import (
+    IMAGINARY_UNITS,
+    ONLY_REAL,
+    ExpressionError,
+    imaginary_text,
+    is_name,
+    names_in,
+    nearest,
+    quote,
+)
 from nag.errors import InputError
 
 ReadNumber = Callable[[Any], Number]
@@ -30,6 +41,9 @@ MAX_BYTES = 500_000
 MAX_ENTRIES = 500
 # The TOML reader takes quadratic time over the parts of a dotted key.
 MAX_KEY_PARTS = 50
+
+# A file has the first three, Python the others besides.
+PARAMETER_TYPES = (str, int, Decimal, Fraction, Surd, Irrational, ComplexNumber)
 
 _QUOTED = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'|[0-9]\.[0-9]")
 
@@ -227,37 +241,59 @@ def parse_toml(path: Path, text: str) -> dict[str, Any]:
         fail("holds a number of more than 4300 digits; write a shorter one")
 
 
-def read_parameters(table: CaseTable, budget: Budget) -> Mapping[str, Number]:
-    """Values of the parameters, which may refer to each other in any order but not in circles."""
+def read_parameters(
+    table: CaseTable, budget: Budget, unit: str | None = None
+) -> Mapping[str, Number | ComplexNumber]:
+    """Values of the parameters, which may refer to each other in any order but not in circles.
+
+    Args:
+        unit: the name of the imaginary unit where they may be complex.
+    """
+    unit = None if unit in table.values else unit
+    known = {*table.values, *([unit] if unit is not None else ())}
     uses = {}
     for name, value in table.values.items():
         if not is_name(name):
             table.fail(
                 key_text(name), "cannot name a parameter; use letters, digits and _, not a function"
             )
-        if not isinstance(value, str | int | Decimal | Fraction) or isinstance(value, bool):
+        if not isinstance(value, PARAMETER_TYPES) or isinstance(value, bool):
             table.fail(name, f'is {kind_of(value)}; write a number or an expression like "5/6"')
+        if unit is None and isinstance(value, ComplexNumber):
+            table.fail(name, f"{value} is complex; {ONLY_REAL}")
         names = names_in(value) if isinstance(value, str) else frozenset()
-        for unknown in sorted(names - table.values.keys()):
+        for unknown in sorted(names - known):
+            if unit is not None and unknown in IMAGINARY_UNITS:
+                table.fail(name, imaginary_text(unknown, f"write imaginary = {unknown!r} if it is"))
             table.fail(
                 name,
                 f"unknown name {quote(unknown)}{nearest(unknown, table.values)}; write numbers, "
                 "other parameters, sqrt, sin, cos or pi",
             )
-        uses[name] = sorted(names)
+        uses[name] = sorted(names & table.values.keys())
     try:
         order = list(TopologicalSorter(uses).static_order())
     except CycleError as error:
         circle = [str(name) for name in reversed(error.args[1])]
         table.fail(circle[0], f"refers to itself: {' -> '.join(circle[:10])}; break the circle")
-    values: dict[str, Number] = {}
+    values: dict[str, Number | ComplexNumber] = {}
     for name in order:
         with table.at(name):
-            values[name] = parse_number(table.values[name], values, budget)
+            values[name] = _parameter(table.values[name], values, budget, unit)
     return MappingProxyType({name: values[name] for name in table.values})
 
 
-def with_values(table: CaseTable, values: Mapping[str, str | Number]) -> CaseTable:
+def _parameter(
+    value: Any, known: Mapping[str, Number | ComplexNumber], budget: Budget, unit: str | None
+) -> Number | ComplexNumber:
+    if isinstance(value, ComplexNumber):
+        return value
+    if unit is None or not isinstance(value, str):
+        return parse_number(value, known, budget)  # type: ignore[arg-type]
+    return parse_parameter(value, [unit], known, budget)
+
+
+def with_values(table: CaseTable, values: Mapping[str, Any]) -> CaseTable:
     """The table of parameters with other values for some of them."""
     check_type(values, Mapping, "values", "a dict of numbers or expressions by name")
     for name in values:
@@ -268,4 +304,8 @@ def with_values(table: CaseTable, values: Mapping[str, str | Number]) -> CaseTab
             table.fail(
                 key_text(name), f"is no parameter of the case{nearest(name, table.values)}; {known}"
             )
-    return replace(table, values={**table.values, **values})
+    given = {
+        name: value if isinstance(value, str) else parameter(value, f"values[{name!r}]")
+        for name, value in values.items()
+    }
+    return replace(table, values={**table.values, **given})

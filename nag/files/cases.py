@@ -19,12 +19,12 @@ from nag.algebra.bounded import Budget
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.family import Family
 from nag.algebra.given import check_path
-from nag.algebra.imaginary_unit import adjoin_unit
-from nag.algebra.number import Number
+from nag.algebra.imaginary_unit import adjoin_unit, name_unit, values_with_unit
+from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import NamedPoint, PolynomialSystem
-from nag.algebra.tokens import is_name, names_in, nearest, quote
+from nag.algebra.tokens import ONLY_REAL, ExpressionError, is_name, names_in, nearest, quote
 from nag.errors import NagError
 from nag.files.case_table import (
     CaseError,
@@ -147,7 +147,7 @@ class Case:
     title: str
     kind: CaseKind
     path: Path
-    parameters: Mapping[str, Number]
+    parameters: Mapping[str, Number | ComplexNumber]
     system: PolynomialSystem | None = None
     mechanism: Mechanism | None = None
     points: tuple[NamedPoint, ...] = ()
@@ -224,10 +224,13 @@ def read_case(
     title = top.text("title")
     budget = Budget()
     table = top.table("parameters")
-    parameters = read_parameters(table, budget)
+    variables = top.values.get("variables")
+    unit = _unit_name(top) if kind == "system" else None
+    unit = None if isinstance(variables, list) and unit in variables else unit
+    parameters = read_parameters(table, budget, unit)
     truth, at_reference = _read_truth(top, kind)
     if values:
-        changed = read_parameters(with_values(table, values), budget)
+        changed = read_parameters(with_values(table, values), budget, unit)
         if changed != parameters:
             truth, at_reference = (), None
         parameters = changed
@@ -334,14 +337,14 @@ def freed_system(
         used = sorted(names_in(text) & set(names)) if isinstance(text, str) else []
         if used and other not in names:
             raise CaseError(f"{path}: parameters: {other}: depends on {used[0]}; free it as well")
-    variables = (*case.system.variables, *names)
+    own = case.system.variables
+    unit = own[-1] if case.system.imaginary else None
+    variables = [*(own if unit is None else own[:-1]), *names, *(() if unit is None else (unit,))]
     known = {name: value for name, value in case.parameters.items() if name not in names}
-    budget = Budget()
-    equations = []
-    for i, text in enumerate(top.texts("equations", "equations"), 1):
-        with top.at(f"equations {i}"):
-            equations.append(parse_polynomial(text, variables, known, budget))
-    return PolynomialSystem(variables, tuple(equations))
+    equations = _read_equations(top, _Numbers(known, Budget()), variables, unit)
+    if unit is not None:
+        return adjoin_unit(variables, equations)
+    return PolynomialSystem(tuple(variables), equations)
 
 
 def _read_parts(
@@ -417,15 +420,23 @@ def _with_points(case: Case, top: CaseTable, numbers: _Numbers) -> Case:
 class _Numbers:
     """Reads numbers and polynomials with the parameters of the case, on one budget."""
 
-    parameters: Mapping[str, Number]
+    parameters: Mapping[str, Number | ComplexNumber]
     budget: Budget
 
     def number(self, value: Any) -> Number:
-        return parse_number(value, self.parameters, self.budget)
+        real = {k: v for k, v in self.parameters.items() if not isinstance(v, ComplexNumber)}
+        used = names_in(value) - real.keys() if isinstance(value, str) else frozenset()
+        for name in sorted(used & self.parameters.keys()):
+            raise ExpressionError(f"{name} is complex; {ONLY_REAL}")
+        return parse_number(value, real, self.budget)
 
-    def polynomial(self, text: str, variables: Sequence[str]) -> Polynomial:
-        known = {k: v for k, v in self.parameters.items() if k not in variables}
-        return parse_polynomial(text, variables, known, self.budget)
+    def polynomial(
+        self, text: str, variables: Sequence[str], unit: str | None = None
+    ) -> Polynomial:
+        """The polynomial that a text spells; with ``unit``, the last variable is that one."""
+        known = self.parameters if unit is None else values_with_unit(self.parameters, variables)
+        known = {k: v for k, v in known.items() if k not in variables}
+        return parse_polynomial(text, variables, known, self.budget, unit=unit)
 
 
 def _read_system(top: CaseTable, numbers: _Numbers) -> tuple[PolynomialSystem, FamilyMember | None]:
@@ -446,30 +457,39 @@ def _read_system(top: CaseTable, numbers: _Numbers) -> tuple[PolynomialSystem, F
         groups = _read_groups(top, variables)
         return PolynomialSystem(tuple(variables), polynomials, groups=groups), family
     groups = _read_groups(top, variables)
-    unit = _read_unit(top, [*variables, *numbers.parameters])
-    if unit is None:
+    unit, taken = _unit_name(top), [*variables, *numbers.parameters]
+    complex_ = {k for k, v in numbers.parameters.items() if isinstance(v, ComplexNumber)}
+    if unit not in taken:
+        complex_.add(unit)
+    elif "imaginary" in top.values:
+        top.fail("imaginary", f"{quote(unit)} is taken; write a letter of its own")
+    else:
+        unit = name_unit(taken)
+    texts = top.texts("equations", "equations")
+    if not any(names_in(text) & complex_ for text in texts):
         equations = _read_equations(top, numbers, variables)
         return PolynomialSystem(tuple(variables), equations, groups=groups), None
     names = [*variables, unit]
-    return adjoin_unit(names, _read_equations(top, numbers, names), groups=groups), None
+    return adjoin_unit(names, _read_equations(top, numbers, names, unit), groups=groups), None
 
 
-def _read_unit(top: CaseTable, taken: list[str]) -> str | None:
-    """The name of the imaginary unit, if it occurs in the equations: ``I``, or what is said."""
-    said = "imaginary" in top.values
-    unit = top.text("imaginary") if said else "I"
-    if said and (not is_name(unit) or unit in taken):
-        top.fail("imaginary", f"{quote(unit)} is no name, or taken; write a letter of its own")
-    texts = top.texts("equations", "equations")
-    used = unit not in taken and any(unit in names_in(text) for text in texts)
-    return unit if used else None
+def _unit_name(top: CaseTable) -> str:
+    """What a case calls the imaginary unit: ``I``, or what it says."""
+    if "imaginary" not in top.values:
+        return "I"
+    unit = top.text("imaginary")
+    if not is_name(unit):
+        top.fail("imaginary", f"{quote(unit)} is no name; write a letter of its own")
+    return unit
 
 
-def _read_equations(top: CaseTable, numbers: _Numbers, names: list[str]) -> tuple[Polynomial, ...]:
+def _read_equations(
+    top: CaseTable, numbers: _Numbers, names: list[str], unit: str | None = None
+) -> tuple[Polynomial, ...]:
     equations = []
     for i, text in enumerate(top.texts("equations", "equations"), 1):
         with top.at(f"equations {i}"):
-            equations.append(numbers.polynomial(text, names))
+            equations.append(numbers.polynomial(text, names, unit))
     return tuple(equations)
 
 
@@ -477,6 +497,8 @@ def _read_family(top: CaseTable, numbers: _Numbers, variables: list[str]) -> Fam
     from nag.files.case_family import family_parameters, read_family
 
     table = top.table("family")
+    if any(isinstance(v, ComplexNumber) for v in numbers.parameters.values()):
+        table.fail(None, "has complex numbers; write rational ones, or leave it out")
     free = family_parameters(table, numbers.parameters)
     equations = _read_equations(top, numbers, [*variables, *free])
     if len(equations) != len(variables):
@@ -521,6 +543,8 @@ def _read_points(
 ) -> tuple[NamedPoint, ...]:
     """The named points, besides those that are known."""
     points: list[NamedPoint] = []
+    if system.imaginary and "point" in top.values:
+        top.fail("point", f"coefficients are complex, and {ONLY_REAL}; leave it out")
     for table in top.tables("point"):
         table.allow(("name", "at"))
         name = table.text("name")

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from nag.algebra.number import PI
-from nag.algebra.tokens import names_in, quote
+from nag.algebra.tokens import quote
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
 _COMMENT = re.compile(r"%[^\n]*")
@@ -118,7 +118,7 @@ def _given(
     for name, text in assigned.items():
         if name in variables:
             source.fail(text.offset, f"{quote(name)} is a variable; it has no definition")
-    named = _real_constants([name.text for name in constants], assigned)
+    named = {name.text for name in constants}
     called = {name.text for name in functions}
     check_names(source, functions)
     return GivenSystem(
@@ -131,14 +131,3 @@ def _given(
         IMAGINARY,
         {name: value for name, value in NUMBERS.items() if name not in {*variables, *assigned}},
     )
-
-
-def _real_constants(names: list[str], assigned: dict[str, Passage]) -> set[str]:
-    """The constants whose values are real numbers: no imaginary unit is behind them."""
-    kept = set(names)
-    while True:
-        complex_ = {*IMAGINARY, *(set(names) - kept)}
-        others = {name for name in kept if names_in(assigned[name].text) & complex_}
-        if not others:
-            return kept
-        kept -= others

@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from nag.algebra.bounded import Budget, Value
-from nag.algebra.expression import parse_number, parse_polynomial
-from nag.algebra.imaginary_unit import adjoin_unit, name_unit
-from nag.algebra.number import Number
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.from_python import parameter
+from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, values_with_unit
+from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import ExpressionError, is_name, names_in, quote
@@ -133,8 +134,8 @@ def check_names(source: SourceFile, names: Iterable[Passage]) -> tuple[str, ...]
 
 
 def read_given(
-    source: SourceFile, given: GivenSystem, values: Mapping[str, str | Number] | None = None
-) -> tuple[PolynomialSystem, dict[str, Number]]:
+    source: SourceFile, given: GivenSystem, values: Mapping[str, Any] | None = None
+) -> tuple[PolynomialSystem, dict[str, Number | ComplexNumber]]:
     """The exact system that a file gives, and the values of its parameters.
 
     Args:
@@ -148,22 +149,28 @@ def read_given(
         if name not in given.parameters:
             known = ", ".join(given.parameters) or "none"
             raise CaseError(line_of(source.file, quote(name), f"is no parameter; it has {known}"))
-    parameters: dict[str, Number] = {}
+    units = [u for u in given.imaginary if u not in _names(given)]
+    parameters: dict[str, Number | ComplexNumber] = {}
     for name, text in given.parameters.items():
         known = {**given.numbers, **parameters}
         if values and name in values:
             try:
-                parameters[name] = parse_number(values[name], known, budget)
+                parameters[name] = _given_value(values[name], units, known, budget)
             except ExpressionError as error:
                 raise CaseError(line_of(source.file, name, str(error))) from None
             continue
-        parameters[name] = _number(source, text, known, budget)
-    unit = _unit_name(given)
+        try:
+            parameters[name] = parse_parameter(text.text, units, known, budget)
+        except ExpressionError as error:
+            source.fail(text.offset + (error.column or 1) - 1, error.reason)
+    unit = _unit_name(given, parameters, units)
     names = given.variables if unit is None else (*given.variables, unit)
-    read = _Reading(source, names, {**given.numbers, **parameters}, budget)
+    read = _Reading(
+        source, names, {**given.numbers, **values_with_unit(parameters, names)}, budget, unit
+    )
     if unit is not None:
         variable = Polynomial.variable(len(names), len(names) - 1)
-        read.known.update(dict.fromkeys(given.imaginary, variable))
+        read.known.update(dict.fromkeys(units, variable))
     for name, text in given.definitions.items():
         read.known[name] = read.polynomial(text)
     if not given.equations:
@@ -185,13 +192,31 @@ def read_given(
     return PolynomialSystem(names, tuple(equations), tuple(nonzero), groups), parameters
 
 
-def _unit_name(given: GivenSystem) -> str | None:
+def _names(given: GivenSystem) -> tuple[str, ...]:
+    return (*given.variables, *given.parameters, *given.definitions)
+
+
+def _unit_name(
+    given: GivenSystem, parameters: Mapping[str, Number | ComplexNumber], units: Sequence[str]
+) -> str | None:
     """A name for the imaginary unit, if it occurs."""
-    units = set(given.imaginary) - {*given.variables, *given.parameters, *given.definitions}
+    complex_ = {n for n, value in parameters.items() if isinstance(value, ComplexNumber)}
     texts = (*given.equations, *given.definitions.values(), *given.nonzero)
-    if not any(names_in(text.text) & units for text in texts):
+    if not any(names_in(text.text) & {*units, *complex_} for text in texts):
         return None
-    return name_unit((*given.variables, *given.parameters, *given.definitions))
+    return name_unit(_names(given))
+
+
+def _given_value(
+    value: Any,
+    units: Sequence[str],
+    known: Mapping[str, Number | ComplexNumber],
+    budget: Budget,
+) -> Number | ComplexNumber:
+    """The number that was given for a parameter, as text in the file's names or as it is."""
+    if isinstance(value, str):
+        return parse_parameter(value, units, known, budget)
+    return parameter(value, "the value")
 
 
 def free_parameters(source: SourceFile, given: GivenSystem, names: Sequence[str]) -> GivenSystem:
@@ -213,15 +238,6 @@ def free_parameters(source: SourceFile, given: GivenSystem, names: Sequence[str]
     return replace(given, variables=variables, parameters=kept, groups=())
 
 
-def _number(
-    source: SourceFile, text: Passage, known: Mapping[str, Number], budget: Budget
-) -> Number:
-    try:
-        return parse_number(text.text, known, budget)
-    except ExpressionError as error:
-        source.fail(text.offset + (error.column or 1) - 1, error.reason)
-
-
 @dataclass(frozen=True)
 class _Reading:
     """Reads polynomials on one budget, with the names that are known so far."""
@@ -230,11 +246,12 @@ class _Reading:
     names: tuple[str, ...]
     known: dict[str, Value]
     budget: Budget
+    unit: str | None
 
     def polynomial(self, text: Passage) -> Polynomial:
         """The polynomial of a statement."""
         try:
-            return parse_polynomial(text.text, self.names, self.known, self.budget)
+            return parse_polynomial(text.text, self.names, self.known, self.budget, unit=self.unit)
         except ExpressionError as error:
             self.source.fail(text.offset + (error.column or 1) - 1, error.reason)
 
