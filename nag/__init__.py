@@ -53,9 +53,13 @@ if TYPE_CHECKING:
     from nag.files.solutions_export import write_solutions as write_solutions
     from nag.kinematics.driven_motion import driven_motion as driven_motion
     from nag.kinematics.motion import motion as motion
+    from nag.mechanism.dh import DHLoop as DHLoop
+    from nag.mechanism.framework import Framework as Framework
+    from nag.mechanism.framework import framework_of_graph as framework_of_graph
     from nag.mechanism.graph import Body as Body
     from nag.mechanism.graph import Joint as Joint
     from nag.mechanism.graph import Mechanism as Mechanism
+    from nag.mechanism.linkage import Linkage as Linkage
     from nag.mechanism.loops import gruebler_kutzbach as gruebler_kutzbach
     from nag.mechanism.mobility_at import mobility as mobility
     from nag.mechanism.mobility_report import MobilityReport as MobilityReport
@@ -71,6 +75,7 @@ if TYPE_CHECKING:
     from nag.questions import intersect as intersect
     from nag.questions import local as local
     from nag.questions import member as member
+    from nag.questions import plot as plot
     from nag.questions import read as read
     from nag.questions import sample as sample
     from nag.questions import singular as singular
@@ -103,7 +108,10 @@ _HOME = {
     "Certified": "nag.questions",
     "Decomposition": "nag.witness.witness",
     "Body": "nag.mechanism.graph",
+    "DHLoop": "nag.mechanism.dh",
+    "Framework": "nag.mechanism.framework",
     "Joint": "nag.mechanism.graph",
+    "Linkage": "nag.mechanism.linkage",
     "LocalDimension": "nag.numerics.local_dimension",
     "Mechanism": "nag.mechanism.graph",
     "MechanismError": "nag.errors",
@@ -126,6 +134,7 @@ _HOME = {
     "certify": "nag.questions",
     "decompose": "nag.mechanism.problem",
     "eliminate": "nag.questions",
+    "framework_of_graph": "nag.mechanism.framework",
     "find_real_curve": "nag.real.find_curve",
     "find_real_points": "nag.real.real_pieces",
     "local_dimension": "nag.numerics.local_dimension",
@@ -138,6 +147,7 @@ _HOME = {
     "modes": "nag.mechanism.operation_modes",
     "driven_motion": "nag.kinematics.driven_motion",
     "motion": "nag.kinematics.motion",
+    "plot": "nag.questions",
     "read": "nag.questions",
     "read_case": "nag.files.cases",
     "read_decomposition": "nag.files.export",

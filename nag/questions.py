@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from nag.mechanism.problem import Problem
     from nag.numerics.claims import Claim
     from nag.numerics.local_dimension import LocalDimension
+    from nag.pictures.plot import Picture
     from nag.solving.certificate import SolutionsCertificate
     from nag.solving.certified_paths import ProvedPaths
     from nag.solving.solutions import SolveResult
@@ -456,6 +457,105 @@ def place_variables(names: Sequence[str], system: Any) -> tuple[int, ...]:
     if len(set(names)) < len(names):
         raise NagError("onto: a variable is given twice")
     return tuple(known.index(name) for name in names)
+
+
+# --- Pictures
+
+
+@takes_run
+def plot(
+    given: Any,
+    path: str | os.PathLike[str],
+    *,
+    onto: Sequence[str] | str | None = None,
+    joints: Sequence[str] | str | None = None,
+    point: str | None = None,
+    graph: bool = False,
+    mechanism: bool = False,
+    tree: bool = False,
+    component: int | None = None,
+    circuit: str = "reference",
+    formulation: str = "auto",
+    run: Run = DEFAULT_RUN,
+) -> Picture:
+    """Draw real curves, joint angles, paths of points, or bodies with joints; one of these.
+
+    Args:
+        given: anything that describes a problem, see `nag.decompose`, a file's name, or components
+            that were found.
+        path: the file, ending in .svg, .png or .pdf.
+        onto: two variables or three, names or a text of them with commas: the real points of the
+            components of dimension one; beside ``point`` two of x, y and z.
+        joints: two joints, whose angles or slides are drawn against each other along the motion.
+        point: a joint's point, or one of a framework, whose path is drawn.
+        graph: the graph of bodies and joints.
+        mechanism: the mechanism at its reference configuration, or on its way.
+        tree: all components by their dimensions.
+        component: the number of the one that is drawn ``onto`` variables, from 1; all by default.
+        circuit, formulation: as for `nag.motion`.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+
+    Raises:
+        nag.ComponentError: if what is to be drawn was not found.
+        nag.NagError: if it is not there, or an argument makes no sense.
+
+    >>> import nag, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     picture = nag.plot("x^2 + y^2 - 1", f"{folder}/circle.svg", onto="x, y")
+    >>> picture.complete
+    True
+    """
+    from nag.files.written_file import check_target
+    from nag.pictures.plot import (
+        check_kind,
+        chosen_kind,
+        drawing_to,
+        plot_curves,
+        plot_mechanism,
+        plot_tree,
+        variables_onto,
+    )
+
+    onto, joints = _listed_names(onto), _listed_names(joints)
+    asked = {"onto": onto, "joints": joints, "point": point}
+    asked |= {"graph": graph, "mechanism": mechanism, "tree": tree}
+    kind, target = chosen_kind(asked), os.fspath(path)
+    if component is not None and kind != "onto":
+        raise NagError("component: is for onto; leave it out")
+    check_kind(target)
+    check_target(target)
+    opened = open_file(given)
+    title = opened.title if is_a(opened, "nag.files.cases", "Case") else ""
+    if kind not in ("onto", "tree"):
+        from nag.mechanism.problem import in_real_coordinates, problem_of
+
+        problem = in_real_coordinates(problem_of(opened, formulation=formulation))
+        if problem.model is None:
+            raise NagError(f"{kind}: is for mechanisms; equations are given")
+        what = asked[kind]
+        return drawing_to(
+            target,
+            lambda: plot_mechanism(
+                problem, kind, what, title, target, run, onto=onto, circuit=circuit
+            ),
+        )
+    source = given
+    if not is_a(opened, "nag.witness.witness", "Decomposition"):
+        source, _ = _problem_and_points(opened)
+        if kind == "onto":  # before anything is decomposed
+            variables_onto(onto or (), source.system.variables)
+    found = find_components(source, run)
+    if kind == "tree":
+        return drawing_to(target, lambda: plot_tree(found, title, target))
+    places = variables_onto(onto or (), found.system.variables)
+    chosen = None if component is None else {component: component_numbered(found, component)}
+    return drawing_to(target, lambda: plot_curves(found, places, title, target, run, chosen))
+
+
+def _listed_names(names: Sequence[str] | str | None) -> tuple[str, ...] | None:
+    if names is None:
+        return None
+    return tuple(n.strip() for n in (names.split(",") if isinstance(names, str) else names))
 
 
 # --- Proofs

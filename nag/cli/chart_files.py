@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import importlib.util
 from collections.abc import Callable
 
 from nag.cli.arguments import UsageError
 from nag.cli.running import check_option_target, write_document
-
-KINDS = (".svg", ".png", ".pdf")
+from nag.errors import NagError
+from nag.pictures.plot import check_kind
 
 
 def check_targets(options: argparse.Namespace) -> None:
@@ -32,11 +31,10 @@ def check_picture(option: str, path: str, source: str = "") -> None:
     Raises:
         UsageError: if it could not, or if matplotlib is missing.
     """
-    if not path.endswith(KINDS):
-        raise UsageError(f"--{option}: {path}: name a file that ends in {', '.join(KINDS)}")
-    if importlib.util.find_spec("matplotlib") is None:
-        text = 'matplotlib is missing; install it with pip install "nag[plot]"'
-        raise UsageError(f"--{option}: {text}")
+    try:
+        check_kind(path)
+    except NagError as error:
+        raise UsageError(f"--{option}: {error}") from None
     check_option_target(option, path, source)
 
 

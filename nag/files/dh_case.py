@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from nag.algebra.number import cosine, pi_multiple, sine
 from nag.algebra.tokens import is_name
 from nag.files.case_table import CaseTable, ReadNumber
-from nag.mechanism.dh import DHError, DHLoop, DHModel, HalfAngle, Row, assemble_table, dh_model
+from nag.mechanism.assembly import made_of
+from nag.mechanism.dh import DHError, DHLoop, DHModel, HalfAngle, Row, half_angle
 from nag.mechanism.graph import Mechanism
 
 _JOINT_KEYS = ("name", "a", "d", "alpha", "alpha_half_tangent", "theta", "theta_half_tangent")
@@ -20,8 +20,7 @@ def read_dh(top: CaseTable, number: ReadNumber) -> DHModel | Mechanism:
     tables = top.tables("joint")
     rows = [_read_row(i, table, number) for i, table in enumerate(tables, 1)]
     try:
-        loop = DHLoop(tuple(rows))
-        return dh_model(loop) if loop.open else assemble_table(loop)
+        return made_of(DHLoop(tuple(rows)))
     except DHError as error:
         if error.joint is None:
             top.fail("joint", error.message)
@@ -54,8 +53,4 @@ def _half_angle(table: CaseTable, key: str, number: ReadNumber) -> HalfAngle | N
     if key not in table.values:
         return None
     with table.at(key):
-        angle = number(table.values[key])
-    turns = pi_multiple(angle)
-    if turns is not None and turns % 2 == 1:
-        return Fraction(0), Fraction(1)
-    return 1 + cosine(angle), sine(angle)
+        return half_angle(number(table.values[key]))

@@ -17,14 +17,15 @@ the base, its frame the global one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import acos, degrees, sqrt
 from typing import Any
 
 from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.exact_ranks import independent_polynomials
-from nag.algebra.number import Number, is_zero
+from nag.algebra.from_python import exact_number
+from nag.algebra.number import Number, cosine, is_zero, pi_multiple, sine
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -119,6 +120,26 @@ class DHLoop:
 
     rows: tuple[Row, ...]
 
+    @classmethod
+    def of(cls, rows: Iterable[Mapping[str, Any]]) -> DHLoop:
+        """The table of rows by Denavit and Hartenberg's letters.
+
+        Args:
+            rows: each a mapping of ``a``, ``d`` (0 by default), ``alpha``, ``theta`` (radians, open
+                if it is not there) and ``name``; ``alpha_half_tangent`` and ``theta_half_tangent``
+                may stand for the angles.
+
+        Raises:
+            DHError: if the table makes no sense.
+            nag.EquationError: if something is no number.
+
+        >>> import nag
+        >>> rows = [{"a": 1, "alpha": "pi/2"}, {"a": 2, "alpha": "pi/6"}] * 2
+        >>> nag.mobility(nag.DHLoop.of(rows)).local_dimension
+        0
+        """
+        return cls(tuple(_row_of(i, row) for i, row in enumerate(rows)))
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "rows", tuple(self.rows))
         if len(self.rows) < 3:
@@ -145,6 +166,38 @@ class DHLoop:
             else:
                 found[-1] = dual_multiply(found[-1], row.displacement)
         return found
+
+
+_KEYS = ("name", "a", "d", "alpha", "alpha_half_tangent", "theta", "theta_half_tangent")
+
+
+def half_angle(angle: Number) -> HalfAngle:
+    """(cos : sin) of half an angle, up to scale."""
+    turns = pi_multiple(angle)
+    if turns is not None and turns % 2 == 1:
+        return ZERO, ONE
+    return 1 + cosine(angle), sine(angle)
+
+
+def _row_of(index: int, given: Any) -> Row:
+    if not isinstance(given, Mapping):
+        raise DHError("give a mapping, with alpha and what is not 0 of a and d", index)
+    for key in given:
+        if key not in _KEYS:
+            raise DHError(f"unknown key; the keys are {', '.join(_KEYS)}", index, str(key))
+    angles: dict[str, HalfAngle] = {}
+    for key in ("alpha", "theta"):
+        tangent = f"{key}_half_tangent"
+        if given.get(tangent) is not None:
+            if given.get(key) is not None:
+                raise DHError(f"{key} is given as well; leave one of them out", index, tangent)
+            angles[key] = ONE, exact_number(given[tangent], f"rows[{index}]: {tangent}")
+        elif given.get(key) is not None:
+            angles[key] = half_angle(exact_number(given[key], f"rows[{index}]: {key}"))
+    if "alpha" not in angles:
+        raise DHError("is missing; give the link's twist", index, "alpha")
+    a, d = (exact_number(given.get(key, 0), f"rows[{index}]: {key}") for key in "ad")
+    return Row(str(given.get("name", f"J{index + 1}")), a, d, angles["alpha"], angles.get("theta"))
 
 
 class TableModel(AssemblyModel):

@@ -9,12 +9,13 @@ are rational whenever the squared lengths are.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
+from nag.algebra.from_python import exact_number, exact_vector
 from nag.algebra.number import Number, is_zero
 from nag.errors import MechanismError
 from nag.mechanism.graph import connected_to
@@ -58,6 +59,51 @@ class Framework:
     bars: tuple[Bar, ...]
     squared_lengths: tuple[Number, ...]
     placement: tuple[Place, ...] | None = None
+
+    @classmethod
+    def of(
+        cls,
+        points: Mapping[str, Sequence[Any]] | Iterable[str],
+        bars: Iterable[Bar],
+        lengths: Iterable[Any] | None = None,
+        *,
+        dimension: int = 2,
+    ) -> Framework:
+        """The framework of points and bars, by places or by lengths.
+
+        Args:
+            points: places by name; where lengths are given, names alone.
+            bars: pairs of names.
+            lengths: one for each bar.
+            dimension: 2 for the plane, 3 for space.
+
+        Raises:
+            FrameworkError: if the framework makes no sense.
+            nag.EquationError: if something is no number.
+
+        >>> import nag
+        >>> bars = ["AB", "BC", "CA"]
+        >>> len(nag.solve(nag.Framework.of("ABC", bars, [3, 4, 5])))
+        2
+        """
+        pairs = [(str(first), str(second)) for first, second in bars]
+        if isinstance(points, Mapping):
+            if lengths is not None:
+                raise FrameworkError("the points have places, which fix them", "lengths")
+            placed = {str(n): exact_vector(p, f"points[{n!r}]") for n, p in points.items()}
+            for name, place in placed.items():
+                if len(place) != dimension:
+                    raise FrameworkError(
+                        f"{name!r} has {len(place)} coordinates; give {dimension}", "points"
+                    )
+            return placed_framework(dimension, placed, pairs)
+        given = [exact_number(x, f"lengths[{i}]") for i, x in enumerate(lengths or ())]
+        if len(given) != len(pairs):
+            raise FrameworkError(f"{len(given)} are given for {len(pairs)} bars", "lengths")
+        if any(not x > 0 for x in given):
+            raise FrameworkError("not all are positive", "lengths")
+        names = tuple(str(name) for name in points)
+        return cls(dimension, names, tuple(pairs), tuple(x * x for x in given))
 
     def __post_init__(self) -> None:
         for field in ("points", "bars"):
@@ -192,21 +238,28 @@ def framework_of_graph(graph: networkx.Graph, dimension: int = 2) -> Framework:
     Lengths are those of the edges' attribute ``length``, or of the placement that the nodes'
     attribute ``pos`` gives. Numbers may be exact or decimals, which are taken as they are written.
 
+    Args:
+        dimension: 2 for the plane, 3 for space.
+
     Raises:
         FrameworkError: if neither attribute is everywhere, or the framework makes no sense.
-    """
-    from nag.algebra.expression import parse_number
 
+    >>> import nag, networkx
+    >>> square = networkx.cycle_graph(["A", "B", "C", "D"])
+    >>> networkx.set_edge_attributes(square, 1, "length")
+    >>> nag.mobility(nag.framework_of_graph(square)).local_dimension
+    1
+    """
     names = [str(node) for node in graph.nodes]
     bars = [(str(a), str(b)) for a, b in graph.edges]
     lengths = [data.get("length") for _, _, data in graph.edges(data=True)]
     if bars and all(x is not None for x in lengths):
-        squared = [parse_number(x) ** 2 for x in lengths]
+        squared = [exact_number(x, "length") ** 2 for x in lengths]
         return Framework(dimension, tuple(names), tuple(bars), tuple(squared))
     places = {str(node): data.get("pos") for node, data in graph.nodes(data=True)}
     if any(place is None or len(place) != dimension for place in places.values()):
         raise FrameworkError(
             f"give every edge a 'length', or every node a 'pos' of {dimension} coordinates"
         )
-    exact = {name: tuple(parse_number(x) for x in place) for name, place in places.items()}
+    exact = {name: exact_vector(place, "pos") for name, place in places.items()}
     return placed_framework(dimension, exact, bars)

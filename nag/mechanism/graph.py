@@ -405,6 +405,7 @@ def check_mechanism(given: Any, others: str = "") -> None:
     if is_a(given, "networkx", "Graph"):
         what = "a networkx graph is given; make it a mechanism first: "
         what += "nag.Mechanism.from_graph(graph, ground=...)"
+        what += ", or of bars nag.framework_of_graph(graph)"
     elif is_a(given, "nag.files.cases", "Case"):
         what = (
             f"a nag.Case is given; give its mechanism, case.mechanism{others and ', or '}{others}"

@@ -16,11 +16,12 @@ degrees, though no equation is the same.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from nag.algebra.from_python import exact_number, exact_vector
 from nag.algebra.number import Number, is_zero, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -92,6 +93,26 @@ class Linkage:
     ground: str
     links: tuple[Link, ...]
 
+    @classmethod
+    def of(cls, links: Mapping[str, Any], ground: str) -> Linkage:
+        """The linkage of links by name.
+
+        Args:
+            links: each two pins and their distance, ``("A", "B", 3)``, or a plate, the places of
+                its pins in its own frame: ``{"A": (0, 0), "B": (2, 0), "C": (1, 1)}``.
+            ground: the fixed one.
+
+        Raises:
+            LinkageError: if the linkage makes no sense.
+            nag.EquationError: if something is no number.
+
+        >>> import nag
+        >>> bars = {"base": "AD2", "left": "AB1", "top": "BC2", "right": "CD1"}
+        >>> nag.mobility(nag.Linkage.of(bars, "base")).local_dimension
+        1
+        """
+        return cls(ground, tuple(_link_of(str(name), given) for name, given in links.items()))
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "links", tuple(self.links))
         names = [link.name for link in self.links]
@@ -119,6 +140,23 @@ class Linkage:
         pins = {p for link in self.links for p in link.pins}
         joints = sum(sum(p in link.pins for link in self.links) - 1 for p in pins)
         return 3 * (len(self.links) - 1) - 2 * joints
+
+
+def _link_of(name: str, given: Any) -> Link:
+    place = f"links[{name!r}]"
+    if isinstance(given, Mapping):
+        shape = [exact_vector(at, f"{place}[{pin!r}]") for pin, at in given.items()]
+        if any(len(at) != 2 for at in shape):
+            raise LinkageError("a pin has two coordinates, in the link's own frame", name, "shape")
+        return Link(name, tuple(map(str, given)), tuple((x, y) for x, y in shape))
+    if not isinstance(given, Iterable) or len(listed := list(given)) != 3:
+        raise LinkageError('give ("A", "B", length), or places of pins by name', name)
+    first, second, length = listed
+    distance = exact_number(length, place)
+    if not distance > 0:
+        raise LinkageError("is not positive", name, "length")
+    zero = Fraction(0)
+    return Link(name, (str(first), str(second)), ((zero, zero), (distance, zero)))
 
 
 def hold_pin(linkage: Linkage, pin: str, first: str, second: str, angle: Number) -> Linkage:

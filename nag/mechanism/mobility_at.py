@@ -9,7 +9,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from nag.algebra.from_python import coordinates
-from nag.algebra.given import check_choice, check_size, is_a
+from nag.algebra.given import check_choice, check_size
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import quote
@@ -19,7 +19,7 @@ from nag.decomposition.growth import grow_component
 from nag.decomposition.through import through_points, zero_at
 from nag.errors import MechanismError, NagError
 from nag.mechanism import BUDGET, FORMULATIONS, PLATFORM_ALONE
-from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.assembly import AssemblyModel, made_of
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.graph import Mechanism, check_mechanism
@@ -199,7 +199,7 @@ def tree_of(given: Any) -> Mechanism | None:
     Raises:
         MechanismError: if what is given is no mechanism, no parts and no problem.
     """
-    mechanism = given.described if is_a(given, "nag.files.cases", "Case") else given
+    mechanism = made_of(given)
     if not isinstance(mechanism, Problem | Model | AssemblyModel | PolynomialSystem):
         check_mechanism(mechanism, "the parts of a case, case.assembly")
         return None if loop_structure(mechanism).loops else mechanism
@@ -233,7 +233,7 @@ def _product_of(problem: Problem, run: Run) -> FibreProduct | None:
 
 def _has_four_bars(given: Any) -> bool:
     """Whether what is given is a mechanism with several loops, each of four turns."""
-    mechanism = given.described if is_a(given, "nag.files.cases", "Case") else given
+    mechanism = made_of(given)
     if not isinstance(mechanism, Mechanism):
         return False
     loops = loop_structure(mechanism).loops

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, get_args
 
-from nag.algebra.given import check_choice, check_listed, is_a
+from nag.algebra.given import check_choice, check_listed
 from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
+from nag.mechanism.assembly import made_of
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space, same_line, space_of, zero_length
 from nag.mechanism.configuration import Configuration
@@ -207,7 +208,7 @@ def model(
     >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
     True
     """
-    mechanism = mechanism.described if is_a(mechanism, "nag.files.cases", "Case") else mechanism
+    mechanism = made_of(mechanism)
     check_mechanism(mechanism)
     check_listed(modes, "modes", "pairs of a joint's name and its mode")
     if space is not None:

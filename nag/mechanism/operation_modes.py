@@ -21,7 +21,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import null_space
-from nag.algebra.given import check_size, is_a
+from nag.algebra.given import check_size
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.decompose import decompose
@@ -38,6 +38,7 @@ from nag.interpolation.vanishing import (
     primitive,
 )
 from nag.mechanism import MODES_BUDGET
+from nag.mechanism.assembly import made_of
 from nag.mechanism.inverse_kinematics import REACHED, reach_poses
 from nag.mechanism.isotropic_limits import is_isotropic_limit
 from nag.mechanism.leg_image import COORDINATES, MOST_DEGREE, norm_form, study_quadric
@@ -99,7 +100,7 @@ def modes(
     >>> [(mode.dimension, mode.degree, str(mode.motion)) for mode in found.modes]
     [(3, 1, 'translation')]
     """
-    given = mechanism.described if is_a(mechanism, "nag.files.cases", "Case") else mechanism
+    given = made_of(mechanism)
     check_size(budget, "budget")
     run.tell("legs", 0, 4)
     model = platform_model(parallel_robot(given, platform), run.random(41))

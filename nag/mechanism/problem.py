@@ -19,7 +19,7 @@ from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import NamedPoint, PolynomialSystem
 from nag.errors import NagError, StartError
 from nag.mechanism import PLATFORM_ALONE
-from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.assembly import AssemblyModel, made_of
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
@@ -214,6 +214,7 @@ def _describe_problem(given: Any, formulation: str) -> Problem | None:
             points=given.points or made.points,
             family=given.family,
         )
+    given = made_of(given)
     if is_a(given, "nag.mechanism.graph", "Mechanism"):
         from nag.mechanism.model import model
 
@@ -234,8 +235,8 @@ def _describe_problem(given: Any, formulation: str) -> Problem | None:
         return Problem(given)
     if is_a(given, "networkx", "Graph"):
         raise NagError(
-            "system: a networkx graph is given; make it a mechanism first: "
-            "nag.Mechanism.from_graph(graph, ground=...)"
+            "system: a networkx graph is given; make it a mechanism first, "
+            "nag.Mechanism.from_graph(graph, ground=...), or of bars nag.framework_of_graph(graph)"
         )
     if given is None or isinstance(given, Mapping | bool | int | float):
         raise NagError(

@@ -1,0 +1,281 @@
+"""Pictures of real curves, motions and mechanisms, with what is said below them."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from nag.algebra.given import value_text
+from nag.algebra.tokens import nearest, quote
+from nag.errors import ComponentError, NagError
+from nag.tracking.run import Run
+
+if TYPE_CHECKING:
+    from nag.kinematics.motion import Motion
+    from nag.kinematics.scene import Scene
+    from nag.mechanism.problem import Problem
+    from nag.text.table import Row
+    from nag.witness.witness import Decomposition, WitnessSet
+
+KINDS = (".svg", ".png", ".pdf")
+AXES = ("x", "y", "z")
+# What a picture may be of; ``onto`` may stand beside ``point``, where it has a default.
+DRAWN = ("onto", "joints", "point", "graph", "mechanism", "tree")
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture that was drawn.
+
+    Attributes:
+        path: the file.
+        rows: labelled lines that say what is in it.
+        notes: what is missing in it, or not certain, as labelled lines.
+    """
+
+    path: str
+    rows: tuple[Row, ...]
+    notes: tuple[Row, ...] = ()
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing is missing."""
+        return not self.notes
+
+    def __str__(self) -> str:
+        from nag.text.table import label_lines
+
+        return "\n".join(label_lines([*self.rows, *self.notes, ("picture", self.path)]))
+
+
+def check_kind(path: str) -> None:
+    """Refuse a file that no picture is drawn to.
+
+    Raises:
+        NagError: if its name has another ending, or matplotlib is missing.
+    """
+    if not path.endswith(KINDS):
+        raise NagError(f"{path}: name a file that ends in {', '.join(KINDS)}")
+    if importlib.util.find_spec("matplotlib") is None:
+        raise NagError('matplotlib is missing; install it with pip install "nag[plot]"')
+
+
+def chosen_kind(given: Mapping[str, Any], dashes: str = "") -> str:
+    """Which of `DRAWN` is asked for, where each is given by its name.
+
+    Args:
+        dashes: what stands before the names in messages.
+
+    Raises:
+        NagError: if none is, or several are.
+    """
+    asked = [name for name in DRAWN if given.get(name) not in (None, False, ())]
+    if "point" in asked and "onto" in asked:
+        asked.remove("onto")
+    if len(asked) != 1:
+        text = "give one of" if asked else "say what to draw, one of"
+        listed = ", ".join(dashes + name for name in DRAWN)
+        also = f"; {dashes}point takes {dashes}onto" if asked else ""
+        raise NagError(f"{text} {listed}{also}")
+    return asked[0]
+
+
+def variables_onto(onto: Iterable[str], variables: Sequence[str]) -> tuple[int, ...]:
+    """Indices of the variables that a curve is drawn in, two or three.
+
+    Raises:
+        NagError: if there is no such variable, or there are more or fewer.
+    """
+    names = tuple(onto)
+    for name in names:
+        if name not in variables:
+            raise NagError(
+                f"onto: {quote(str(name))} is not one of the variables{nearest(name, variables)}"
+            )
+    if len(set(names)) != len(names) or len(names) not in (2, 3):
+        raise NagError("onto: give two different variables, or three")
+    return tuple(variables.index(name) for name in names)
+
+
+# --- Components
+
+
+def plot_tree(answer: Decomposition, title: str, path: str) -> Picture:
+    """All components by their dimensions."""
+    from nag.pictures.component_tree import draw_component_tree
+
+    draw_component_tree(answer, title, path)
+    return Picture(path, (("components", str(len(answer.components))),))
+
+
+def plot_curves(
+    answer: Decomposition,
+    onto: Sequence[int],
+    title: str,
+    path: str,
+    run: Run,
+    chosen: Mapping[int, WitnessSet] | None = None,
+) -> Picture:
+    """The real points of components of dimension one, in two or three variables.
+
+    Args:
+        chosen: components by their numbers; all of dimension one by default.
+
+    Raises:
+        NagError: if there is no curve, or one has another dimension.
+        ComponentError: if no curve was found.
+    """
+    from nag.pictures.curve_picture import draw_real_curves
+    from nag.real.find_curve import find_real_curve
+    from nag.real.shown import answer_text
+
+    numbered = dict(enumerate(answer.components, 1))
+    taken = chosen or {k: c for k, c in numbered.items() if c.dimension == 1}
+    if not taken:
+        raise NagError("has no component of dimension 1 to draw")
+    curves, rows, notes = [], [], []
+    for number, component in taken.items():
+        if component.dimension != 1:
+            raise NagError(
+                f"component: {number}: has dimension {component.dimension}; curves are drawn"
+            )
+        if run.progress is not None:
+            run.progress("real curves", len(curves), len(taken))
+        try:
+            curve = find_real_curve(component, run=run)
+        except ComponentError as error:
+            notes.append(("open", f"component {number}: {error}"))
+            continue
+        degree = f"dimension 1, degree {component.degree}"
+        rows.append((f"component {number}", f"{degree}; {answer_text(curve)}"))
+        if curve.reason:
+            notes.append(("open", f"component {number}: {curve.reason}"))
+        if curve.vertices or curve.edges:
+            curves.append((f"component {number}", curve))
+    if not curves:
+        why = "; ".join(text for _, text in notes) or "no component of dimension 1 has real points"
+        raise (ComponentError if notes else NagError)(why)
+    left_out = [k for k, c in numbered.items() if c.dimension != 1]
+    if left_out and chosen is None:
+        rows.append(("left out", f"{len(left_out)} of other dimensions than 1"))
+    draw_real_curves(curves, onto, title, path)
+    return Picture(path, tuple(rows), tuple(notes))
+
+
+# --- Mechanisms
+
+
+def plot_mechanism(
+    problem: Problem,
+    kind: str,
+    what: Any,
+    title: str,
+    path: str,
+    run: Run,
+    *,
+    onto: Sequence[str] | None = None,
+    circuit: str = "reference",
+) -> Picture:
+    """Bodies and joints, or what is drawn along a motion.
+
+    Args:
+        problem: of a mechanism, in real coordinates.
+        kind: ``"graph"``, ``"mechanism"``, ``"joints"`` or ``"point"``.
+        what: names of two joints, or the point's.
+        onto: of a point's path, two of x, y and z.
+        circuit: as for `nag.motion`.
+
+    Raises:
+        NagError: if there is nothing of such a name.
+        ComponentError: if there is no motion to draw.
+    """
+    from nag.kinematics.scene import scene_of
+
+    if problem.model is None:
+        raise NagError(f"is a polynomial system; {kind} is for mechanisms")
+    scene = scene_of(problem)
+    if kind == "graph":
+        from nag.pictures.joint_graph import draw_joint_graph
+
+        draw_joint_graph(scene, title, path)
+        return Picture(
+            path, (("bodies", str(len(scene.bodies))), ("joints", str(len(scene.joints))))
+        )
+    if kind == "mechanism":
+        return _plot_configuration(problem, scene, title, path, run, circuit)
+    from nag.kinematics.shown import circuit_text
+    from nag.pictures.motion_picture import (
+        draw_joint_values,
+        draw_point_paths,
+        joint_indices,
+        point_of,
+    )
+
+    axes = _axes(onto, scene.planar)
+    try:
+        _ = joint_indices(scene, what) if kind == "joints" else point_of(scene, what)
+    except NagError as error:
+        raise NagError(f"{kind}: {error}") from None
+    found = _motion(problem, circuit, run)
+    if kind == "joints":
+        draw_joint_values(found, what, title, path)
+    else:
+        draw_point_paths(found, what, axes, title, path)
+    rows = tuple((f"circuit {c.number}", circuit_text(found, c)) for c in found.circuits)
+    return Picture(path, rows, tuple(("open", note) for note in found.notes))
+
+
+def _plot_configuration(
+    problem: Problem, scene: Scene, title: str, path: str, run: Run, circuit: str
+) -> Picture:
+    import numpy as np
+
+    from nag.pictures.mechanism_picture import draw_mechanism
+
+    notes: tuple[Row, ...] = ()
+    if scene.from_reference and problem.reference is not None:
+        poses = scene.lift(np.array([[float(x) for x in problem.reference]]))
+        where = "the reference configuration"
+    else:
+        found = _motion(problem, circuit, run)
+        notes = tuple(("open", note) for note in found.notes)
+        # Circuits may begin where links are in line.
+        at = len(found.circuits[0]) // 8
+        poses, where = found.circuits[0].poses.at(slice(at, at + 1)), "an eighth along circuit 1"
+    draw_mechanism(scene, poses, title, path)
+    return Picture(path, (("drawn", where),), notes)
+
+
+def _motion(problem: Problem, circuit: str, run: Run) -> Motion:
+    from nag.kinematics.motion import motion
+
+    found = motion(problem, circuit=circuit, run=run)
+    if not found.circuits:
+        raise ComponentError(f"no motion to draw: {'; '.join(found.notes)}")
+    return found
+
+
+def _axes(onto: Sequence[str] | None, normal: Any) -> tuple[int, int]:
+    """Which coordinates of a point are drawn: those that the plane of motion is seen best in."""
+    if onto is None:
+        left = 2 if normal is None else int(abs(normal).argmax())
+        first, second = (i for i in range(3) if i != left)
+        return first, second
+    names = tuple(onto)
+    if len(names) != 2 or names[0] == names[1] or not all(name in AXES for name in names):
+        raise NagError(f"onto: {value_text(', '.join(map(str, names)))}: give two of x, y and z")
+    return AXES.index(names[0]), AXES.index(names[1])
+
+
+def drawing_to(path: str, draw: Callable[[], Picture]) -> Picture:
+    """What is drawn; a file that cannot be written is bad input.
+
+    Raises:
+        NagError: if the file cannot be written.
+    """
+    try:
+        return draw()
+    except OSError as error:
+        raise NagError(f"{path}: {error.strerror or error}") from None
