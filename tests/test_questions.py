@@ -114,7 +114,6 @@ def test_results_are_sequences_and_tables() -> None:
 
 
 def test_results_are_frames_of_pandas() -> None:
-    pytest.importorskip("pandas", reason="pandas is not installed")
     solved = nag.solve(["x^2 - 2", "y - x"]).to_dataframe()
     assert list(solved.columns)[:3] == ["x", "y", "multiplicity"] and len(solved) == 2
     found = nag.decompose(CIRCLE_AND_LINE).to_dataframe()

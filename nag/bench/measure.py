@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.linear_algebra_threads import VARIABLES
 from nag.solving.parameter import Solved, begin_of_family, solve_generic, solve_targets
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
@@ -124,8 +125,7 @@ def matrix_rate() -> float:
 def flop_rate() -> float:
     """Floating-point operations a second of one thread, measured in a process with one thread."""
     code = "from nag.bench.measure import matrix_rate; print(matrix_rate())"
-    names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-    environment = os.environ | dict.fromkeys(names, "1")
+    environment = os.environ | dict.fromkeys(VARIABLES, "1")
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment
     )

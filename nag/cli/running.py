@@ -11,14 +11,13 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 from nag.cli.arguments import UsageError
+from nag.numerics.linear_algebra_threads import VARIABLES
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.text.table import Block, Row
     from nag.tracking.run import Run
 
-# What NumPy's linear algebra reads, when it is loaded, of how many threads it is to have.
-LINEAR_ALGEBRA_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 # Options that name a file to be written, and what stands for standard output.
 TARGETS = ("json", "csv", "html", "points")
 STANDARD_OUTPUT = "-"
@@ -172,7 +171,7 @@ def begin(options: argparse.Namespace) -> None:
         UsageError: for such a file.
     """
     options.started = time.perf_counter()
-    for name in LINEAR_ALGEBRA_THREADS:
+    for name in VARIABLES:
         os.environ.setdefault(name, "1")
     source = getattr(options, "case", None) or getattr(options, "export", "")
     for name in TARGETS:

@@ -1,7 +1,7 @@
 """Numbers of many digits and what they decide: rank, deflation, local rings, proofs.
 
-In order of reading, bottom-up: `read_only` and `array_table` (what results hold); `doubles` (their
-rounding, and what is known to it), `coincidence` and `scaling`; `natural_coordinates` (origin and
+In order of reading, bottom-up: `linear_algebra_threads` (one); `read_only` and `array_table` (what
+results hold); `doubles` (their rounding, and what is known to it), `coincidence` and `scaling`; `natural_coordinates` (origin and
 units, exact) and `system_facts` (what exact algebra says of a system); `double_sums` (arrays of two
 doubles a number); `digits`, `ball_polynomials`, `newton` (which decides for all whether a zero in
 digits is regular) and `precise_point` (balls), `power_series`; `ball_ranks` and `double_ranks`

@@ -16,6 +16,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.linear_algebra_threads import limit_scipy
 
 # Decides, measured: Quotient of neighbouring singular values at which a rank is read: others lay
 # below 130, ranks above 1e13.
@@ -131,6 +132,8 @@ def pivot_rows(matrix: np.ndarray, count: int | None = None) -> tuple[list[int],
     count = most if count is None else min(count, most)
     if matrix.size > MOST_ENTRIES:
         from scipy.linalg import qr
+
+        limit_scipy()
 
         triangle, order = qr(matrix.T, mode="r", pivoting=True)
         return order[:count].tolist(), np.abs(np.diag(triangle))[:count]

@@ -13,6 +13,7 @@ import numpy as np
 
 from nag.algebra.given import check_running
 from nag.errors import NagError
+from nag.numerics.linear_algebra_threads import one_thread
 from nag.tracking.settings import Settings
 
 # Called with a stage's name, the step reached and the number of steps; 0 if that is not known.
@@ -98,10 +99,11 @@ def takes_run(function: Callable[..., Answer]) -> Callable[..., Answer]:
             named["run"] = Run(**short)
         run = named.get("run")
         if run is None or (run.resume is None and run.executor is None):
-            return function(*given, **named)
+            with one_thread():
+                return function(*given, **named)
         from nag.tracking.blocks import open_engine
 
-        with open_engine(run.resume, run.executor, run.tell) as opened:
+        with one_thread(), open_engine(run.resume, run.executor, run.tell) as opened:
             result = function(*given, **named)
         if opened is not None and opened.ledger is not None and opened.ledger.damaged:
             warn(f"{run.resume}: {opened.ledger.text}", stacklevel=2)
