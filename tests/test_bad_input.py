@@ -128,6 +128,7 @@ BROKEN: dict[str, tuple[str | bytes, str, str]] = {
     "long file": (SYSTEM * 10_000, "", "is longer than 500000 bytes"),
     "nan": (parameters("a = nan"), "[parameters]: a", "NaN is no number; write a finite number"),
     "inf": (parameters("a = -inf"), "[parameters]: a", "-Infinity is no number; write a finite"),
+    "long exponent": (parameters("a = 1e-" + "9" * 20), "", "exponent has too many digits"),
     "long integer": (parameters("a = " + "9" * 9000), "", "number of more than 4300 digits"),
     "long hexadecimal": (parameters("a = 0x" + "f" * 9000), "[parameters]: a", "digits arises"),
     "truth value": (parameters("a = true"), "[parameters]: a", "is a truth value; write a number"),

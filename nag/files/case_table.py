@@ -10,7 +10,7 @@ import tomllib
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from decimal import Decimal
+from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -237,6 +237,8 @@ def parse_toml(path: Path, text: str) -> dict[str, Any]:
         fail("lists or tables are nested too deep; write them flat")
     except tomllib.TOMLDecodeError as error:
         fail(f"is not valid TOML: {' '.join(str(error).split())[:200]}; mend the file there")
+    except InvalidOperation:
+        fail("holds a decimal number whose exponent has too many digits; write a smaller one")
     except ValueError:
         fail("holds a number of more than 4300 digits; write a shorter one")
 

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 from nag.algebra.given import value_text
 from nag.algebra.tokens import nearest, quote
 from nag.errors import ComponentError, NagError
-from nag.tracking.run import Run
 
 if TYPE_CHECKING:
     from nag.kinematics.motion import Motion
     from nag.kinematics.scene import Scene
     from nag.mechanism.problem import Problem
     from nag.text.table import Row
+    from nag.tracking.run import Run
     from nag.witness.witness import Decomposition, WitnessSet
 
 KINDS = (".svg", ".png", ".pdf")

@@ -44,7 +44,8 @@ class XmlElement:
     def fail(self, message: str, key: str | None = None) -> NoReturn:
         """Raise a `CaseError` about the element, or one of its attributes."""
         name = self.attributes.get("name", "")
-        shown = f"<{self.tag}>" + (f" {quote(name)}" if name else "")
+        tag = self.tag if len(self.tag) <= 40 else f"{self.tag[:37]}..."
+        shown = f"<{tag}>" + (f" {quote(name)}" if name else "")
         raise CaseError(line_of(self.file, f"line {self.line}", shown, key, message))
 
     def all(self, tag: str) -> list[XmlElement]:
@@ -116,7 +117,7 @@ def parse_xml(file: str, text: str) -> XmlElement:
         if count > MAX_ELEMENTS or len(stack) >= MAX_DEPTH:
             fail(f"more than {MAX_ELEMENTS} elements, or {MAX_DEPTH} inside of each other")
         if tag.startswith("xacro:"):
-            fail(f"<{tag}> is a macro of xacro; expand the file with xacro first")
+            fail(f"<{tag[:40]}> is a macro of xacro; expand the file with xacro first")
         element = XmlElement(file, parser.CurrentLineNumber, tag, dict(attributes))
         (stack[-1].children if stack else roots).append(element)
         stack.append(element)
