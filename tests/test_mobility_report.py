@@ -15,9 +15,9 @@ from local_points import sarrus
 
 import nag
 from nag.cli import main
+from nag.cli.running import ProgressLine
 from nag.decomposition import components_through
 from nag.files.json_schema import schema
-from nag.mechanism import mobility_at
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.problem import Problem
 from nag.numerics.local_dimension import NoSolution
@@ -308,23 +308,22 @@ def test_a_bounded_degree_is_a_complete_answer_and_the_same_on_any_machine(
     assert "degree 1 at least" in capsys.readouterr().out
 
 
-def test_what_is_known_first_is_printed_first_and_once(
-    capsys, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    grow, before = mobility_at.grow_component, []
-
-    def look(*given: Any, **options: Any) -> Any:
-        before.append(capsys.readouterr().out)
-        return grow(*given, **options)
-
-    monkeypatch.setattr(mobility_at, "grow_component", look)
+def test_what_was_asked_is_said_first_and_then_what_it_rests_on(capsys) -> None:
     assert main(["mobility", str(CASES / "bennett.toml"), "--quiet"]) == 0
-    lines = before[0].splitlines()
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[1] == ""
     labels = [line.split("  ")[0] for line in lines[2:]]
-    assert lines[1] == "" and labels == ["counted", "model", "local"]
-    after = capsys.readouterr().out.splitlines()
-    assert [line.split("  ")[0] for line in after] == ["components", "mobility", "run"]
-    assert {line[12] == " " for line in lines[2:] + after} == {False}
+    assert labels == ["mobility", "counted", "model", "local", "components", "run"]
+    assert {line[12] == " " for line in lines[2:]} == {False}
+
+
+def test_what_is_known_before_the_components_is_told_meanwhile(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    told: list[str] = []
+    monkeypatch.setattr(ProgressLine, "__call__", lambda self, stage, *_: told.append(stage))
+    assert main(["mobility", str(CASES / "bennett.toml")]) == 0
+    assert "components; tangent dimension 1, local dimension 1" in told
 
 
 def stretched_robot() -> nag.Mechanism:

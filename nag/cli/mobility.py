@@ -16,7 +16,7 @@ from nag.cli.arguments import (
     read_given_case,
     whole,
 )
-from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case, say_first
+from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
 from nag.cli.witness_input import point_at
 from nag.errors import NagError
 from nag.mechanism import BUDGET
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from nag.mechanism.problem import Problem
 
 FORMAT = "nag-mobility"
-# Labels are as wide as the widest from the first line on.
-WIDTH = len("components")
 MOST_SECONDS = 3600
 
 
@@ -111,7 +109,9 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.mechanism.mobility_report import MobilityStatus
 
     for report in _reports(options, problem or case, at):
-        say_first(options, name_case(case), report.local_rows(), WIDTH)
+        if options.progress is not None:
+            # What is known already, for whoever ends the work before the rest is.
+            options.progress(f"components; {report.local_text}", 0, 0)
     rows = [*report.rows(), *_unsaid_rows(options, report)]
     complete = options.of is None or report.moving is not None or report.local_dimension == 0
     complete &= report.status is not MobilityStatus.UNDECIDED and not report.open
@@ -138,7 +138,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         "check": compared,
     }
     said = f"budget {options.budget} s" if _is_limited(options, report) else ""
-    return answer_of(options, name_case(case), (), rows, fields, complete, said=said, width=WIDTH)
+    return answer_of(options, name_case(case), (), rows, fields, complete, said=said)
 
 
 def _unsaid_rows(options: argparse.Namespace, report: MobilityReport) -> Iterator[tuple[str, str]]:
@@ -223,14 +223,6 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
         if options.at is not None:
             raise UsageError(f"--at: {options.case} has no loop, so that it has no equations")
         return case, None
-    if case.kind == "mechanism" and options.at is None and options.formulation is None:
-        from nag.mechanism.axes import space_of
-        from nag.mechanism.loops import gruebler_kutzbach
-        from nag.mechanism.mobility_report import counted_row
-
-        mechanism = case.mechanism
-        counted = counted_row(gruebler_kutzbach(mechanism), space_of(mechanism.joints))
-        say_first(options, name_case(case), [counted], WIDTH)
     problem = None
     if case.kind == "mechanism" and options.at is None and options.formulation is None:
         problem = product_of_loops(case.mechanism, _detail(options), chosen_run(options))

@@ -102,11 +102,11 @@ def mobility(
 
     >>> import nag
     >>> print(nag.mobility(nag.read_case("cases/bennett.toml").mechanism))
+    mobility    overconstrained: it moves with 1 freedom, though counting predicts -2
     counted     -2 by Gruebler-Kutzbach (spatial)
     model       1 equation in 2 unknowns, formulation H
     local       tangent dimension 1, local dimension 1
     components  1 through the configuration: dimension 1, degree 2
-    mobility    overconstrained: it moves with 1 freedom, though counting predicts -2
     """
     *_, report = mobility_in_steps(
         mechanism,

@@ -192,6 +192,17 @@ class MobilityReport:
         return MobilityStatus.OVERCONSTRAINED if self.overconstrained else MobilityStatus.MOBILE
 
     @property
+    def local_text(self) -> str:
+        """The dimensions at the configuration, in words."""
+        if self.tangent_dimension is None:
+            return "undecided: no exact configuration was found there"
+        text = f"tangent dimension {self.tangent_dimension}, local dimension "
+        if self.local_dimension is None:
+            return f"{text}{self.lower} to {self.upper}"
+        text += str(self.local_dimension)
+        return f"{text}, multiplicity {self.multiplicity}" if self.multiplicity > 1 else text
+
+    @property
     def sentence(self) -> str:
         """What the numbers mean."""
         return _sentence(self)
@@ -206,19 +217,21 @@ class MobilityReport:
         return "\n".join(f"{label.ljust(10)}  {text}" for label, text in self.rows())
 
     def rows(self) -> list[tuple[str, str]]:
-        """Labelled lines, one of them for each curve."""
+        """Labelled lines: what was asked, what that rests on, and a line for each curve."""
+        # The sentence says which freedoms are idle.
+        moving = () if self.moving is None else self.moving.rows()
         return [
+            ("mobility", f"{self.status}: {self.sentence}"),
             *self.local_rows(),
             ("components", _components_text(self)),
-            ("mobility", f"{self.status}: {self.sentence}"),
-            *(self.moving.rows() if self.moving is not None else ()),
+            *(row for row in moving if row[0] != "idle"),
             *(self.near.rows() if self.near is not None else ()),
             *([("hint", self.hint)] if self.hint else []),
             *(("curve", str(curve)) for curve in self.curves),
         ]
 
     def local_rows(self) -> list[tuple[str, str]]:
-        """The first of these lines, which no component is needed for."""
+        """Those of these lines that no component is needed for."""
         model_text = "no loop, no equations"
         if self.formulation:
             unknowns = count_text(self.variables, "unknown")
@@ -226,10 +239,10 @@ class MobilityReport:
                 f"{count_text(self.equations, 'equation')} in {unknowns}, {self.formulation}"
             )
         return [
-            counted_row(self.gruebler_kutzbach, self.space),
+            ("counted", f"{self.gruebler_kutzbach} by Gruebler-Kutzbach ({self.space})"),
             ("model", model_text),
             *(("besides", text) for text in self.zero_links),
-            ("local", _local_text(self)),
+            ("local", self.local_text),
             *([("besides", f"{self.free_of}, counted in all dimensions")] if self.free_of else []),
         ]
 
@@ -265,26 +278,11 @@ class MobilityReport:
         }
 
 
-def counted_row(counted: int, space: str) -> tuple[str, str]:
-    """The labelled line of what counting predicts."""
-    return "counted", f"{counted} by Gruebler-Kutzbach ({space})"
-
-
 def _kinds(components: Iterable[tuple[int, int | None]], alike: Alike) -> object:
     if alike == "degrees":
         return Counter(components)
     dimensions = Counter(d for d, _ in components)
     return dimensions if alike == "counts" else set(dimensions)
-
-
-def _local_text(report: MobilityReport) -> str:
-    if report.tangent_dimension is None:
-        return "undecided: no exact configuration was found there"
-    text = f"tangent dimension {report.tangent_dimension}, local dimension "
-    if report.local_dimension is None:
-        return f"{text}{report.lower} to {report.upper}"
-    text += str(report.local_dimension)
-    return f"{text}, multiplicity {report.multiplicity}" if report.multiplicity > 1 else text
 
 
 def _components_text(report: MobilityReport) -> str:
@@ -348,11 +346,13 @@ def _meaning(report: MobilityReport) -> str:
             f"{count_text(tangent or 0, 'freedom')}: an isolated solution of multiplicity "
             f"{report.multiplicity}"
         )
-    text = f"it moves with {count_text(mobility or 0, 'freedom')}"
-    if report.moving is not None and report.moving.idle:
-        idle = report.moving.idle_count
-        share = "all" if idle == mobility else str(idle)
-        text += f", {share} of them idle: {report.moving.idle_text}"
+    idle = 0 if report.moving is None else report.moving.idle_count
+    if report.moving is not None and idle and idle == mobility:
+        text = f"nothing moves but idly: {report.moving.idle_text}, {count_text(idle, 'freedom')}"
+    else:
+        text = f"it moves with {count_text(mobility or 0, 'freedom')}"
+        if report.moving is not None and idle:
+            text += f", {idle} of them idle: {report.moving.idle_text}"
     if report.overconstrained:
         text += f", though counting predicts {report.gruebler_kutzbach}"
     if status is MobilityStatus.KINEMATOTROPIC:
