@@ -21,6 +21,15 @@ title = "t"
 kind = "mechanism"
 ground = "A"
 """
+FRAMEWORK = """\
+title = "t"
+kind = "framework"
+bars = [["A", "B"], ["B", "C"], ["C", "A"]]
+[points]
+A = [0, 0]
+B = [1, 0]
+C = [0, 1]
+"""
 POINT = '[[point]]\nname = "p"\nat = { x = 1, y = 0 }\n'
 REFERENCE = '[truth.reference]\ndimension = 1\ntangent_dimension = 1\nsource = "s"\n'
 TRUTH = '[[truth.component]]\ndimension = 1\ndegree = 2\nsource = "s"\n'
@@ -128,6 +137,16 @@ BROKEN: dict[str, tuple[str | bytes, str, str]] = {
     "long file": (SYSTEM * 10_000, "", "is longer than 500000 bytes"),
     "nan": (parameters("a = nan"), "[parameters]: a", "NaN is no number; write a finite number"),
     "inf": (parameters("a = -inf"), "[parameters]: a", "-Infinity is no number; write a finite"),
+    "far apart": (
+        FRAMEWORK.replace("B = [1, 0]", 'B = [1, "1e290"]'),
+        "points",
+        "not all are between 1e-50 and 1e50",
+    ),
+    "long type": (
+        MECHANISM + joint(type='"' + "r" * 2000 + '"'),
+        "",
+        "joint type '" + "r" * 37 + "...'",
+    ),
     "long exponent": (parameters("a = 1e-" + "9" * 20), "", "exponent has too many digits"),
     "long integer": (parameters("a = " + "9" * 9000), "", "number of more than 4300 digits"),
     "long hexadecimal": (parameters("a = 0x" + "f" * 9000), "[parameters]: a", "digits arises"),

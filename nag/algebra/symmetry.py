@@ -6,13 +6,13 @@ equation into the ideal of the equations, which is read off by linear algebra ov
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement, islice
 from operator import add
 from typing import Any
 
-from nag.algebra.exact_ranks import coefficient_rows, rank
+from nag.algebra.exact_ranks import coefficient_rows, field_of, rank, residues
 from nag.algebra.given import check_listed, check_type
 from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
@@ -186,14 +186,27 @@ def in_span(f: Polynomial, equations: Sequence[Polynomial]) -> bool:
         return True
     if not f.algebraic:
         return False
+    field = field_of([f, *(g for g in equations if g.algebraic)])
     # Those of lower degree first: mostly the equations themselves are enough.
     spanning: list[Polynomial] = []
     for multiples in _multiples(equations, max(g.degree for g in equations)):
         spanning += multiples
-        rows = coefficient_rows([g.terms for g in (*spanning, f)])
-        if rank(rows) == rank(rows[:-1]):
+        if field is not None and not _is_combination(
+            [residues(g, field) for g in (*spanning, f)], field.rank
+        ):
+            # What is none modulo a prime is none, or has coefficients that the prime divides below.
+            continue
+        if _is_combination([g.terms for g in (*spanning, f)], rank):
             return True
     return False
+
+
+def _is_combination(
+    terms: Sequence[Mapping[Exponents, Any]], rank_of: Callable[[Any], int]
+) -> bool:
+    """Whether the last polynomial is a combination of the others, by ranks."""
+    rows = coefficient_rows(terms)
+    return rank_of(rows) == rank_of(rows[:-1])
 
 
 def _multiples(equations: Sequence[Polynomial], degree: int) -> Iterator[list[Polynomial]]:

@@ -39,6 +39,8 @@ ReadNumber = Callable[[Any], Number]
 
 MAX_BYTES = 500_000
 MAX_ENTRIES = 500
+# A message shows what is in a file, and remains a line that is read.
+MOST_LETTERS = 900
 # The TOML reader takes quadratic time over the parts of a dotted key.
 MAX_KEY_PARTS = 50
 
@@ -55,6 +57,7 @@ class CaseError(InputError):
 def line_of(*parts: str | None) -> str:
     """Parts of a message in one line that can be printed."""
     text = ": ".join(p for p in parts if p)
+    text = text if len(text) <= MOST_LETTERS else f"{text[: MOST_LETTERS - 3]}..."
     return "".join(c if c.isprintable() else "?" for c in text)
 
 

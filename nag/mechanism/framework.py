@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 Place = tuple[Number, ...]
 Bar = tuple[str, str]
 
+# Squared lengths that are worked with.
+LEAST, MOST = Fraction(1, 10**100), Fraction(10**100)
+
 
 class FrameworkError(MechanismError):
     """A framework that makes no sense.
@@ -113,6 +116,13 @@ class Framework:
         if len(set(self.points)) != len(self.points):
             name = next(p for i, p in enumerate(self.points) if p in self.points[:i])
             raise FrameworkError(f"two points are named {name!r}; name each point once", "points")
+        for squared in self.squared_lengths:
+            # Products of some of them are formed.
+            if not LEAST < squared < MOST and not is_zero(squared):
+                raise FrameworkError(
+                    "not all are between 1e-50 and 1e50; scale them",
+                    "lengths" if self.placement is None else "points",
+                )
         seen: set[frozenset[str]] = set()
         for first, second in self.bars:
             for name in (first, second):

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from nag.algebra.from_python import exact_vector
 from nag.algebra.given import check_listed, check_type, is_a, value_text
 from nag.algebra.number import Number, is_zero, number_text
+from nag.algebra.tokens import nearest, quote
 from nag.errors import MechanismError
 from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS, VECTORS, JointType
 from nag.text.table import one_line
@@ -282,7 +283,9 @@ def _as_tuple(values: Any, key: str, **owner: str) -> tuple[Any, ...]:
 
 def _check_joint(joint: Joint) -> None:
     if joint.type not in JOINT_TYPES:
-        text = f"joint type {joint.type!r} is unknown; use one of {', '.join(sorted(JOINT_TYPES))}"
+        near = nearest(joint.type, JOINT_TYPES)
+        text = f"joint type {quote(joint.type)} is unknown{near}; use one of "
+        text += ", ".join(sorted(JOINT_TYPES))
         raise MechanismError(
             HELICAL if joint.type in ("helical", "screw") else text, joint=joint.name, key="type"
         )
