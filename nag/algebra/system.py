@@ -167,15 +167,17 @@ def values_text(names: Iterable[str], values: Iterable[Number]) -> str:
 
 
 def system_line(system: PolynomialSystem) -> str:
-    """Variables, equations and degrees in one line."""
+    """Variables, equations and degrees in one line; the imaginary unit is none of the former."""
     degrees: dict[int, int] = {}
-    for degree in sorted(system.degrees):
+    own = len(system.polynomials) - system.imaginary
+    for degree in sorted(system.degrees[:own]):
         degrees[degree] = degrees.get(degree, 0) + 1
     listed = ", ".join(f"{n} of degree {d}" for d, n in degrees.items())
-    names = ", ".join(system.variables)
+    count = system.n - system.imaginary
+    names = ", ".join(system.variables[:count])
     text = (
-        f"{count_text(system.n, 'variable')}{f' ({names})' if 0 < len(names) <= 60 else ''}, "
-        f"{count_text(len(system.polynomials), 'equation')}{f': {listed}' if listed else ''}"
+        f"{count_text(count, 'variable')}{f' ({names})' if 0 < len(names) <= 60 else ''}, "
+        f"{count_text(own, 'equation')}{f': {listed}' if listed else ''}"
     )
     text = text if system.exact else f"{text}; not all coefficients are rational"
     return f"{text}; {system.variables[-1]} is the imaginary unit" if system.imaginary else text

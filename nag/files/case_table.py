@@ -54,10 +54,11 @@ class CaseError(InputError):
     """A case file that cannot be read: "file: table: key: what is wrong; what would be right"."""
 
 
-def line_of(*parts: str | None) -> str:
-    """Parts of a message in one line that can be printed."""
-    text = ": ".join(p for p in parts if p)
-    text = text if len(text) <= MOST_LETTERS else f"{text[: MOST_LETTERS - 3]}..."
+def line_of(file: str, *parts: str | None) -> str:
+    """A file's name and the parts of a message in one line that can be printed."""
+    said = ": ".join(p for p in parts if p)
+    said = said if len(said) <= MOST_LETTERS else f"{said[: MOST_LETTERS - 3]}..."
+    text = f"{file}: {said}" if said else file
     return "".join(c if c.isprintable() else "?" for c in text)
 
 

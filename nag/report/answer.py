@@ -73,15 +73,15 @@ def answer_lines(
     points: Sequence[Through],
     run: Row,
 ) -> list[str]:
-    """The whole answer, line by line."""
-    head = [("system", system_line(decomposition.system)), ("answer", title_line(decomposition))]
-    head[1:1] = _method_rows(decomposition)
-    head = model_rows(problem) + head
+    """The whole answer, line by line: what was asked, and then what it rests on."""
+    head: list[Row] = [("answer", title_line(decomposition))]
     if not decomposition.complete:
         head.append(("", "INCOMPLETE, see below"))
-    tail = _orbit_rows(decomposition) + _mobility_rows(decomposition, problem, points)
-    tail += assembly_rows(problem, decomposition)
-    tail += [("open", line) for line in remarks(decomposition)]
+    head += _mobility_rows(decomposition, problem, points)
+    head += assembly_rows(problem, decomposition)
+    tail: list[Row] = [("open", line) for line in remarks(decomposition)]
+    tail += [*model_rows(problem), ("system", system_line(decomposition.system))]
+    tail += _method_rows(decomposition) + _orbit_rows(decomposition)
     tail += [
         ("paths", paths_text(decomposition.paths)),
         run,

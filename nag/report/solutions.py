@@ -20,16 +20,17 @@ if TYPE_CHECKING:
 
 
 def solution_lines(result: SolveResult, case: Case, problem: Problem, run: Row) -> list[str]:
-    """The whole answer, line by line."""
+    """The whole answer, line by line: what was asked, and then what it rests on."""
     is_real = _reality(problem)
-    head = [("system", system_line(result.system)), ("answer", answer_text(result, is_real))]
-    if result.method in METHOD_TEXTS:
-        head.insert(1, ("method", METHOD_TEXTS[result.method]))
-    head = [*model_row(problem), *head, *real_rows(problem, result.points)]
+    head: list[Row] = [("answer", answer_text(result, is_real))]
     if not result.complete:
         head.append(("", "INCOMPLETE, see below"))
+    head += real_rows(problem, result.points)
     paths = result.paths
-    tail = [("note", note) for note in result.notes]
+    tail: list[Row] = [("note", note) for note in result.notes]
+    tail += [*model_row(problem), ("system", system_line(result.system))]
+    if result.method in METHOD_TEXTS:
+        tail.append(("method", METHOD_TEXTS[result.method]))
     tail += [
         ("start", result.reason),
         (

@@ -53,11 +53,12 @@ def solution_rows(
 ) -> list[list[str]]:
     """Headings, and a row for each of at most ``most`` solutions, the real ones first.
 
-    At most ``columns`` coordinates are shown.
+    At most ``columns`` coordinates are shown, the imaginary unit not.
     """
     ordered = sorted(range(len(result.solutions)), key=lambda i: not is_real(result.solutions[i]))
-    names = result.system.variables
-    dots = ["..."] if columns is not None and len(names) > columns else []
+    names = result.system.variables[: result.system.n - result.system.imaginary]
+    columns = len(names) if columns is None else min(columns, len(names))
+    dots = ["..."] if len(names) > columns else []
     head = ["solution", *names[:columns], *dots]
     rows = [[*head, "multiplicity", "real", "residual", "condition", "digits"]]
     for i in ordered[:most]:
