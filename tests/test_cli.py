@@ -250,8 +250,9 @@ def test_the_model_of_a_system_is_the_system(case, capsys) -> None:
 @pytest.mark.parametrize(
     ("argv", "part"),
     [
-        ([], "COMMAND"),
-        (["frobnicate"], "invalid choice"),
+        (["frobnicate"], "is no command and no file"),
+        ([], "say what to do"),
+        (["decompse"], "did you mean 'decompose'"),
         (["decompose"], "CASE"),
         (["decompose", "{case}", "extra"], "unrecognized arguments"),
         (["decompose", "{case}", "--frob"], "unrecognized arguments"),
@@ -271,7 +272,7 @@ def test_the_model_of_a_system_is_the_system(case, capsys) -> None:
         (["decompose", ""], ""),
         (["decompose", "a\0b"], ""),
         (["decompose", "a\nb\x1b[31m"], "[31m"),
-        (["a\nb\x1b[31m"], "invalid choice"),
+        (["a\nb\x1b[31m"], "is no command and no file"),
         (["decompose", "x" * 5000], "too long"),
         (["model", "{folder}/none.toml"], "none.toml"),
         (["decompose", "{case}", "--json", "{folder}"], "is a directory"),

@@ -215,7 +215,7 @@ def test_other_values_of_parameters_are_taken(capsys) -> None:
 @pytest.mark.parametrize(
     ("argv", "part"),
     [
-        (["member", "{case}"], "give either the name of a point of the case or --at"),
+        (["member", "{case}"], "which point? give either the name of one of the case"),
         (["member", "{case}", "right", "--at", "x=1,y=0"], "not both"),
         (["member", "{case}", "rigth"], "has no point 'rigth' (did you mean 'right'?)"),
         (["member", "{export}", "right"], "has no named points; use --at"),

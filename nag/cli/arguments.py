@@ -175,36 +175,37 @@ def add_json(parser: argparse.ArgumentParser) -> None:
 
 
 def add_tracking(parser: argparse.ArgumentParser) -> None:
-    """The options of every command that tracks paths."""
-    parser.add_argument(
+    """The options of every command that tracks paths, behind those of its own."""
+    group = parser.add_argument_group("how it is worked out")
+    group.add_argument(
         "--seed", type=_seed, default=0, help="seed of the random numbers (default: 0)"
     )
-    parser.add_argument(
+    group.add_argument(
         "--threads",
         type=_threads,
         default=_available_threads(),
         help="threads; the answer is the same for any number (default: one a processor)",
     )
-    parser.add_argument(
+    group.add_argument(
         "--settings",
         choices=SETTINGS,
         default="default",
         help="how carefully paths are tracked (default: default)",
     )
-    parser.add_argument(
+    group.add_argument(
         "--resume",
         metavar="DIR",
         help="keep finished work in the folder DIR, and find there what an earlier run has done",
     )
-    parser.add_argument(
+    group.add_argument(
         "--executor",
         metavar="NAME",
         help="who tracks paths: processes:N, dask://ADDRESS or mpi (default: threads)",
     )
-    add_quiet(parser)
+    add_quiet(group)
 
 
-def add_quiet(parser: argparse.ArgumentParser) -> None:
+def add_quiet(parser: argparse._ActionsContainer) -> None:
     """The options of the commands that may take long: what is told, and when they are to end."""
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.add_argument(

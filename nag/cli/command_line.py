@@ -32,25 +32,19 @@ FROM_COMPONENTS = (
 # Each command, which is a module of this package: what it does, and more about it.
 COMMANDS: tuple[tuple[str, str, str], ...] = (
     (
-        "decompose",
-        "find the irreducible components of a case",
-        "Find the irreducible components of a mechanism's configuration space, or of the zero set "
-        "of a polynomial system, and the mobility.",
+        "show",
+        "say what a file holds and what can be asked of it",
+        "Say what a case or an export holds, and which commands answer what of it. `nag FILE` does "
+        "the same.",
     ),
     (
-        "member",
-        "say which components a point lies on",
-        f"Say which components a point lies on. {FROM_COMPONENTS}",
-    ),
-    (
-        "local",
-        "say what dimension the solutions have at a point",
-        "Say what dimension the solution set has at a point: isolated, of which multiplicity, or "
-        "on a component of which dimension, singular or not. Nothing is decomposed for it.",
+        "init",
+        "write a commented case to begin with",
+        "Write a commented case of a linkage, a mechanism or a system, to be edited.",
     ),
     (
         "mobility",
-        "say how a mechanism moves at a configuration",
+        "say whether and how a mechanism moves at a configuration",
         "Say how a mechanism moves at a configuration: what counting predicts, the tangent and the "
         "local dimension, the components through it, and what that means.",
     ),
@@ -60,6 +54,18 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "Show how a mechanism of one freedom really moves: its circuits, how far each joint turns "
         "and where it stands still; all bodies along each circuit as a table, and a page in which "
         "they move.",
+    ),
+    (
+        "decompose",
+        "find all motions of a mechanism, all solution sets of equations",
+        "Find the irreducible components of a mechanism's configuration space, or of the zero set "
+        "of a polynomial system, and the mobility.",
+    ),
+    (
+        "modes",
+        "find the operation modes of a parallel robot",
+        "Find the operation modes of a parallel robot, the components of its platform's poses: the "
+        "equations of each, what its poses have in common, and where modes meet.",
     ),
     (
         "report",
@@ -75,10 +81,34 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "joints. The components are those of an export of `nag decompose --json`, or of a case.",
     ),
     (
-        "modes",
-        "find the operation modes of a parallel robot",
-        "Find the operation modes of a parallel robot, the components of its platform's poses: the "
-        "equations of each, what its poses have in common, and where modes meet.",
+        "solve",
+        "find all isolated solutions of a case",
+        "Find all isolated solutions of a polynomial system, with multiplicities, by tracking "
+        "paths from a solved system.",
+    ),
+    (
+        "family",
+        "solve the same equations for many values of their parameters",
+        "Find the isolated solutions of a case's equations for many values of the parameters that "
+        "its [family] names: solved once for random ones, from where all members are tracked "
+        "together.",
+    ),
+    (
+        "certify",
+        "prove the solutions or components of an export",
+        "Prove that there is exactly one zero in a box about each solution of `nag solve --json`, "
+        "or witness point of `nag decompose --json`, that they are distinct, and which are real.",
+    ),
+    (
+        "local",
+        "say what dimension the solutions have at a point",
+        "Say what dimension the solution set has at a point: isolated, of which multiplicity, or "
+        "on a component of which dimension, singular or not. Nothing is decomposed for it.",
+    ),
+    (
+        "member",
+        "say which components a point lies on",
+        f"Say which components a point lies on. {FROM_COMPONENTS}",
     ),
     (
         "sample",
@@ -103,17 +133,9 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         f"{FROM_COMPONENTS}",
     ),
     (
-        "solve",
-        "find the isolated solutions of a case",
-        "Find all isolated solutions of a polynomial system, with multiplicities, by tracking "
-        "paths from a solved system.",
-    ),
-    (
-        "family",
-        "find the isolated solutions of many members of a family",
-        "Find the isolated solutions of a case's equations for many values of the parameters that "
-        "its [family] names: solved once for random ones, from where all members are tracked "
-        "together.",
+        "model",
+        "print the polynomial system of a case",
+        "Print the polynomial system that `nag decompose` decomposes.",
     ),
     (
         "check",
@@ -121,12 +143,6 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "Test what the founding papers state, one by one: exactly where exact algebra decides, "
         "else numerically, with a counterexample where a statement fails; and compare the "
         "decomposition of a case with the papers' prime components.",
-    ),
-    (
-        "certify",
-        "prove the points of an export",
-        "Prove that there is exactly one zero in a box about each solution of `nag solve --json`, "
-        "or witness point of `nag decompose --json`, that they are distinct, and which are real.",
     ),
     (
         "bench",
@@ -141,22 +157,6 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "and arithmetics, and draw what comes of it.",
     ),
     (
-        "model",
-        "print the polynomial system of a case",
-        "Print the polynomial system that `nag decompose` decomposes.",
-    ),
-    (
-        "show",
-        "say what a file holds and what can be asked of it",
-        "Say what a case or an export holds, and which commands answer what of it. `nag FILE` does "
-        "the same.",
-    ),
-    (
-        "init",
-        "write a commented case to begin with",
-        "Write a commented case of a linkage, a mechanism or a system, to be edited.",
-    ),
-    (
         "completion",
         "print what a shell completes",
         "Print a script with which bash, zsh or fish completes the commands and their options.",
@@ -164,13 +164,24 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
 )
 
 
+def _format_help(prog: str) -> argparse.HelpFormatter:
+    """Help in which the longest command stands in one line with what it does."""
+    formatter = argparse.HelpFormatter(prog, max_help_position=18)
+    # It forgets that commands are indented, and leaves too few columns for the longest.
+    formatter._action_max_length = 14
+    return formatter
+
+
 def parser(words: Sequence[str]) -> argparse.ArgumentParser:
     """The command line's grammar, with the options of the command that is among the words."""
     root = Parser(
         prog="nag",
-        description="Numerical algebraic geometry for mechanisms.",
+        description="Numerical algebraic geometry for mechanisms: does it move, in which ways, and "
+        "what are all solutions of its equations? A case is a file that describes a mechanism or "
+        "equations; `nag CASE` says what can be asked of it, `nag init linkage` writes one.",
         epilog="Exit status: 0 complete answer, 1 incomplete answer, 2 bad input, 130 interrupted.",
         allow_abbrev=False,
+        formatter_class=_format_help,
     )
     root.add_argument("--version", action="version", version=f"nag {nag.__version__}")
     commands = root.add_subparsers(dest="command", metavar="COMMAND", required=True)
@@ -223,6 +234,27 @@ def show_file(words: Sequence[str]) -> Sequence[str]:
     return ["show", *words] if is_file and not known else words
 
 
+def check_command(words: Sequence[str]) -> None:
+    """Refuse words that begin with no command.
+
+    Raises:
+        UsageError: with what would be right.
+    """
+    if not words:
+        raise UsageError(
+            "say what to do: `nag FILE` says what can be asked of a case, `nag init linkage` "
+            "writes one, `nag --help` lists the commands"
+        )
+    known = [row[0] for row in COMMANDS]
+    if not words[0].startswith("-") and words[0] not in known:
+        from nag.algebra.tokens import nearest, quote
+
+        raise UsageError(
+            f"{quote(words[0])} is no command and no file{nearest(words[0], known)}; "
+            "`nag --help` lists the commands"
+        )
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status.
 
@@ -243,6 +275,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = show_file(words)
     try:
         try:
+            check_command(words)
             arguments = parser(words).parse_args(words)
         except SystemExit:  # after --help or --version
             _print()

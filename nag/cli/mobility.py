@@ -229,7 +229,10 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
     if problem is None:
         problem = problem_of_case(case, options.formulation or "auto")
     if problem.model is None:
-        raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
+        raise UsageError(
+            f"{options.case}: is a polynomial system, no mechanism; ask `nag local` or "
+            "`nag decompose`"
+        )
     if options.at is not None:
         return case, in_real_coordinates(problem)
     if problem.reference is None:

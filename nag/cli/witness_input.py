@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from nag.algebra.number import Number
     from nag.witness.witness import Decomposition, WitnessSet
 
-ONE_POINT = "give either the name of a point of the case or --at, and not both"
+ONE_POINT = "which point? give either the name of one of the case ('reference') or --at, not both"
 Points = Mapping[str, tuple["Number", ...]]
 Check = Callable[[Sequence[str], Points], object]
 

@@ -210,7 +210,13 @@ def read_case(
         message = f"{option} is for robots in URDF or MJCF; leave it out, or write it in the case"
         raise CaseError(line_of(str(path), message))
     if chosen != "toml":
-        return _system_case(path, text, chosen, values)
+        try:
+            return _system_case(path, text, chosen, values)
+        except CaseError as error:
+            if (format, chosen) != ("auto", "text"):
+                raise
+            # Whatever is no other format is taken for this one.
+            raise CaseError(f"{error} (read as plain text, a polynomial a line)") from None
     top = CaseTable(str(path), "", parse_toml(path, text))
     for key in {"plate", "plates"} & top.values.keys():
         top.fail(key, 'plates are links of kind = "linkage": [[link]] with pins and their shape')

@@ -202,7 +202,10 @@ def read_file(path: str | os.PathLike[str], convert: Callable[[Any], T]) -> T:
     except RecursionError:
         raise ExportError(f"{file}: is not an export: lists are nested too deep") from None
     except ValueError as error:
-        raise ExportError(f"{file}: is not JSON: {error}") from None
+        raise ExportError(
+            f"{file}: is not JSON: {error}; give what `nag decompose --json FILE` or `nag solve "
+            "--json FILE` writes"
+        ) from None
 
 
 # What a document says that follows from the rest of it; relative difference that rounding makes.

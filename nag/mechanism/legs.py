@@ -19,7 +19,7 @@ from nag.text.table import join_words
 
 # Legs of a body that is taken for the platform without being named.
 LEGS_OF_A_PLATFORM = 3
-NAMED_PLATFORM = "nag modes takes the platform that is named with --platform"
+NAMED_PLATFORM = "name the platform, of `nag modes` by --platform"
 
 
 @dataclass(frozen=True)
