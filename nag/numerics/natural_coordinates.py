@@ -334,7 +334,7 @@ def _origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
     for level in range(1, max(f.degree for f in polynomials) + 1):
         if not directions:
             break
-        if sum(_terms_of_shift(f, origin) for f in polynomials) > MOST_TERMS:
+        if not _have_few_terms(polynomials, [origin], MOST_TERMS):
             return (Fraction(0),) * n
         if any(origin):
             moved = [shift_polynomial(f, origin) for f in polynomials]
@@ -375,12 +375,25 @@ def _simplicity(f: Polynomial) -> tuple[int, int]:
     return len(f.support), len(f.leading)
 
 
-def _terms_of_shift(f: Polynomial, origin: Sequence[Fraction]) -> int:
-    """At most so many terms has ``f(y + origin)``, before any are collected."""
-    places = [i for i in f.support if origin[i]]
-    if not places:
-        return len(f.terms)
-    return sum(prod(1 + e[i] for i in places) for e in f.terms)
+def _have_few_terms(
+    polynomials: Sequence[Polynomial], origins: Iterable[Sequence[Fraction]], most: int
+) -> bool:
+    """Whether polynomials have at most so many terms about all origins, before any are collected.
+
+    No more terms are counted than the answer takes: planes can be many, and polynomials large.
+    """
+    count = 0
+    for origin in origins:
+        for f in polynomials:
+            places = [i for i in f.support if origin[i]]
+            if not places:
+                count += len(f.terms)
+                continue
+            for e in f.terms:
+                count += prod(1 + e[i] for i in places)
+                if count > most:
+                    return False
+    return count <= most
 
 
 def _conditions(f: Polynomial, level: int, variables: Sequence[int]) -> list[tuple[Row, int]]:
@@ -514,7 +527,7 @@ def _most_voted(
             within[k] = row
         step = _combine_directions(within, directions)
         steps.append([step.get(i, Fraction(0)) for i in range(polynomials[0].n)])
-    if sum(_terms_of_shift(f, step) for step in steps for f in polynomials) > MOST_COMPARED:
+    if not _have_few_terms(polynomials, steps, MOST_COMPARED):
         return tied[0]
     counts = [_count_terms(polynomials, step) for step in steps]
     return parallel[counts.index(min(counts))]
