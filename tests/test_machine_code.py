@@ -296,3 +296,19 @@ def test_fields_of_whole_numbers_take_nothing_else(wrong: object) -> None:
 def test_arrays_of_another_layout_are_refused(wrong: np.ndarray) -> None:
     with pytest.raises(TypeError, match=r"Memory\.reals is no contiguous array of float64"):
         _whole_numbers(_memory()._replace(reals=wrong))
+
+
+def small_products(m: Memory) -> None:
+    m.reals[2] = m.reals[0] * m.reals[0]
+    m.reals[3] = m.reals[1] + m.reals[1]
+    m.reals[4] = m.reals[0] * 4.0
+
+
+def test_numbers_below_the_normal_ones_are_zero_in_a_kernel_and_only_there() -> None:
+    memory = _memory()
+    memory.reals[:2] = 1e-160, 5e-324
+    Kernel(small_products, keep=False)(memory)
+    assert memory.reals[2:5].tolist() == [0.0, 0.0, 4e-160]
+    small = memory.reals[:2]
+    assert (small * small)[0] == 1e-320
+    assert float(small[1]) + float(small[1]) == 1e-323

@@ -40,8 +40,9 @@ Errors
     doubles by zero, roots and powers without a real value give an infinity or NaN; whole numbers
     wrap round at 64 bits; a double becomes the nearest ``int`` towards zero, NaN 0. Places in
     memory are not checked, and must not be negative: `plain` finds those that are outside.
-    Numbers of more than 53 bits are rounded where they meet doubles.
+    Numbers of more than 53 bits are rounded where they meet doubles. Doubles below the normal ones
+    (2.2e-308) are zero, see `control_register`.
 
 Read top-down: `kernel`, then `functions`, `expressions` on `values` and `failures`, `operators` and
-`operations`, then `processor`.
+`operations`, `control_register`, then `processor`.
 """

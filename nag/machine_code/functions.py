@@ -13,8 +13,9 @@ from typing import Any, get_type_hints
 
 from llvmlite import ir
 
+from nag.machine_code.control_register import call_flushing
 from nag.machine_code.expressions import Expressions
-from nag.machine_code.processor import ENTRY
+from nag.machine_code.processor import ENTRY, processor
 from nag.machine_code.records import INT, NONE, Constant, Record, Type, constant_type, record
 from nag.machine_code.values import (
     BYTE,
@@ -30,6 +31,8 @@ from nag.machine_code.values import (
 # Functions of at most so many syntax nodes are put in where they are called, unless with those that
 # are put into them there are so many.
 SMALL, LARGE = 130, 2000
+# The kernel itself, which has no result and is not put into what is called from C.
+KERNEL = "kernel"
 
 
 class Module:
@@ -38,12 +41,18 @@ class Module:
     Args:
         function: the Python function that the former is.
         constants: its first arguments, see `nag.machine_code.kernel.Kernel`.
+        triple: LLVM's name of the kind of system that it is for; by default of this one.
 
     Raises:
         KernelError: if anything in a function is not translated; it says in which file and line.
     """
 
-    def __init__(self, function: FunctionType, constants: tuple[Any, ...] = ()) -> None:
+    def __init__(
+        self,
+        function: FunctionType,
+        constants: tuple[Any, ...] = (),
+        triple: str | None = None,
+    ) -> None:
         self.ir = ir.Module(function.__name__)
         self.ir.triple = ""
         self.constant_memory = self.ir.add_metadata([])
@@ -55,7 +64,16 @@ class Module:
             kinds += [record(hints[name]) for name in names if name in hints]
         except TypeError as error:
             raise _refuse_function(function, str(error)) from None
-        _Body(self, function, tuple(kinds), ENTRY)
+        body = _Body(self, function, tuple(kinds), KERNEL)
+        self._define_entry(body.function, processor().triple if triple is None else triple)
+
+    def _define_entry(self, body: Any, triple: str) -> None:
+        """What is called from C: the kernel, for which numbers below the normal ones are zero."""
+        entry = ir.Function(self.ir, body.function_type, ENTRY)
+        entry.attributes.add("nounwind")
+        builder = ir.IRBuilder(entry.append_basic_block())
+        call_flushing(builder, triple, body, entry.args)
+        builder.ret_void()
 
     def translated(self, function: FunctionType, kinds: tuple[Type, ...]) -> _Body:
         """The function for these types of arguments."""
@@ -104,12 +122,12 @@ class _Body(Expressions):
         tree = _syntax(function)
         names = [a.arg for a in tree.args.args]
         if len(names) != len(kinds):
-            what = "arguments with types" if name == ENTRY else "arguments"
+            what = "arguments with types" if name == KERNEL else "arguments"
             message = f"{function.__name__} takes {len(names)} {what}, not {len(kinds)}"
             raise _refuse_function(function, message)
         nodes = list(ast.walk(tree))
         results = any(isinstance(n, ast.Return) and n.value for n in nodes)
-        self.returns = results and name != ENTRY
+        self.returns = results and name != KERNEL
         given = [llvm_type(kind) for kind in kinds if not isinstance(kind, Constant)]
         # A result goes where the first argument points, as its type is known last.
         if self.returns:
@@ -117,8 +135,9 @@ class _Body(Expressions):
         given.append(WORD.as_pointer())
         code = ir.Function(module.ir, ir.FunctionType(ir.VoidType(), given), name)
         code.attributes.add("nounwind")
-        if name != ENTRY:
-            code.linkage = "internal"
+        code.linkage = "internal"
+        if name == KERNEL:
+            code.attributes.add("noinline")
         super().__init__(module, function, code)
         self.result: Type = NONE
         # Where each loop goes on and where it ends; what has a value at each break of it.
@@ -141,7 +160,7 @@ class _Body(Expressions):
         self.reserve.branch(start)
         # Those of the functions that are put in have been added on the way.
         self.size += len(nodes)
-        self.is_put_in = name != ENTRY and len(nodes) <= SMALL and self.size <= LARGE
+        self.is_put_in = name != KERNEL and len(nodes) <= SMALL and self.size <= LARGE
 
     def _suite(self, statements: list[ast.stmt]) -> None:
         """Translate statements, up to one after which nothing is left to do in this case."""

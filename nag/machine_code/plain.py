@@ -2,7 +2,7 @@
 
 It is what compiled kernels are compared with. Integers are Python's own, which do not wrap round;
 divisions of doubles by zero give an infinity or NaN as in machine code, but functions of the
-standard library raise where they have no value.
+standard library raise where they have no value. Numbers below the normal ones are not zero here.
 """
 
 from __future__ import annotations
