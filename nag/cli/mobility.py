@@ -301,8 +301,10 @@ def _compare(
     """What other equations say, whether it agrees, and that as a JSON object."""
     if equations is None:
         return "no other formulation covers this mechanism", True, None
-    # Degrees depend on the coordinates, unless these depend linearly on each other.
-    budget = None if equations.alike == "degrees" else 0
+    # A smooth configuration lies on one component, of a degree that depends on the coordinates,
+    # unless these depend linearly on each other.
+    one_component = report.local.smooth and equations.alike != "degrees"
+    budget = 0 if one_component else None
     *_, other = _reports(options, equations.problem, equations.at, budget)
     agree = other.same_motion(report, equations.alike)
     text = (
