@@ -303,8 +303,8 @@ def _compare(
         return "no other formulation covers this mechanism", True, None
     # A smooth configuration lies on one component, of a degree that depends on the coordinates,
     # unless these depend linearly on each other.
-    one_component = report.local.smooth and equations.alike != "degrees"
-    budget = 0 if one_component else None
+    smooth = report.local is None or report.local.smooth
+    budget = 0 if smooth and equations.alike != "degrees" else None
     *_, other = _reports(options, equations.problem, equations.at, budget)
     agree = other.same_motion(report, equations.alike)
     text = (
