@@ -30,75 +30,12 @@ first what imports the others; "`x` on `y`" says that x imports y.
 """
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    # What `__getattr__` finds, for programs that check types.
-    from nag.algebra.from_python import system as system
-    from nag.algebra.polynomial import Polynomial as Polynomial
-    from nag.algebra.symmetry import SignedPermutation as SignedPermutation
-    from nag.algebra.system import PolynomialSystem as PolynomialSystem
-    from nag.errors import ComponentError as ComponentError
-    from nag.errors import EquationError as EquationError
-    from nag.errors import InputError as InputError
-    from nag.errors import MechanismError as MechanismError
-    from nag.errors import NagError as NagError
-    from nag.errors import StartError as StartError
-    from nag.files.case_table import CaseError as CaseError
-    from nag.files.cases import Case as Case
-    from nag.files.cases import read_case as read_case
-    from nag.files.export import read_decomposition as read_decomposition
-    from nag.files.export import write_decomposition as write_decomposition
-    from nag.files.solutions_export import read_solutions as read_solutions
-    from nag.files.solutions_export import write_solutions as write_solutions
-    from nag.kinematics.driven_motion import driven_motion as driven_motion
-    from nag.kinematics.motion import motion as motion
-    from nag.mechanism.dh import DHLoop as DHLoop
-    from nag.mechanism.framework import Framework as Framework
-    from nag.mechanism.framework import framework_of_graph as framework_of_graph
-    from nag.mechanism.graph import Body as Body
-    from nag.mechanism.graph import Joint as Joint
-    from nag.mechanism.graph import Mechanism as Mechanism
-    from nag.mechanism.linkage import Linkage as Linkage
-    from nag.mechanism.loops import gruebler_kutzbach as gruebler_kutzbach
-    from nag.mechanism.mobility_at import mobility as mobility
-    from nag.mechanism.mobility_report import MobilityReport as MobilityReport
-    from nag.mechanism.model import model as model
-    from nag.mechanism.operation_modes import modes as modes
-    from nag.mechanism.problem import decompose as decompose
-    from nag.mechanism.problem import solve as solve
-    from nag.numerics.local_dimension import LocalDimension as LocalDimension
-    from nag.numerics.local_dimension import local_dimension as local_dimension
-    from nag.questions import Certified as Certified
-    from nag.questions import certify as certify
-    from nag.questions import eliminate as eliminate
-    from nag.questions import intersect as intersect
-    from nag.questions import local as local
-    from nag.questions import member as member
-    from nag.questions import plot as plot
-    from nag.questions import read as read
-    from nag.questions import sample as sample
-    from nag.questions import singular as singular
-    from nag.questions import write as write
-    from nag.real.curve import RealCurve as RealCurve
-    from nag.real.find_curve import find_real_curve as find_real_curve
-    from nag.real.real_pieces import RealPieces as RealPieces
-    from nag.real.real_pieces import find_real_points as find_real_points
-    from nag.solving.family_members import FamilySolutions as FamilySolutions
-    from nag.solving.family_members import solve_family as solve_family
-    from nag.solving.solutions import Solution as Solution
-    from nag.solving.solutions import SolveResult as SolveResult
-    from nag.tracking.run import Run as Run
-    from nag.witness.constraints import Constraints as Constraints
-    from nag.witness.witness import Decomposition as Decomposition
-    from nag.witness.witness import Slice as Slice
-    from nag.witness.witness import Status as Status
-    from nag.witness.witness import WitnessSet as WitnessSet
+from typing import Any
 
 __version__ = "0.1.0"
 
-# Public names by the module that defines them. They are imported on first use, so that
-# `import nag` and `nag --help` load neither numpy nor llvmlite.
+# Public names by the module that defines them; `__init__.pyi` has their types. They are imported
+# on first use, so that `import nag` and `nag --help` load neither numpy nor llvmlite.
 _HOME = {
     "Case": "nag.files.cases",
     "CaseError": "nag.files.case_table",

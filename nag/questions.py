@@ -21,7 +21,6 @@ from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
-    from nag.decomposition.intersection import Intersection
     from nag.decomposition.singular_points import SingularLocus
     from nag.files.cases import Case
     from nag.interpolation.image_ideal import ImageIdeal
@@ -360,7 +359,7 @@ def singular(given: Any, component: int | None = None, *, run: Run = DEFAULT_RUN
 
 
 @takes_run
-def intersect(given: Any, first: int, second: int, *, run: Run = DEFAULT_RUN) -> Intersection:
+def intersect(given: Any, first: int, second: int, *, run: Run = DEFAULT_RUN) -> Decomposition:
     """The components of the intersection of two components, by their numbers from 1.
 
     Args:

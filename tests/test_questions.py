@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import ast
 import copy
+import inspect
 import json
 import pickle
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -130,12 +132,34 @@ def test_polynomials_are_sympys_and_back() -> None:
 
 
 def test_names_that_types_are_checked_by_are_those_that_are_there() -> None:
-    tree = ast.parse((NAG / "__init__.py").read_text("utf-8"))
-    (checked,) = (node for node in tree.body if isinstance(node, ast.If))
-    found = {
+    tree = ast.parse((NAG / "__init__.pyi").read_text("utf-8"))
+    classes = {
         alias.name: statement.module
-        for statement in checked.body
+        for statement in tree.body
         if isinstance(statement, ast.ImportFrom)
         for alias in statement.names
+        if alias.asname is not None
     }
-    assert found == nag._HOME
+    functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+    assert classes.keys() | functions.keys() == nag._HOME.keys()
+    assert classes.items() <= nag._HOME.items()
+    for name, node in functions.items():
+        assert _written(node) == _taken(getattr(nag, name)), name
+
+
+def _written(node: ast.FunctionDef) -> list[tuple[str, object]]:
+    """The arguments of a function that is written for checkers of types, with their defaults."""
+    given = [*node.args.args, *node.args.kwonlyargs]
+    defaults: list[object] = [
+        *[inspect.Parameter.empty] * (len(node.args.args) - len(node.args.defaults)),
+        *map(ast.literal_eval, node.args.defaults),
+        *map(ast.literal_eval, node.args.kw_defaults),
+    ]
+    found = [(arg.arg, default) for arg, default in zip(given, defaults, strict=True)]
+    return found if node.args.kwarg is None else [*found, ("run", nag.Run())]
+
+
+def _taken(function: Any) -> list[tuple[str, object]]:
+    """The arguments that a function takes; the run is the last."""
+    taken = inspect.signature(function).parameters.values()
+    return [(p.name, p.default) for p in sorted(taken, key=lambda p: p.name == "run")]

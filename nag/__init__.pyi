@@ -1,0 +1,256 @@
+"""Types of the public names, for programs that check types and for editors.
+
+What functions take is wider than one class: each alias says what may stand for the same thing.
+"""
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import Executor
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any, Literal, Protocol, TypeAlias, TypedDict, Unpack
+
+import networkx
+import numpy as np
+
+from nag.algebra.number import Irrational, Surd
+from nag.algebra.polynomial import Polynomial as Polynomial
+from nag.algebra.symmetry import SignedPermutation as SignedPermutation
+from nag.algebra.system import PolynomialSystem as PolynomialSystem
+from nag.decomposition.singular_points import SingularLocus
+from nag.errors import ComponentError as ComponentError
+from nag.errors import EquationError as EquationError
+from nag.errors import InputError as InputError
+from nag.errors import MechanismError as MechanismError
+from nag.errors import NagError as NagError
+from nag.errors import StartError as StartError
+from nag.files.case_table import CaseError as CaseError
+from nag.files.cases import Case as Case
+from nag.files.export import Origin
+from nag.files.solutions_export import SolutionsExport
+from nag.interpolation.image_ideal import ImageIdeal
+from nag.kinematics.driven_motion import DrivenMotion
+from nag.kinematics.motion import Motion
+from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.dh import DHLoop as DHLoop
+from nag.mechanism.framework import Framework as Framework
+from nag.mechanism.graph import Body as Body
+from nag.mechanism.graph import Joint as Joint
+from nag.mechanism.graph import Mechanism as Mechanism
+from nag.mechanism.linkage import Linkage as Linkage
+from nag.mechanism.mobility_report import MobilityReport as MobilityReport
+from nag.mechanism.model import Model
+from nag.mechanism.operation_modes import OperationModes
+from nag.mechanism.problem import Problem
+from nag.numerics.local_dimension import LocalDimension as LocalDimension
+from nag.pictures.plot import Picture
+from nag.questions import Certified as Certified
+from nag.real.curve import RealCurve as RealCurve
+from nag.real.real_pieces import RealPieces as RealPieces
+from nag.solving.family_members import FamilySolutions as FamilySolutions
+from nag.solving.solutions import Solution as Solution
+from nag.solving.solutions import SolveResult as SolveResult
+from nag.tracking.run import Progress
+from nag.tracking.run import Run as Run
+from nag.tracking.settings import Settings
+from nag.witness.constraints import Constraints as Constraints
+from nag.witness.membership import PointMembership
+from nag.witness.sampling import Samples
+from nag.witness.witness import Decomposition as Decomposition
+from nag.witness.witness import Slice as Slice
+from nag.witness.witness import Status as Status
+from nag.witness.witness import WitnessSet as WitnessSet
+
+__version__: str
+__all__: list[str]
+
+class SympyExpression(Protocol):
+    """What sympy has: expressions, equations and symbols."""
+
+    @property
+    def free_symbols(self) -> Any: ...
+    def subs(self, *arguments: Any, **named: Any) -> Any: ...
+
+class RunOptions(TypedDict, total=False):
+    """A `Run`, or its fields one by one."""
+
+    run: Run
+    seed: int
+    threads: int
+    settings: Settings | Literal["fast", "default", "careful"]
+    progress: Progress | None
+    resume: File | None
+    executor: Executor | str | None
+
+File: TypeAlias = str | os.PathLike[str]
+# Exact: text as "5/6" or "sqrt(2)", floats as their shortest decimals.
+RealNumber: TypeAlias = str | float | Fraction | Decimal | Surd | Irrational | SympyExpression
+AnyNumber: TypeAlias = RealNumber | complex
+Equation: TypeAlias = str | Polynomial | SympyExpression
+Equations: TypeAlias = Equation | Iterable[Equation]
+# Texts of names with commas or blanks between, names, or sympy's symbols.
+Names: TypeAlias = str | Iterable[str | SympyExpression]
+Parts: TypeAlias = Framework | Linkage | DHLoop | AssemblyModel
+# A mechanism, or what describes one.
+Moving: TypeAlias = File | Case | Mechanism | Model | Parts | Problem
+# What has equations, or what has components.
+Solvable: TypeAlias = Moving | PolynomialSystem | Equations
+Decomposed: TypeAlias = Solvable | Decomposition
+# The name of a point, or its coordinates by name or in order.
+Point: TypeAlias = str | Mapping[str, RealNumber] | Sequence[RealNumber] | np.ndarray
+Formulation: TypeAlias = Literal["auto", "E", "H", "S", "P"]
+Circuits: TypeAlias = Literal["reference", "all"]
+Drives: TypeAlias = tuple[str, float] | Mapping[str, float]
+Poses: TypeAlias = Mapping[str, Sequence[float]]
+
+def certify(found: SolveResult | Decomposition | File, paths: bool = False) -> Certified: ...
+def decompose(
+    system: Solvable,
+    variables: Names | None = None,
+    *,
+    symmetries: Iterable[SignedPermutation | Mapping[str, str]] | None = None,
+    **running: Unpack[RunOptions],
+) -> Decomposition: ...
+def driven_motion(
+    mechanism: Moving,
+    coordinate: str,
+    values: Sequence[float] | np.ndarray,
+    *,
+    samples: int = 360,
+    formulation: Formulation = "auto",
+    drive: Drives | None = None,
+    pose: Poses | None = None,
+    **running: Unpack[RunOptions],
+) -> DrivenMotion: ...
+def eliminate(
+    given: Decomposed,
+    onto: Sequence[str] | str | None = None,
+    component: int = 1,
+    *,
+    degree: int | None = None,
+    polynomial: bool = False,
+    **running: Unpack[RunOptions],
+) -> ImageIdeal: ...
+def find_real_curve(component: WitnessSet, **running: Unpack[RunOptions]) -> RealCurve: ...
+def find_real_points(component: WitnessSet, **running: Unpack[RunOptions]) -> RealPieces: ...
+def framework_of_graph(graph: networkx.Graph, dimension: int = 2) -> Framework: ...
+def gruebler_kutzbach(mechanism: Mechanism) -> int: ...
+def intersect(
+    given: Decomposed, first: int, second: int, **running: Unpack[RunOptions]
+) -> Decomposition: ...
+def local(given: Solvable, point: Point | None = None, *, seed: int = 0) -> LocalDimension: ...
+def local_dimension(
+    system: PolynomialSystem,
+    point: Sequence[AnyNumber] | np.ndarray,
+    *,
+    accuracy: float | None = None,
+    seed: int = 0,
+) -> LocalDimension: ...
+def member(
+    given: Decomposed, point: Point | None = None, **running: Unpack[RunOptions]
+) -> PointMembership: ...
+def mobility(
+    mechanism: Moving,
+    point: Sequence[RealNumber] | Mapping[str, RealNumber] | np.ndarray | None = None,
+    *,
+    formulation: Formulation = "auto",
+    detail: Literal["local", "through", "components", "curves"] = "through",
+    budget: float = 10,
+    of: str | None = None,
+    tolerance: float | None = None,
+    **running: Unpack[RunOptions],
+) -> MobilityReport: ...
+def model(
+    mechanism: File | Case | Mechanism,
+    formulation: Formulation = "auto",
+    modes: Iterable[tuple[str, int]] = (),
+    space: Literal["planar", "spherical", "spatial"] | None = None,
+) -> Model: ...
+def modes(
+    mechanism: File | Case | Mechanism,
+    platform: str | None = None,
+    *,
+    budget: float = 60,
+    **running: Unpack[RunOptions],
+) -> OperationModes: ...
+def motion(
+    mechanism: Moving,
+    *,
+    circuit: Circuits = "reference",
+    samples: int = 360,
+    formulation: Formulation = "auto",
+    drive: Drives | None = None,
+    pose: Poses | None = None,
+    **running: Unpack[RunOptions],
+) -> Motion: ...
+def plot(
+    given: Decomposed,
+    path: File,
+    *,
+    onto: Sequence[str] | str | None = None,
+    joints: Sequence[str] | str | None = None,
+    point: str | None = None,
+    graph: bool = False,
+    mechanism: bool = False,
+    tree: bool = False,
+    component: int | None = None,
+    circuit: Circuits = "reference",
+    formulation: Formulation = "auto",
+    **running: Unpack[RunOptions],
+) -> Picture: ...
+def read(path: File) -> Case | Decomposition | SolveResult: ...
+def read_case(
+    path: File,
+    values: Mapping[str, AnyNumber] | None = None,
+    *,
+    format: str = "auto",
+    hold: Sequence[str] = (),
+    at: Mapping[str, RealNumber] | None = None,
+) -> Case: ...
+def read_decomposition(path: File) -> Decomposition: ...
+def read_solutions(path: File) -> SolutionsExport: ...
+def sample(
+    given: Decomposed,
+    count: int = 10,
+    component: int = 1,
+    *,
+    real: bool = False,
+    **running: Unpack[RunOptions],
+) -> Samples: ...
+def singular(
+    given: Decomposed, component: int | None = None, **running: Unpack[RunOptions]
+) -> SingularLocus: ...
+def solve(
+    system: Solvable,
+    variables: Names | None = None,
+    *,
+    start: str = "auto",
+    **running: Unpack[RunOptions],
+) -> SolveResult: ...
+def solve_family(
+    equations: Equations | PolynomialSystem,
+    parameters: Names,
+    values: Sequence[Sequence[complex]] | np.ndarray,
+    variables: Names | None = None,
+    *,
+    start: str = "auto",
+    count: int | None = None,
+    known: tuple[Sequence[complex] | np.ndarray, np.ndarray] | None = None,
+    **running: Unpack[RunOptions],
+) -> FamilySolutions: ...
+def system(
+    equations: Equations,
+    variables: Names | None = None,
+    *,
+    parameters: Mapping[str, AnyNumber] | Mapping[SympyExpression, AnyNumber] | None = None,
+    nonzero: Equations = (),
+    groups: Iterable[Iterable[str | int | SympyExpression]] = (),
+    imaginary: str | None = None,
+) -> PolynomialSystem: ...
+def write(result: Decomposition | SolveResult, path: File) -> None: ...
+def write_decomposition(
+    decomposition: Decomposition, path: File, origin: Origin | None = None
+) -> None: ...
+def write_solutions(
+    result: SolveResult, path: File, title: str | None = None, file: str | None = None
+) -> None: ...
