@@ -1,7 +1,7 @@
 """Mechanisms: bodies and joints, and the smallest polynomial systems that model them.
 
 Read in this order, bottom-up: `graph` on `joint_types` (the data), `networkx_graph`; `axes`,
-`quaternion` (vectors, turns); `loops` (what can move); `formulations` (each in `FORMULATIONS`) and
+`quaternion` (vectors, turns); `lines` (loops by their axes); `loops` (what can move); `formulations` (each in `FORMULATIONS`) and
 `model` (the choice, by `path_estimates`); the formulations `planar` and `euler` (each with its loop
 equations), and `half_angles` and `rods` on `joint_factors` and `loop_product` (their loop
 equations); `assembly_modes`, `mode_classes` and `mode_decomposition`; `configuration` (all bodies),

@@ -18,6 +18,7 @@ from nag.text.table import one_line
 
 if TYPE_CHECKING:
     import networkx
+    import numpy as np
 
 Vector = tuple[Number, Number, Number]
 ORIGIN: Vector = (Fraction(0), Fraction(0), Fraction(0))
@@ -219,6 +220,35 @@ class Mechanism:
         from nag.mechanism.networkx_graph import mechanism_from_graph
 
         return mechanism_from_graph(graph, ground)
+
+    @classmethod
+    def from_lines(cls, lines: Iterable[Any]) -> Mechanism:
+        """The closed loop of revolute joints about lines, in their order.
+
+        Args:
+            lines: each six numbers, a direction and the moment point x direction, or a
+                ``NormalizedLine`` of rational-linkages. Exact numbers are kept; floats are taken as
+                their shortest decimals, so that a loop that moves for special numbers alone is
+                rigid, and nearly mobile (``tolerance`` of `nag.mobility`).
+
+        Raises:
+            MechanismError: if one is no line.
+
+        >>> import nag
+        >>> places = [(0, 0), (0, 1), (2, 1), (2, 0)]
+        >>> lines = [(0, 0, 1, y, -x, 0) for x, y in places]
+        >>> nag.mobility(nag.Mechanism.from_lines(lines)).local_dimension
+        1
+        """
+        from nag.mechanism.lines import loop_of_lines
+
+        return loop_of_lines(lines)
+
+    def lines(self) -> np.ndarray:
+        """Direction, of length 1, and moment of each joint that has an axis, shape ``(k, 6)``."""
+        from nag.mechanism.lines import lines_of
+
+        return lines_of(self)
 
     def to_graph(self) -> networkx.MultiGraph:
         """The mechanism as a networkx graph, of which `from_graph` makes the same mechanism.
