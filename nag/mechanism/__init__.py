@@ -1,16 +1,16 @@
 """Mechanisms: bodies and joints, and the smallest polynomial systems that model them.
 
 Read in this order, bottom-up: `graph` on `joint_types` (the data), `networkx_graph`; `axes`,
-`quaternion` (vectors, turns); `lines` (loops by their axes); `loops` (what can move); `formulations` (each in `FORMULATIONS`) and
-`model` (the choice, by `path_estimates`); the formulations `planar` and `euler` (each with its loop
-equations), and `half_angles` and `rods` on `joint_factors` and `loop_product` (their loop
-equations); `assembly_modes`, `mode_classes` and `mode_decomposition`; `configuration` (all bodies),
-`holding` on `given_rotation` (joints held at values, bodies put elsewhere), and `unreduced` (all
-constraints, for checks). Other ways to give one are `framework` (with `framework_model`,
-`isotropic` and `framework_decomposition`), `dh` and `linkage`, on `assembly` and
-`real_assemblies`. `problem` is what all of these come down to, and cases and
-equations with them, and what `nag.decompose` and `nag.solve` ask; `coordinates` carries its
-components over to Euler parameters, `other_equations` are those that must say the same.
+`quaternion` (vectors, turns); `lines` (loops by their axes); `loops` (what can move);
+`formulations` (each in `FORMULATIONS`) and `model` (the choice, by `path_estimates`); the
+formulations `planar` and `euler` (each with its loop equations), and `half_angles` and `rods` on
+`joint_factors` and `loop_product` (their loop equations); `assembly_modes`, `mode_classes` and
+`mode_decomposition`; `configuration` (all bodies), `holding` on `given_rotation` (joints held at
+values, bodies put elsewhere), and `unreduced` (all constraints, for checks). Other ways to give one
+are `framework` (with `framework_model`, `isotropic` and `framework_decomposition`), `dh` and
+`linkage`, on `assembly` and `real_assemblies`. `problem` is what all of these come down to, and
+cases and equations with them, and what `nag.decompose` and `nag.solve` ask; `coordinates` carries
+its components over to Euler parameters, `other_equations` are those that must say the same.
 `mobility_at` with `mobility_report` and `bonds` says how one moves, `moving_parts` what of it, and
 `nearly_mobile` (on `overconstrained`) how it would if it were not rigid as it is given;
 `operation_modes` with `modes_report` how the platform of a parallel robot does, by `legs`,
