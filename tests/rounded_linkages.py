@@ -35,15 +35,17 @@ KINDS: dict[str, Callable[[], known.Lines]] = {
     "Bricard, plane-symmetric": known.plane_symmetric,
     "Sarrus": known.sarrus,
 }
-# Of a motion, in radians; a position is found to rounding.
-ARC, EXACT = 0.1, 1e-15
-MOST = 600
+# Of a motion, in radians, the longest first: next to where two motions meet gaps are sharp. A
+# position is found to rounding.
+ARCS, EXACT = (0.1, 0.03, 0.01), 1e-15
+# Radians after which a motion is given up.
+LONGEST = 60.0
 POSITIONS = 16
 # Steps that close a loop; conditions of sizes below so many gaps are none; gaps beside which the
 # number of conditions is seen.
 STEPS, ALIKE, SMALL = 20, 10, 1e-8
 # Gaps of a loop that is closed; parts by which sizes that are alike differ.
-CLOSED, ALIKE_SIZES = 1e-11, 0.25
+CLOSED, ALIKE_GAPS, ALIKE_CHANGES = 1e-11, 0.1, 0.25
 # Gaps at which a motion is given up.
 WIDE = 0.03
 
@@ -125,15 +127,15 @@ def rotations(vectors: Array) -> Array:
     return flat.reshape(*vectors.shape, 3)
 
 
-def follow(loop: Loop, way: int) -> tuple[Array, bool]:
+def follow(loop: Loop, way: int, arc: float = ARCS[0]) -> tuple[Array, bool]:
     """Positions of least gaps, each an arc on from the one before, and whether they come back."""
     q = np.zeros(len(loop.axes))
     tangent = np.linalg.svd(loop.slope(q))[2][-1] * way
     found, left = [q], False
     first = tangent
-    while len(found) < MOST:
+    while len(found) * arc < LONGEST:
         basis = null_space(tangent[None])
-        base = q + ARC * tangent
+        base = q + arc * tangent
         rest = least_squares(
             lambda z, base=base, basis=basis: loop.opening(base + basis @ z),
             np.zeros(len(q) - 1),
@@ -149,8 +151,8 @@ def follow(loop: Loop, way: int) -> tuple[Array, bool]:
         if loop.gap(q).max() > WIDE:
             break
         away = np.linalg.norm((q + np.pi) % (2 * np.pi) - np.pi)
-        left |= away > 3 * ARC
-        if left and away < ARC and tangent @ first > 0:
+        left |= away > 3 * arc
+        if left and away < arc and tangent @ first > 0:
             return np.array(found), True
     return np.array(found), False
 
@@ -227,21 +229,31 @@ class Independent:
 def measure(mechanism: Mechanism) -> Independent:
     """What is found without the package."""
     loop = Loop.of(mechanism)
-    positions, whole = follow(loop, 1)
-    if not whole:
-        back, _ = follow(loop, -1)
-        positions = np.vstack([back[:0:-1], positions])
+    positions, whole = _follow_both_ways(loop, ARCS[0])
+    gap = widest(loop, positions)
+    for arc in ARCS[1:]:
+        finer = widest(loop, _follow_both_ways(loop, arc)[0])
+        settled = _alike(gap, finer, ALIKE_GAPS / 10)
+        gap = finer
+        if settled:
+            break
     chosen = positions[np.linspace(0, len(positions) - 1, POSITIONS + 1).round().astype(int)[:-1]]
     nearest = loop.changed(least_change(loop, chosen))
     closed, _ = follow(nearest, 1)
-    return Independent(
-        whole, widest(loop, positions), change_between(loop, nearest), widest(nearest, closed)
-    )
+    return Independent(whole, gap, change_between(loop, nearest), widest(nearest, closed))
 
 
-def _alike(ours: Array, theirs: Array) -> bool:
+def _follow_both_ways(loop: Loop, arc: float) -> tuple[Array, bool]:
+    positions, whole = follow(loop, 1, arc)
+    if not whole:
+        back, _ = follow(loop, -1, arc)
+        positions = np.vstack([back[:0:-1], positions])
+    return positions, whole
+
+
+def _alike(ours: Array, theirs: Array, part: float) -> bool:
     """Whether an angle and a length are together of one size."""
-    return bool(abs(np.linalg.norm(ours) / np.linalg.norm(theirs) - 1) < ALIKE_SIZES)
+    return bool(abs(np.linalg.norm(ours) / np.linalg.norm(theirs) - 1) < part)
 
 
 def _is_claimed(mechanism: Mechanism, name: str) -> bool:
@@ -273,11 +285,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 gap = np.array(ours.gap) / scale
                 change = np.array(ours.change or (np.inf, np.inf)) / scale
                 closed = theirs.left_open.max() < CLOSED
-                same = _alike(gap, theirs.gap) and (_alike(change, theirs.change) or not closed)
+                # Where two motions meet, rounding may lead from one into what is none.
+                lost = theirs.gap.max() > WIDE
+                same = lost or _alike(gap, theirs.gap, ALIKE_GAPS)
+                same &= not closed or _alike(change, theirs.change, ALIKE_CHANGES)
                 wrong += not (ours.nearly_mobile and same)
                 print(
                     f"{name}, {digits} digits, pose {pose}: "
-                    f"gap {gap[0]:.2e} {gap[1]:.2e} for {theirs.gap[0]:.2e} {theirs.gap[1]:.2e}, "
+                    f"gap {gap[0]:.2e} {gap[1]:.2e} for {theirs.gap[0]:.2e} {theirs.gap[1]:.2e}"
+                    f"{' (whose motion is lost)' if lost else ''}, "
                     f"change {change[0]:.2e} {change[1]:.2e} for "
                     f"{theirs.change[0]:.2e} {theirs.change[1]:.2e} "
                     f"{'' if closed else '(which does not close it) '}in {taken:.1f} s"

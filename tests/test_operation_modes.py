@@ -638,3 +638,14 @@ def test_the_command_prints_modes_and_transitions(capsys: pytest.CaptureFixture[
     assert "transition  1 and 2: dimension 2, degree 4" in text
     assert "agrees with what is known" in text
     assert COORDINATES[0] in text
+
+
+def test_what_is_not_found_is_said_only_of_modes_without_a_real_pose_that_is_known() -> None:
+    found = found_modes("3-rrr-planar")
+    (mode,) = found.moving
+    assert mode.through_reference
+    nowhere = (1.0,) * len(mode.residuals)
+    for through, said in ((True, False), (False, True)):
+        other = replace(mode, through_reference=through, real_residuals=nowhere)
+        ((_, text),) = replace(found, modes=(other,)).mode_rows()
+        assert ("no real pose" in text) == said

@@ -288,7 +288,7 @@ class OperationModes:
                 names = join_words([self.model.legs[k].leg.name for k in mode.limits])
                 leg = "leg" if len(mode.limits) == 1 else "legs"
                 parts.append(f"of {leg} {names} the outer axes differ by an isotropic vector")
-            elif mode.real_pose is not None and not mode.really_reached:
+            elif mode.real_pose is not None and not (mode.really_reached or mode.through_reference):
                 parts.append("no real pose with real joint coordinates was found")
             found.append((f"mode {i}", "; ".join(parts)))
         return found
