@@ -66,25 +66,61 @@ def _add(z, matrix, q, factor, x):
 def factorize(z, n, matrix, pivots):
     """Overwrite the matrix by its factors; the diagonal holds the inverse pivots.
 
+    Two columns at a time: of the rest of the matrix every entry is then read and written once for
+    two products. To each entry the same is added in the same order as one column at a time.
+
     Args:
         z: the arithmetic.
         n: size.
         matrix: number ``i * n + j`` is entry ``(i, j)``.
         pivots: receives the row that was exchanged with row ``k``, as a double.
     """
-    for k in range(n):
+    for k in range(0, n - 1, 2):
         pivot = _pivot(z, n, matrix, pivots, k)
-        for i in range(k + 1, n - 1, 2):
-            upper = _scale(z, matrix, i * n + k, pivot)
-            lower = _scale(z, matrix, (i + 1) * n + k, pivot)
-            for j in range(k + 1, n):
-                x = z.read(matrix, k * n + j)
-                _add(z, matrix, i * n + j, upper, x)
-                _add(z, matrix, (i + 1) * n + j, lower, x)
-        if k < n - 1 and (n - k) % 2 == 0:
-            last = _scale(z, matrix, (n - 1) * n + k, pivot)
-            for j in range(k + 1, n):
-                _add(z, matrix, (n - 1) * n + j, last, z.read(matrix, k * n + j))
+        x = z.read(matrix, k * n + k + 1)
+        for i in range(k + 1, n):
+            _add(z, matrix, i * n + k + 1, _scale(z, matrix, i * n + k, pivot), x)
+        pivot = _pivot(z, n, matrix, pivots, k + 1)
+        for i in range(k + 2, n):
+            _scale(z, matrix, i * n + k + 1, pivot)
+        factor = _negative(z, matrix, (k + 1) * n + k)
+        for j in range(k + 2, n):
+            _add(z, matrix, (k + 1) * n + j, factor, z.read(matrix, k * n + j))
+        for i in range(k + 2, n - 1, 2):
+            _subtract_rows(z, n, matrix, k, i)
+        if n % 2 != 0:
+            _subtract_rows_of_last(z, n, matrix, k)
+    if n % 2 != 0:
+        _pivot(z, n, matrix, pivots, n - 1)
+
+
+def _negative(z, matrix, q):
+    return z.negative(z.read(matrix, q))
+
+
+def _subtract_rows(z, n, matrix, k, i):
+    """Multiples of rows ``k`` and ``k + 1`` from rows ``i`` and ``i + 1``, right of the former."""
+    first = _negative(z, matrix, i * n + k)
+    second = _negative(z, matrix, i * n + k + 1)
+    third = _negative(z, matrix, (i + 1) * n + k)
+    fourth = _negative(z, matrix, (i + 1) * n + k + 1)
+    for j in range(k + 2, n):
+        x = z.read(matrix, k * n + j)
+        y = z.read(matrix, (k + 1) * n + j)
+        upper = z.add_product(z.read(matrix, i * n + j), first, x)
+        lower = z.add_product(z.read(matrix, (i + 1) * n + j), third, x)
+        z.write(matrix, i * n + j, z.add_product(upper, second, y))
+        z.write(matrix, (i + 1) * n + j, z.add_product(lower, fourth, y))
+
+
+def _subtract_rows_of_last(z, n, matrix, k):
+    """The same from the last row alone."""
+    first = _negative(z, matrix, (n - 1) * n + k)
+    second = _negative(z, matrix, (n - 1) * n + k + 1)
+    for j in range(k + 2, n):
+        last = z.add_product(z.read(matrix, (n - 1) * n + j), first, z.read(matrix, k * n + j))
+        last = z.add_product(last, second, z.read(matrix, (k + 1) * n + j))
+        z.write(matrix, (n - 1) * n + j, last)
 
 
 def order_rows(z, n, pivots, right):
