@@ -102,7 +102,7 @@ def test_what_moves_does_not_depend_on_where_it_is_looked_at(seed: int) -> None:
     assert kinds[0] == kinds[1] == (3, 2, 1)
 
 
-def test_what_hangs_on_a_joint_turns_about_it() -> None:
+def test_what_hangs_on_a_joint_turns_about_it_and_is_not_idle() -> None:
     bars = {"A": (0, 0), "B": (0, 1), "C": (3, 2), "D": (3, 0), "E": (4, 1)}
     bodies = ["base crank", "crank coupler", "coupler rocker", "rocker base", "rocker tail"]
     joints = [
@@ -110,7 +110,29 @@ def test_what_hangs_on_a_joint_turns_about_it() -> None:
         for (name, place), own in zip(bars.items(), bodies, strict=True)
     ]
     report = nag.mobility(nag.Mechanism("base", joints), detail="local")
-    assert report.moving.idle_text == "tail turns about E"
+    assert not report.moving.idle
+    assert ("hanging", "tail turns about E") in report.moving.rows()
+    assert report.sentence == "it moves with 2 freedoms"
+
+
+@pytest.mark.parametrize("links", [1, 2, 4])
+def test_no_link_of_an_arm_is_idle(links: int) -> None:
+    joints = [
+        nag.Joint(f"R{i}", "revolute", (f"b{i}", f"b{i + 1}"), (i, i * i, 0), (0, i, 1))
+        for i in range(links)
+    ]
+    report = nag.mobility(nag.Mechanism("b0", joints))
+    assert not report.moving.idle
+    assert [e.bodies for e in report.moving.hanging] == [(f"b{links}",)]
+    assert report.sentence == f"it moves with {links} freedom{'s' * (links > 1)}"
+
+
+@pytest.mark.parametrize("kind", ["revolute", "spherical"])
+def test_a_door_on_two_hinges_is_not_idle(kind: str) -> None:
+    hinges = [joint(f"H{z}", kind, ("wall", "door"), (0, 0, z), Z) for z in (0, 2)]
+    report = nag.mobility(Mechanism("wall", tuple(hinges)))
+    assert not report.moving.idle
+    assert report.sentence.startswith("it moves with 1 freedom")
 
 
 def test_the_report_names_the_body_that_is_asked_for_first(capsys) -> None:

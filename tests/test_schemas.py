@@ -40,6 +40,14 @@ name = "top"
 at = { x = 0, y = 1, z = 0 }
 """
 ZEROS = system("x y", "(x - 1)^2*(x + 2)*(x^2 + 1)", "y^3 - x - 3", nonzero=("x + 2",))
+PENDULUM = """
+title = "a pendulum"
+kind = "mechanism"
+ground = "wall"
+joint = [
+  { name = "A", type = "revolute", bodies = ["wall", "bob"], point = [0, 0, 0], axis = [0, 0, 1] },
+]
+"""
 FAMILY = """
 title = "t"
 kind = "system"
@@ -154,7 +162,7 @@ def write_everything(
         found.setdefault((content["format"], content["version"]), []).append(content)
         return str(target)
 
-    for name, text in (("whole", SYSTEM), ("family", FAMILY)):
+    for name, text in (("whole", SYSTEM), ("family", FAMILY), ("pendulum", PENDULUM)):
         (folder / f"{name}.toml").write_text(text)
     whole, family = str(folder / "whole.toml"), str(folder / "family.toml")
     solved = str(folder / "zeros.json")
@@ -180,6 +188,7 @@ def write_everything(
     idle = str(CASES / "robots" / "3-sps-s.toml")
     ask("mobility", str(CASES / "mobility" / "k46.toml"), "--local")
     ask("mobility", idle, "--budget", "0", "--of", "platform")
+    ask("mobility", str(folder / "pendulum.toml"))
     ask("mobility", str(CASES / "spatial" / "bennett-rounded.toml"), "--tolerance", "1e-4")
     ask("decompose", str(CASES / "bennett.toml"), "--modes", "all")
     for name in ("3-uu-locked", "3-rps"):

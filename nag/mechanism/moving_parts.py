@@ -42,7 +42,7 @@ class IdleFreedom:
         bodies: one body, or several that are a chain between two others.
         count: of the freedoms.
         turns: whether it is one, a turn about a line or, if three, about a point.
-        joint: the only one of a body that hangs on it, and turns about it; else empty.
+        joint: the only one by which the body is joined to others, if it turns about it; else empty.
     """
 
     bodies: tuple[str, ...]
@@ -54,6 +54,10 @@ class IdleFreedom:
     def alike(self) -> tuple[int, bool, int, str]:
         """What freedoms have in common that are told together."""
         return self.count, self.turns, len(self.bodies), self.joint
+
+    def document(self) -> dict[str, Any]:
+        """As a JSON object."""
+        return {"bodies": list(self.bodies), "freedoms": self.count}
 
 
 @dataclass(frozen=True)
@@ -92,7 +96,9 @@ class MovingParts:
 
     Attributes:
         freedoms: of the mechanism.
-        idle: freedoms with which parts move by themselves.
+        idle: freedoms with which parts between two others move by themselves.
+        hanging: the same of bodies that are joined to one other body alone, as a pendulum and the
+            last link of an arm are.
         locked: names of joints that never move; all those between bodies of one of ``together``.
         together: bodies that never move against each other, groups of two and more.
         body: the freedoms of the body that was asked for; None if none was.
@@ -100,6 +106,7 @@ class MovingParts:
 
     freedoms: int
     idle: tuple[IdleFreedom, ...]
+    hanging: tuple[IdleFreedom, ...]
     locked: tuple[str, ...]
     together: tuple[tuple[str, ...], ...]
     body: BodyFreedoms | None
@@ -112,27 +119,15 @@ class MovingParts:
     @property
     def idle_text(self) -> str:
         """Which parts are idle; empty where none is."""
-        texts = []
-        for count, turns, bodies, joint in sorted({e.alike for e in self.idle}):
-            own = [e for e in self.idle if e.alike == (count, turns, bodies, joint)]
-            names = join_words([" with ".join(e.bodies) for e in own])
-            one = len(own) == 1
-            about = "itself" if one else "themselves"
-            if turns:
-                what = f"turn{'s' * one} about "
-                alone = joint or about
-                what += alone if count == 1 else ("its point" if one else "their points")
-            else:
-                freedoms = count_text(count, "freedom")
-                what = f"move{'s' * one} by {about}, {'' if one else 'each '}with {freedoms}"
-            texts.append(f"{names} {what}")
-        return "; ".join(texts)
+        return _describe_parts(self.idle)
 
     def rows(self) -> list[tuple[str, str]]:
         """Labelled lines of what there is to be said."""
         rows = []
         if self.idle:
             rows.append(("idle", f"{count_text(self.idle_count, 'freedom')}: {self.idle_text}"))
+        if self.hanging:
+            rows.append(("hanging", _describe_parts(self.hanging)))
         if self.locked and self.freedoms:
             names = count_text(len(self.locked), "joint") + f": {', '.join(self.locked)}"
             rows.append(("locked", f"{names}; never moving"))
@@ -146,11 +141,31 @@ class MovingParts:
     def document(self) -> dict[str, Any]:
         """As a JSON object."""
         return {
-            "idle": [{"bodies": list(e.bodies), "freedoms": e.count} for e in self.idle],
+            "idle": [e.document() for e in self.idle],
+            "hanging": [e.document() for e in self.hanging],
             "locked": list(self.locked),
             "together": [list(own) for own in self.together],
             "of": None if self.body is None else self.body.document(),
         }
+
+
+def _describe_parts(parts: Sequence[IdleFreedom]) -> str:
+    """Which parts move by themselves, and how."""
+    texts = []
+    for count, turns, bodies, joint in sorted({e.alike for e in parts}):
+        own = [e for e in parts if e.alike == (count, turns, bodies, joint)]
+        names = join_words([" with ".join(e.bodies) for e in own])
+        one = len(own) == 1
+        about = "itself" if one else "themselves"
+        if turns:
+            what = f"turn{'s' * one} about "
+            alone = joint or about
+            what += alone if count == 1 else ("its point" if one else "their points")
+        else:
+            freedoms = count_text(count, "freedom")
+            what = f"move{'s' * one} by {about}, {'' if one else 'each '}with {freedoms}"
+        texts.append(f"{names} {what}")
+    return "; ".join(texts)
 
 
 def find_moving_parts(
@@ -180,10 +195,10 @@ def find_moving_parts(
         for joint, own in zip(mechanism.joints, chain.columns, strict=True)
         if not joint.of_type.is_rigid and not _moves(rates[own])
     ]
-    idle = _idle(mechanism, units, twists) if dimension else []
+    idle, hanging = _idle(mechanism, units, twists) if dimension else ([], [])
     freedoms = None if body is None else _body_freedoms(body, twists[names.index(body)], chain.size)
     together = tuple(own for own in units if len(own) > 1)
-    return MovingParts(dimension, tuple(idle), tuple(locked), together, freedoms)
+    return MovingParts(*(dimension, tuple(idle), tuple(hanging), tuple(locked), together, freedoms))
 
 
 def _moves(values: np.ndarray) -> bool:
@@ -225,8 +240,12 @@ def _group(names: Sequence[str], twists: np.ndarray) -> list[tuple[str, ...]]:
 
 def _idle(
     mechanism: Mechanism, units: Sequence[tuple[str, ...]], twists: np.ndarray
-) -> list[IdleFreedom]:
-    """Freedoms of one unit by itself, then of chains of several between two others."""
+) -> tuple[list[IdleFreedom], list[IdleFreedom]]:
+    """Freedoms of one unit by itself, then of chains of several between two others.
+
+    Those of units that are joined to one other body alone come apart: to move by itself is all that
+    these can do.
+    """
     names = mechanism.body_names
     unit_of = {body: k for k, own in enumerate(units) for body in own}
     first = [names.index(own[0]) for own in units]
@@ -239,7 +258,7 @@ def _idle(
         count = _corank(matrix)
         return count, np.linalg.svd(matrix)[2][matrix.shape[1] - count :].T
 
-    found, single = [], {}
+    found, hanging, single = [], [], {}
     for k, own in enumerate(units):
         if k == ground:
             continue
@@ -247,15 +266,17 @@ def _idle(
         single[k] = count
         if count:
             turns = _are_turns(twists[first[k]] @ basis)
-            at = [j.name for j in mechanism.joints if [unit_of[b] for b in j.bodies].count(k) == 1]
-            hangs = turns and count == 1 and len(at) == 1
-            found.append(IdleFreedom(own, count, turns, at[0] if hangs else ""))
+            at = [j for j in mechanism.joints if [unit_of[b] for b in j.bodies].count(k) == 1]
+            others = {body for j in at for body in j.bodies if unit_of[body] != k}
+            joint = at[0].name if turns and count == 1 and len(at) == 1 else ""
+            part = IdleFreedom(own, count, turns, joint)
+            (hanging if len(others) == 1 else found).append(part)
     for chain in _chains(mechanism, unit_of, ground):
         count = alone(chain)[0] - sum(single[k] for k in chain)
         if count > 0:
             bodies = tuple(body for k in chain for body in units[k])
             found.append(IdleFreedom(bodies, count, False))
-    return found
+    return found, hanging
 
 
 def _chains(mechanism: Mechanism, unit_of: Mapping[str, int], ground: int) -> list[tuple[int, ...]]:
