@@ -65,7 +65,8 @@ BROKEN: dict[str, tuple[str, str]] = {
     ),
     "unknown kind": (
         DH.replace('"dh"', '"dhh"'),
-        "kind: 'dhh' is no kind of case; write one of system, mechanism, dh, framework, linkage",
+        "kind: 'dhh' is no kind of case; write one of system, mechanism, dh, robot, framework, "
+        "linkage",
     ),
     "key of another kind": (
         DH + "[points]\nA = [0, 0]\n",

@@ -94,7 +94,11 @@ def test_packages_import_only_what_is_before_them(package: str) -> None:
 # equation that deflation leaves has a zero set, other points of it are deflated.
 ASKED_FOR = {
     "nag.witness.witness": None,
-    "nag.mechanism.graph": {"nag.mechanism.networkx_graph", "nag.mechanism.shown"},
+    "nag.mechanism.graph": {
+        "nag.mechanism.lines",
+        "nag.mechanism.networkx_graph",
+        "nag.mechanism.shown",
+    },
     "nag.solving.solutions": {"nag.solving.shown"},
     "nag.real.curve": {"nag.real.shown"},
     "nag.kinematics.motion": {"nag.kinematics.shown"},

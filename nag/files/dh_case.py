@@ -6,9 +6,9 @@ from fractions import Fraction
 
 from nag.algebra.tokens import is_name
 from nag.files.case_table import CaseTable, ReadNumber
-from nag.mechanism.assembly import made_of
 from nag.mechanism.dh import DHError, DHLoop, DHModel, HalfAngle, Row, half_angle
 from nag.mechanism.graph import Mechanism
+from nag.mechanism.parts import model_parts
 
 _JOINT_KEYS = ("name", "a", "d", "alpha", "alpha_half_tangent", "theta", "theta_half_tangent")
 
@@ -20,7 +20,7 @@ def read_dh(top: CaseTable, number: ReadNumber) -> DHModel | Mechanism:
     tables = top.tables("joint")
     rows = [_read_row(i, table, number) for i, table in enumerate(tables, 1)]
     try:
-        return made_of(DHLoop(tuple(rows)))
+        return model_parts(DHLoop(tuple(rows)))
     except DHError as error:
         if error.joint is None:
             top.fail("joint", error.message)

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from nag.algebra.given import is_a
 from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -73,28 +71,3 @@ class AssemblyModel:
         """
         bound = ROUGH * (1 + max((abs(x) for x in point), default=0.0))
         return all(abs(complex(x).imag) <= bound for x in point)
-
-
-def made_of(given: Any) -> Any:
-    """What parts make: the model of their assemblies, or a mechanism; of a case what it describes.
-
-    Anything else is given back as it is.
-
-    Raises:
-        nag.MechanismError: if the parts have no model.
-    """
-    if is_a(given, "nag.files.cases", "Case"):
-        return given.described
-    if is_a(given, "nag.mechanism.framework", "Framework"):
-        from nag.mechanism.framework_model import framework_model
-
-        return framework_model(given)
-    if is_a(given, "nag.mechanism.linkage", "Linkage"):
-        from nag.mechanism.linkage import linkage_model
-
-        return linkage_model(given)
-    if is_a(given, "nag.mechanism.dh", "DHLoop"):
-        from nag.mechanism.dh import assemble_table, dh_model
-
-        return dh_model(given) if given.open else assemble_table(given)
-    return given

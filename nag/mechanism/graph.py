@@ -313,8 +313,9 @@ def _as_tuple(values: Any, key: str, **owner: str) -> tuple[Any, ...]:
 
 def _check_joint(joint: Joint) -> None:
     if joint.type not in JOINT_TYPES:
-        near = nearest(joint.type, JOINT_TYPES)
-        text = f"joint type {quote(joint.type)} is unknown{near}; use one of "
+        near = nearest(str(joint.type), JOINT_TYPES)
+        given = quote(joint.type) if isinstance(joint.type, str) else value_text(joint.type)
+        text = f"joint type {given} is unknown{near}; use one of "
         text += ", ".join(sorted(JOINT_TYPES))
         raise MechanismError(
             HELICAL if joint.type in ("helical", "screw") else text, joint=joint.name, key="type"

@@ -19,7 +19,7 @@ from nag.decomposition.growth import grow_component
 from nag.decomposition.through import through_points, zero_at
 from nag.errors import MechanismError, NagError
 from nag.mechanism import BUDGET, FORMULATIONS, PLATFORM_ALONE
-from nag.mechanism.assembly import AssemblyModel, made_of
+from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.graph import Mechanism, check_mechanism
@@ -28,6 +28,7 @@ from nag.mechanism.mobility_report import ALL_POSES, CurveOfMotion, MobilityRepo
 from nag.mechanism.model import Model
 from nag.mechanism.moving_parts import MovingParts, NotClear, find_moving_parts
 from nag.mechanism.nearly_mobile import check_tolerance, find_near_motion, find_spoiled_motion
+from nag.mechanism.parts import model_parts
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.quaternion import R
@@ -199,7 +200,7 @@ def tree_of(given: Any) -> Mechanism | None:
     Raises:
         MechanismError: if what is given is no mechanism, no parts and no problem.
     """
-    mechanism = made_of(given)
+    mechanism = model_parts(given)
     if not isinstance(mechanism, Problem | Model | AssemblyModel | PolynomialSystem):
         check_mechanism(mechanism, "the parts of a case, case.assembly")
         return None if loop_structure(mechanism).loops else mechanism
@@ -233,7 +234,7 @@ def _product_of(problem: Problem, run: Run) -> FibreProduct | None:
 
 def _has_four_bars(given: Any) -> bool:
     """Whether what is given is a mechanism with several loops, each of four turns."""
-    mechanism = made_of(given)
+    mechanism = model_parts(given)
     if not isinstance(mechanism, Mechanism):
         return False
     loops = loop_structure(mechanism).loops

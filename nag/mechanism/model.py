@@ -13,7 +13,6 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
-from nag.mechanism.assembly import made_of
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space, same_line, space_of, zero_length
 from nag.mechanism.configuration import Configuration
@@ -29,6 +28,7 @@ from nag.mechanism.formulations import (
 from nag.mechanism.graph import Joint, Mechanism, check_mechanism
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
+from nag.mechanism.parts import model_parts
 from nag.mechanism.path_estimates import Alternative, ModelError, path_bound
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.rods import RodModel
@@ -208,7 +208,7 @@ def model(
     >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
     True
     """
-    mechanism = made_of(mechanism)
+    mechanism = model_parts(mechanism)
     check_mechanism(mechanism)
     check_listed(modes, "modes", "pairs of a joint's name and its mode")
     if space is not None:

@@ -38,7 +38,6 @@ from nag.interpolation.vanishing import (
     primitive,
 )
 from nag.mechanism import MODES_BUDGET
-from nag.mechanism.assembly import made_of
 from nag.mechanism.inverse_kinematics import REACHED, reach_poses
 from nag.mechanism.isotropic_limits import is_isotropic_limit
 from nag.mechanism.leg_image import COORDINATES, MOST_DEGREE, norm_form, study_quadric
@@ -51,6 +50,7 @@ from nag.mechanism.modes_report import (
     Transition,
 )
 from nag.mechanism.motions import motion_of, screw_system, twists_at
+from nag.mechanism.parts import model_parts
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
 from nag.mechanism.platform import LegEquations, PlatformModel, platform_model
 from nag.numerics.coincidence import LEAST
@@ -100,7 +100,7 @@ def modes(
     >>> [(mode.dimension, mode.degree, str(mode.motion)) for mode in found.modes]
     [(3, 1, 'translation')]
     """
-    given = made_of(mechanism)
+    given = model_parts(mechanism)
     check_size(budget, "budget")
     run.tell("legs", 0, 4)
     model = platform_model(parallel_robot(given, platform), run.random(41))

@@ -19,7 +19,8 @@ from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import NamedPoint, PolynomialSystem
 from nag.errors import NagError, StartError
 from nag.mechanism import PLATFORM_ALONE
-from nag.mechanism.assembly import AssemblyModel, made_of
+from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.parts import model_parts
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
@@ -214,7 +215,7 @@ def _describe_problem(given: Any, formulation: str) -> Problem | None:
             points=given.points or made.points,
             family=given.family,
         )
-    given = made_of(given)
+    given = model_parts(given)
     if is_a(given, "nag.mechanism.graph", "Mechanism"):
         from nag.mechanism.model import model
 
