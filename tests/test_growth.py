@@ -7,6 +7,7 @@ import pytest
 
 import nag
 from nag.decomposition.growth import grow_component
+from nag.mechanism.problem import problem_of
 from nag.tracking.evaluations import PREPARATION, count, count_evaluations
 
 # Equations, a regular point, the dimension there, and the degree of the component through it.
@@ -47,6 +48,34 @@ def test_points_that_few_loops_move_are_found_as_well(name: str, degree: int, se
     """One of the points stays where it is on most loops; a trace says that it is missing."""
     found = nag.mobility(nag.read_case(f"cases/{name}.toml"), seed=seed)
     assert found.components == ((1, degree),)
+
+
+def sarrus_row(count: int) -> nag.Mechanism:
+    """Sarrus linkages on top of each other, the plate of each the base of the next."""
+    joints = []
+    for k in range(count):
+        places = {"a": ((0, 1, 0), (1, 0), (3, 0)), "b": ((1, 0, 0), (0, 1), (0, 3))}
+        for leg, (axis, near, far) in places.items():
+            links = (f"p{k}", f"low_{leg}{k}", f"high_{leg}{k}", f"p{k + 1}")
+            for i, place in enumerate((near, far, near)):
+                point = (*place, 2 * k + i)
+                name = f"{leg}{i}_{k}"
+                joints.append(nag.Joint(name, "revolute", links[i : i + 2], point, axis))
+    return nag.Mechanism("p0", tuple(joints))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [0, 3, 4])
+def test_no_point_of_another_component_is_counted(seed: int) -> None:
+    """Each linkage has two curves of degree 5, and with default settings paths jump to the other.
+
+    Seeds are such on which they did.
+    """
+    problem = problem_of(sarrus_row(3))
+    grown = grow_component(
+        problem.system, np.array(problem.reference, dtype=float), 3, seconds=10.0, seed=seed
+    )
+    assert grown.least <= 125 and grown.degree in (None, 125)
 
 
 def test_what_is_made_ready_counts_once() -> None:
