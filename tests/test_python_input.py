@@ -17,6 +17,7 @@ import nag
 from nag.algebra.from_python import exact_number, system
 from nag.algebra.number import square_root
 from nag.algebra.symmetry import SymmetryError
+from nag.algebra.tokens import natural_order
 
 
 @pytest.mark.parametrize(
@@ -53,6 +54,9 @@ def test_what_is_no_number_is_refused_by_its_place(value: Any) -> None:
 
 def test_variables_are_in_alphabetical_order_with_numbers_by_value() -> None:
     assert system(["x10*b + x2", "a - x2"]).variables == ("a", "b", "x2", "x10")
+    names = ["y", "x" + "1" * 5000, "x10", "x02", "x1y10", "x1y9", "x0", "x"]
+    in_order = ["x", "x0", "x1y9", "x1y10", "x02", "x10", "x" + "1" * 5000, "y"]
+    assert sorted(names, key=natural_order) == in_order
     assert system(["y - x"], "y x").variables == ("y", "x")
 
 

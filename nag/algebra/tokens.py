@@ -94,10 +94,12 @@ def is_name(text: str) -> bool:
     return len(text) <= 100 and _NAME.fullmatch(text) is not None and text not in RESERVED
 
 
-def natural_order(name: str) -> list[tuple[int, int | str]]:
-    """A key that sorts names alphabetically, numbers in them by their values."""
-    parts = _PARTS.findall(name)
-    return [(0, int(part)) if part.isdecimal() else (1, part) for part in parts]
+def natural_order(name: str) -> list[tuple[int, int, str]]:
+    """A key that sorts names alphabetically, numbers in them by their values, however long."""
+    return [
+        (0, len(digits := part.lstrip("0")), digits) if part.isdecimal() else (1, 0, part)
+        for part in _PARTS.findall(name)
+    ]
 
 
 def imaginary_text(name: str, mend: str) -> str:
