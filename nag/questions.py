@@ -21,6 +21,7 @@ from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
+    from nag.algebra.system import PolynomialSystem
     from nag.decomposition.singular_points import SingularLocus
     from nag.files.cases import Case
     from nag.interpolation.image_ideal import ImageIdeal
@@ -147,8 +148,8 @@ def _problem_and_points(given: Any) -> tuple[Problem, Mapping[str, tuple[Number,
 
 
 def _point(
-    point: Any, names: Sequence[str], points: Mapping[str, tuple[Number, ...]]
-) -> Sequence[Any]:
+    point: Any, system: PolynomialSystem, points: Mapping[str, tuple[Number, ...]]
+) -> tuple[Number | complex, ...]:
     """A point's coordinates: those of the one that has this name, or what is given.
 
     None stands for the only one that has a name.
@@ -158,14 +159,15 @@ def _point(
     if point is None or isinstance(point, str):
         known = f"its points are {', '.join(points)}" if points else "it has none with a name"
         if point not in points:
+            names = ", ".join(system.variables[: system.n - system.imaginary])
             raise NagError(
                 f"point: {value_text(point)} is given; give the name of one ({known}), or numbers "
-                f"for {', '.join(names)}"
+                f"for {names}"
             )
         return points[point]
     from nag.algebra.from_python import coordinates
 
-    return coordinates(point, names)
+    return coordinates(point, system.variables, system.imaginary)
 
 
 def local(given: Any, point: Any = None, *, seed: int = 0) -> LocalDimension:
@@ -187,7 +189,7 @@ def local(given: Any, point: Any = None, *, seed: int = 0) -> LocalDimension:
     from nag.numerics.local_dimension import local_dimension_near
 
     problem, points = _problem_and_points(given)
-    at = _point(point, problem.system.variables, points)
+    at = _point(point, problem.system, points)
     return local_dimension_near(problem.system, at, seed=seed)
 
 
@@ -290,8 +292,9 @@ def member(given: Any, point: Any = None, *, run: Run = DEFAULT_RUN) -> PointMem
     else:
         problem, points = _problem_and_points(opened)
         found = find_components(problem, run)
-    at = _point(point, found.system.variables, points)
-    return locate_point(found, tuple(map(exact_number, at)), run=run)
+    at = _point(point, found.system, points)
+    known = [x if isinstance(x, complex) else exact_number(x) for x in at]
+    return locate_point(found, known, run=run)
 
 
 @takes_run

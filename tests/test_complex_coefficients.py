@@ -16,6 +16,16 @@ from nag.files.cases import freed_system
 from nag.files.formats import WRITTEN
 from nag.files.formats.reading import READERS, read_system_text
 from nag.files.formats.writing import write_system
+from nag.real.curve import PieceKind
+from nag.real.real_pieces import Reality
+from nag.real.real_samples import sample_real
+from nag.witness.membership import Membership
+
+
+def complex_system(*equations: str) -> nag.PolynomialSystem:
+    """Equations in which I is the imaginary unit."""
+    names = [name for name in "xyz" if any(name in text for text in equations)]
+    return nag.system(list(equations), variables=names)
 
 
 def points_of(result: nag.SolveResult) -> np.ndarray:
@@ -224,3 +234,60 @@ def test_complex_constants_of_bertini_may_be_set(tmp_path: Path) -> None:
     case = nag.read_case(path, {"a": "2 - I"})
     assert str(case.parameters["b"]) == "3 - 4*I"
     assert np.allclose(points_of(nag.solve(case)), [[3 - 4j]])
+
+
+CIRCLE = ("(x^2 + y^2 - 1)^2*(x - 2)", "(x^2 + y^2 - 1)^2*(y - I)")
+
+
+def test_a_real_curve_of_complex_equations_is_found() -> None:
+    curve = next(c for c in nag.decompose(complex_system(*CIRCLE)).components if c.dimension)
+    found, real = nag.find_real_points(curve), nag.find_real_curve(curve)
+    assert (found.reality, found.each_piece, found.dimensions) == (Reality.FOUND, True, (1,))
+    assert np.abs((found.points**2).sum(axis=1) - 1).max() < 1e-12
+    assert (real.variables, real.counted()) == (("x", "y"), {PieceKind.CLOSED_LOOP: 1})
+    samples = sample_real(curve, 5).points
+    assert np.abs((samples[:, :2].real ** 2).sum(axis=1) - 1).max() < 1e-12
+    assert np.array_equal(samples.imag, np.tile([0, 0, 1], (5, 1)))
+
+
+def test_curves_that_are_not_their_own_conjugates_have_isolated_real_points() -> None:
+    """The plane x = i y + 1 and a sphere meet in a circle through one real point, or in two."""
+    (conic,) = nag.decompose(complex_system("x - I*y - 1", "x^2 + y^2 + z^2 - 5")).components
+    found = nag.find_real_points(conic)
+    assert found.reality is Reality.FOUND and found.each_piece
+    assert sorted(found.points.round(12).tolist()) == [[1, 0, -2], [1, 0, 2]]
+    curve = nag.find_real_curve(conic)
+    assert curve.complete and curve.counted() == {PieceKind.POINT: 2}
+    (conic,) = nag.decompose(complex_system("x - I*y - 1", "x^2 + y^2 + z^2 + 5")).components
+    assert nag.find_real_points(conic).reality is Reality.NONE
+
+
+def test_a_finite_set_of_complex_equations_has_the_real_points_that_solve_says() -> None:
+    given = complex_system("(x - 1)*(x - I)", "y - 2")
+    kinds = [nag.find_real_points(c) for c in nag.decompose(given).components]
+    assert sorted(len(kind) for kind in kinds) == [0, 1]
+    (real,) = (kind.points for kind in kinds if len(kind))
+    assert real.tolist() == [[1, 2]] == [s.point[:2].real.tolist() for s in nag.solve(given).real]
+
+
+def test_membership_and_local_dimension_take_complex_points() -> None:
+    found = nag.decompose(complex_system("(x - I*y)*(x^2 + y*I + z^2)"))
+    for point in ([1j, 1, "1 + 2*I"], {"x": "I", "y": 1, "z": 1 + 2j}, [1j, 1, 1 + 2j, 1j]):
+        answers = nag.member(found, point).answers
+        assert {c.degree: a for c, a in zip(found.components, answers, strict=True)} == {
+            1: Membership.MEMBER,
+            2: Membership.FOREIGN,
+        }
+        assert nag.local(found.system, point).dimension == 2
+    sampled = found.components[0].sample(0, 1)[0]
+    assert found.components[0].contains(sampled[:3]) and found.components[0].contains(sampled)
+    assert nag.member("x^2 + y^2", [1j, 1]).complete
+
+
+def test_components_of_complex_equations_meet_and_have_singular_points() -> None:
+    found = nag.decompose(complex_system("x - I*y + z^2", "(x + y + I*z)*(x - I*y + 2)"))
+    conic = next(i for i, c in enumerate(found.components, 1) if c.degree == 2)
+    line = next(i for i, c in enumerate(found.components, 1) if c.degree == 1)
+    assert nag.intersect(found, conic, line).components[0].degree == 1
+    assert len(nag.singular(found).sets) == 2
+    assert nag.singular(nag.decompose(complex_system(*CIRCLE))).complete

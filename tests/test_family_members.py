@@ -7,6 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
+import pandas
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -227,3 +228,35 @@ def test_a_bad_array_is_one_line(
     array.write_bytes(content)
     assert main(["family", str(case), "--values", str(array)]) == 2
     assert "is no array of NumPy's" in capsys.readouterr().err
+
+
+def test_columns_are_matched_by_their_names() -> None:
+    equations = ["x^2 + y^2 = r", "x = a*y"]
+    rows = nag.solve_family(equations, ["r", "a"], [[2, 1], [8, -1]])
+    for table in ({"a": [1, -1], "r": [2, 8]}, pandas.DataFrame({"a": [1, -1], "r": [2, 8]})):
+        assert nag.solve_family(equations, ["r", "a"], table) == rows
+
+
+@pytest.mark.parametrize(
+    ("table", "text"),
+    [
+        ({"a": [1]}, "values: 0 columns have the name 'r'; give one"),
+        ({"a": [1], "r": [1], "s": [1]}, "values: column 's' is no parameter; they are r, a"),
+        ({"a": [1, 2], "r": [1]}, "values: the columns have different lengths"),
+    ],
+)
+def test_columns_that_do_not_fit_are_told(table: dict[str, list[int]], text: str) -> None:
+    with pytest.raises(nag.NagError) as error:
+        nag.solve_family(["x^2 + y^2 = r", "x = a*y"], ["r", "a"], table)
+    assert str(error.value) == text
+
+
+def test_a_frame_has_a_row_for_each_solution() -> None:
+    found = nag.solve_family("x^2 = a", ["a"], [[4], [-1], [0]])
+    frame = found.to_dataframe()
+    assert list(frame.columns) == ["member", "a", "x", "real", "error"]
+    assert frame["member"].tolist() == [0, 0, 1, 1, 2]
+    assert frame["real"].tolist() == [True, True, False, False, True]
+    assert found.real_counts.tolist() == [2, 0, 1] == [len(found.real(k)) for k in range(3)]
+    assert [len(points) for points in found] == [2, 2, 1]
+    assert repr(found) == "<FamilySolutions: 5 solutions of 3 members>"

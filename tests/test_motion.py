@@ -443,3 +443,18 @@ def test_a_motion_of_one_unknown_and_no_equation_is_a_line() -> None:
     for joint in ("A", "C", "D"):
         steps = np.diff(table[joint])
         assert np.ptp(steps) < 1e-12 < abs(steps[0])
+
+
+@pytest.mark.parametrize("coupler_end", [(4, 4), (Fraction(44, 29), Fraction(-64, 29))])
+def test_the_motion_of_the_reference_is_the_first_circuit(coupler_end: tuple) -> None:
+    """A crank-rocker, assembled in both ways: crank 2, base 5, mirror images in the diagonal."""
+    pins = [(0, 0), (0, 2), coupler_end, (5, 0)]
+    joints = [
+        nag.Joint(f"j{i}", "revolute", (str(i), str((i + 1) % 4)), (*at, 0), (0, 0, 1))
+        for i, at in enumerate(pins)
+    ]
+    mechanism = nag.Mechanism("0", tuple(joints))
+    alone, every = (nag.motion(mechanism, circuit=w, samples=24) for w in ("reference", "all"))
+    assert (len(alone.circuits), len(every.circuits)) == (1, 2)
+    assert [c.through_reference for c in every.circuits] == [True, False]
+    assert alone.circuits[0] == every.circuits[0]

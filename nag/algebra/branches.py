@@ -15,6 +15,7 @@ from nag.algebra.branch_search import Search, State, TooManyBranches, product_of
 from nag.algebra.conjugate_factors import make_monic
 from nag.algebra.elimination import use_linear
 from nag.algebra.factoring import factor_into_irreducibles, ring
+from nag.algebra.imaginary_unit import as_real
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 
@@ -41,7 +42,7 @@ class Branch:
 
     def system(self, like: PolynomialSystem) -> PolynomialSystem:
         """The branch with the variables, conditions and groups of another system."""
-        return replace(like, polynomials=self.polynomials)
+        return replace(as_real(like), polynomials=self.polynomials)
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from nag.errors import NagError
 Terms = Mapping[Exponents, Number | complex]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Family:
     """Square systems that depend on parameters.
 

@@ -132,7 +132,7 @@ def system(
     check_type({} if parameters is None else parameters, Mapping, "parameters", advice)
     check_listed(groups, "groups", "a list of groups, each a list of variables")
     values = {
-        str(name): parameter(value, f"parameters[{str(name)!r}]")
+        str(name): exact_complex(value, f"parameters[{str(name)!r}]")
         for name, value in (parameters or {}).items()
     }
     occurring = [
@@ -158,8 +158,8 @@ def system(
     return adjoin_unit(read.names, *parts) if is_complex else PolynomialSystem(names, *parts)
 
 
-def parameter(value: Any, place: str) -> Number | ComplexNumber:
-    """The exact number that a parameter is, real or complex; ``I`` in a text is the unit.
+def exact_complex(value: Any, place: str) -> Number | ComplexNumber:
+    """The exact number that is given, real or complex; ``I`` in a text is the unit.
 
     Raises:
         ExpressionError: if it is none.
@@ -337,16 +337,22 @@ def variable_indices(
     return tuple(indices)
 
 
-def coordinates(point: Any, variables: Sequence[str]) -> tuple[Any, ...]:
-    """A point's coordinates: exact numbers where it has them, rounded ones as they are.
+def coordinates(
+    point: Any, variables: Sequence[str], imaginary: bool = False
+) -> tuple[Number | complex, ...]:
+    """A point's coordinates: exact numbers where they are real, others in doubles.
 
     Args:
         point: a number for each variable, in their order, or a mapping from names to numbers.
+        imaginary: whether the last variable is the imaginary unit, which need not be given.
 
     Raises:
         ValueError: if there are more or fewer than variables, or one is no finite number.
     """
-    n = len(variables)
+    n, is_text = len(variables), isinstance(point, str)
+    if imaginary and hasattr(point, "__len__") and len(point) == n - 1 and not is_text:
+        given = coordinates(point, variables[:-1])
+        return (*given, 1j)
     if isinstance(point, Mapping):
         places = variable_indices(point, variables, "point")
         missing = [name for i, name in enumerate(variables) if i not in places]
@@ -366,9 +372,12 @@ def coordinates(point: Any, variables: Sequence[str]) -> tuple[Any, ...]:
     return tuple(_coordinate(value, f"point[{i}]") for i, value in enumerate(values))
 
 
-def _coordinate(value: Any, place: str) -> Any:
+def _coordinate(value: Any, place: str) -> Number | complex:
     if not isinstance(value, Complex) or isinstance(value, Rational):
-        return exact_number(value, place)
+        exact = exact_complex(value, place)
+        if not isinstance(exact, ComplexNumber):
+            return exact
+        return complex(float(exact.real), float(exact.imaginary))
     if not isfinite(complex(value)):
         raise ExpressionError(f"{place}: {value} is no number; give a finite number")
     return value

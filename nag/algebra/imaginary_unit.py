@@ -111,6 +111,28 @@ def as_real(system: PolynomialSystem) -> PolynomialSystem:
     return replace(system, imaginary=False) if system.imaginary else system
 
 
+def real_and_imaginary_parts(system: PolynomialSystem) -> PolynomialSystem:
+    """The equations of the real zeros of equations with the imaginary unit, which is left out."""
+    n = system.n - 1
+    parts: list[Polynomial] = []
+    for f in system.polynomials[:-1]:
+        for power in range(2):
+            terms = {e[:-1]: c for e, c in reduce_unit(f).terms.items() if e[-1] == power}
+            if terms:
+                parts.append(Polynomial(n, terms))
+    groups = (tuple(i for i in group if i < n) for group in system.groups)
+    return PolynomialSystem(
+        system.variables[:-1], tuple(parts), (), tuple(group for group in groups if group)
+    )
+
+
+def append_unit(points: np.ndarray) -> np.ndarray:
+    """Points, shape ``(k, n)``, with i as one more coordinate."""
+    import numpy as np
+
+    return np.hstack([points, np.full((len(points), 1), 1j)])
+
+
 def has_unit(points: np.ndarray) -> np.ndarray:
     """Of points, shape ``(k, n)``, whether the last coordinate is i and not -i, shape ``(k,)``."""
     return points[:, -1].imag > 0

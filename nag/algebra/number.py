@@ -373,8 +373,10 @@ def _times_pi(factor: Fraction) -> Number:
     return _times(factor, PI)
 
 
-def number_text(value: Number) -> str:
-    """``value`` as text in the grammar of `nag.algebra.expression`."""
+def number_text(value: Number | complex) -> str:
+    """``value`` as text in the grammar of `nag.algebra.expression`; ``I`` is the imaginary unit."""
+    if isinstance(value, complex):
+        return f"{value.real:.17g} {'-' if value.imag < 0 else '+'} {abs(value.imag):.17g}*I"
     if not isinstance(value, Irrational):
         return str(value)
     if value.operation == "pi":

@@ -161,7 +161,7 @@ class PolynomialSystem:
         return html_table(f"PolynomialSystem of {system_line(self)}", rows, note)
 
 
-def values_text(names: Iterable[str], values: Iterable[Number]) -> str:
+def values_text(names: Iterable[str], values: Iterable[Number | complex]) -> str:
     """``x = 1/2, y = 3``."""
     return ", ".join(f"{n} = {number_text(x)}" for n, x in zip(names, values, strict=True))
 

@@ -15,8 +15,8 @@ from nag.cli.witness_input import (
     doubt_rows,
     is_export,
     numbered_row,
-    point_at,
     read_components,
+    real_point_at,
 )
 
 if TYPE_CHECKING:
@@ -169,7 +169,7 @@ def _through_point(
     if name in points:
         point = tuple(points[name])
     else:
-        whole = point_at(name, ambient.system.variables)
+        whole = real_point_at(name, ambient.system)
         point = tuple(whole[i] for i in ambient.kept)
         if any(f(point) != x for f, x in zip(ambient.images, whole, strict=True)):
             raise UsageError("--at: the point does not satisfy the equations")

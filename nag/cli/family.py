@@ -86,7 +86,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         write_document(
             _arrays(found, family.variables, family.parameters), options.points, "points"
         )
-    real = [len(found.real(k)) for k in range(len(found))]
+    real = found.real_counts.tolist()
     general = len(solved.points)
     rows = [
         ("members", str(len(found))),

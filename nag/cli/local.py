@@ -66,7 +66,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
 def chosen_points(
     options: argparse.Namespace, problem: Problem
-) -> Mapping[str, tuple[Number, ...]]:
+) -> Mapping[str, tuple[Number | complex, ...]]:
     """The points that the command line asks for, by name; all named ones if it names none.
 
     Raises:
@@ -75,11 +75,11 @@ def chosen_points(
     points: Points = {point.name: point.at for point in problem.points}
     if options.at is None and options.point is None and points:
         return points
-    return {options.point or "": chosen_point(options, problem.system.variables, points)}
+    return {options.point or "": chosen_point(options, problem.system, points)}
 
 
 def local_dimension_at(
-    system: PolynomialSystem, at: tuple[Number, ...], options: argparse.Namespace
+    system: PolynomialSystem, at: tuple[Number | complex, ...], options: argparse.Namespace
 ) -> LocalDimension:
     """The local dimension at a point, which may be a rounded one.
 
@@ -95,16 +95,17 @@ def local_dimension_at(
         raise UsageError(text) from None
 
 
-def _point_text(name: str, at: tuple[Number, ...], system: PolynomialSystem) -> str:
+def _point_text(name: str, at: tuple[Number | complex, ...], system: PolynomialSystem) -> str:
     from nag.algebra.system import values_text
 
-    values = values_text(system.variables, at)
+    own = system.n - system.imaginary
+    values = values_text(system.variables[:own], at[:own])
     return f"{name}: {values}" if name else values
 
 
 def _through(
     problem: Problem,
-    chosen: Mapping[str, tuple[Number, ...]],
+    chosen: Mapping[str, tuple[Number | complex, ...]],
     options: argparse.Namespace,
 ) -> dict[str, Any]:
     """For each point what the components through it say, beside a local dimension."""

@@ -40,12 +40,13 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     found = with_tested_traces(
         read_components(options, lambda *known: chosen_point(options, *known))
     )
-    variables = found.decomposition.system.variables
-    point = chosen_point(options, variables, found.points)
+    system = found.decomposition.system
+    variables = system.variables[: system.n - system.imaginary]
+    point = chosen_point(options, system, found.points)
     located = locate_point(found.decomposition, point, run=chosen_run(options))
-    fields = {"format": FORMAT, "variables": list(variables), **located.document()}
+    fields = {"format": FORMAT, "variables": list(system.variables), **located.document()}
     top = [
-        ("point", values_text(variables, point)),
+        ("point", values_text(variables, point[: len(variables)])),
         ("equations", _equations_text(located)),
         ("answer", _answer_text(located)),
     ]

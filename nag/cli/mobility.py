@@ -17,7 +17,7 @@ from nag.cli.arguments import (
     whole,
 )
 from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
-from nag.cli.witness_input import point_at
+from nag.cli.witness_input import real_point_at
 from nag.errors import NagError
 from nag.mechanism import BUDGET
 
@@ -103,7 +103,7 @@ def _tolerance(text: str) -> float:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """How a mechanism moves at a configuration."""
     case, problem = _read_moving(options)
-    at = None if options.at is None else point_at(options.at, problem.system.variables)
+    at = None if options.at is None else real_point_at(options.at, problem.system)
     others = iter(()) if problem is None or not options.check else _other_equations(problem, at)
     from nag.algebra.number import number_text
     from nag.mechanism.mobility_report import MobilityStatus

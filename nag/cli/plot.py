@@ -28,6 +28,7 @@ from nag.errors import ComponentError, NagError
 from nag.pictures.plot import DRAWN, KINDS, chosen_kind
 
 if TYPE_CHECKING:
+    from nag.algebra.system import PolynomialSystem
     from nag.pictures.plot import Picture
     from nag.text.table import Row
 
@@ -130,9 +131,9 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 def _of_components(options: argparse.Namespace, kind: str) -> CommandAnswer:
     from nag.pictures.plot import drawing_to, plot_curves, plot_tree, variables_onto
 
-    def check(variables: Any, points: Any) -> None:
+    def check(system: PolynomialSystem, _: Any) -> None:
         if kind == "onto":
-            variables_onto(options.onto, variables)
+            variables_onto(options.onto, system.variables)
 
     found = read_components(options, check)
     answer = found.decomposition

@@ -6,7 +6,7 @@ Components are numbered from 1 in the order of the export; of an orbit, each one
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,14 +19,16 @@ from nag.cli.arguments import (
     read_problem,
 )
 from nag.cli.running import chosen_run
+from nag.errors import NagError
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
+    from nag.algebra.system import PolynomialSystem
     from nag.witness.witness import Decomposition, WitnessSet
 
 ONE_POINT = "which point? give either the name of one of the case ('reference') or --at, not both"
 Points = Mapping[str, tuple["Number", ...]]
-Check = Callable[[Sequence[str], Points], object]
+Check = Callable[["PolynomialSystem", Points], object]
 
 
 @dataclass(frozen=True)
@@ -82,7 +84,7 @@ def read_components(options: argparse.Namespace, check: Check | None = None) -> 
     """The decomposition to work with; a case is decomposed now.
 
     Args:
-        check: called with the variables and the named points before a case is decomposed.
+        check: called with the system and the named points before a case is decomposed.
 
     Raises:
         nag.errors.InputError: if the file cannot be read.
@@ -99,7 +101,7 @@ def read_components(options: argparse.Namespace, check: Check | None = None) -> 
             raise UsageError(f"{options.case}: is an export; {option} is for cases")
         export = read_export(options.case)
         if check is not None:
-            check(export.decomposition.system.variables, {})
+            check(export.decomposition.system, {})
         origin = export.origin
         title = origin.title if origin else "a system built in memory"
         file = origin.file if origin else Path(options.case).name
@@ -108,7 +110,7 @@ def read_components(options: argparse.Namespace, check: Check | None = None) -> 
     case, problem = read_problem(options)
     points = {point.name: point.at for point in problem.points}
     if check is not None:
-        check(problem.system.variables, points)
+        check(problem.system, points)
     decomposition = problem.decompose(run=chosen_run(options))
     if options.progress is not None:
         options.progress.erase()
@@ -172,8 +174,8 @@ def add_point(parser: argparse.ArgumentParser, otherwise: str = "") -> None:
 
 
 def chosen_point(
-    options: argparse.Namespace, variables: Sequence[str], points: Points
-) -> tuple[Number, ...]:
+    options: argparse.Namespace, system: PolynomialSystem, points: Points
+) -> tuple[Number | complex, ...]:
     """The point that the options of `add_point` name or spell.
 
     Raises:
@@ -183,7 +185,7 @@ def chosen_point(
         return named_point(options.case, options.point, points)
     if options.point is not None:
         raise UsageError(ONE_POINT)
-    return point_at(options.at, variables)
+    return point_at(options.at, system)
 
 
 def named_point(file: str, name: str, points: Points) -> tuple[Number, ...]:
@@ -204,17 +206,31 @@ def named_point(file: str, name: str, points: Points) -> tuple[Number, ...]:
     return points[name]
 
 
-def point_at(text: str, variables: Sequence[str]) -> tuple[Number, ...]:
-    """The point that ``"x = 0, y = 1/2"`` spells, exact.
+def real_point_at(text: str, system: PolynomialSystem) -> tuple[Number, ...]:
+    """`point_at`, where all coordinates are to be real.
+
+    Raises:
+        UsageError: if one is not.
+    """
+    found = point_at(text, system)
+    numbers = tuple(x for x in found if not isinstance(x, complex))
+    if len(numbers) < len(found):
+        raise UsageError("--at: give real numbers")
+    return numbers
+
+
+def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...]:
+    """The point that ``"x = 0, y = 1 + 2*I"`` spells, exact where it is real.
 
     Raises:
         UsageError: if a variable is unknown, missing or given twice, or a value is no
             number.
     """
-    from nag.algebra.expression import parse_number
+    from nag.algebra.from_python import coordinates, exact_complex
     from nag.algebra.tokens import nearest, quote
 
-    values: dict[str, Number] = {}
+    variables = system.variables[: system.n - system.imaginary]
+    values: dict[str, str] = {}
     for part in text.split(","):
         name, equals, value = part.partition("=")
         name = name.strip()
@@ -227,14 +243,15 @@ def point_at(text: str, variables: Sequence[str]) -> tuple[Number, ...]:
         if name in values:
             raise UsageError(f"--at: {name} is given twice")
         try:
-            values[name] = parse_number(value)
-        except ValueError as error:
-            raise UsageError(f"--at: {name}: {error}") from None
+            exact_complex(value.strip(), name)
+        except NagError as error:
+            raise UsageError(f"--at: {error}") from None
+        values[name] = value.strip()
     missing = [name for name in variables if name not in values]
     if missing:
         more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
         raise UsageError(f"--at: no value for {missing[0]}{more}")
-    return tuple(values[name] for name in variables)
+    return coordinates(values, system.variables, system.imaginary)
 
 
 def numbered_row(number: int, component: WitnessSet) -> tuple[str, str]:

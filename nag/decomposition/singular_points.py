@@ -27,10 +27,11 @@ from nag.numerics.coincidence import SPREAD, coincident
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.natural_coordinates import NaturalCoordinates
-from nag.numerics.read_only import fixed_array, fixed_mapping
+from nag.numerics.read_only import equal_values, fixed_array, fixed_mapping
 from nag.numerics.tangent_cone import TangentCone, form_text, tangent_cone
 from nag.numerics.zero_values import all_vanish
 from nag.text.json_text import pairs
+from nag.text.table import lines_of, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.component_equations import (
@@ -68,9 +69,14 @@ class SingularSet:
     local: LocalDimension
     cone: TangentCone | None
 
+    __eq__ = equal_values
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", fixed_array(self.points))
         object.__setattr__(self, "multiplicities", fixed_mapping(self.multiplicities))
+
+    def __repr__(self) -> str:
+        return f"SingularSet(dimension={self.dimension}, degree={self.degree})"
 
     @property
     def essential(self) -> tuple[int, ...]:
@@ -130,6 +136,14 @@ class SingularLocus:
     complete: bool
     notes: tuple[str, ...]
     proved: tuple[int, ...] = ()
+
+    __eq__ = equal_values
+
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        rows = [row for row in self.rows(len(self.examined)) if row[0]]
+        return lines_of("SingularLocus", [*rows, *(("open", note) for note in self.notes)])
 
     @property
     def smooth(self) -> tuple[int, ...]:

@@ -7,12 +7,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.local_dimension import LocalDimension, exact_numbers
 from nag.witness.frame import expand_orbits
+from nag.witness.given_component import round_point
 from nag.witness.witness import Decomposition
 
 
@@ -35,22 +34,22 @@ class Through:
 
 def through_points(
     decomposition: Decomposition,
-    points: Sequence[tuple[str, tuple[Number, ...]]],
+    points: Sequence[tuple[str, tuple[Number | complex, ...]]],
     threads: int = 1,
 ) -> list[Through]:
     """Which components pass through named points of the system."""
     found, everything = [], expand_orbits(decomposition)
     for name, point in points:
-        at = np.array([complex(float(x)) for x in point])
-        known: dict[str, Any] = {"exact": point}
-        if not all(is_zero(value) for value in decomposition.system(point)):
+        at, exact = round_point(point), exact_numbers(point)
+        known: dict[str, Any] = {"exact": exact}
+        if exact is None or not all(is_zero(value) for value in decomposition.system(exact)):
             from nag.witness.membership import rounded_error
 
             known = {"accuracy": rounded_error(decomposition.system, at)}
             if known["accuracy"] is None:
                 found.append(Through(name, solution=False))
                 continue
-        if "exact" in known and _is_on_the_only_one(everything, point):
+        if "exact" in known and exact and _is_on_the_only_one(everything, exact):
             found.append(Through(name, True, (0,)))
             continue
         from nag.witness.membership import components_through
@@ -73,17 +72,19 @@ def through_points(
 
 def zero_at(
     system: PolynomialSystem, point: Sequence[Any], known: LocalDimension
-) -> tuple[Number, ...]:
+) -> tuple[Number | complex, ...]:
     """A point, or the zero next to it if it is a rounded one, which a local dimension is that of.
 
-    In doubles, as they are; where the zero is not known, or not real, the point itself.
+    In doubles, as they are; where the zero is not known, the point itself.
     """
     numbers = exact_numbers(point)
     if numbers is not None and all(is_zero(value) for value in system(numbers)):
         return numbers
     at = known.point
-    if not known.digits or at.imag.any():
-        at = np.array([complex(float(x)) if numbers else complex(x) for x in point])
+    if not known.digits or (numbers is not None and at.imag.any()):
+        at = round_point(point)
+    if at.imag.any():
+        return tuple(complex(x) for x in at)
     return tuple(Fraction(x) for x in at.real.tolist())
 
 

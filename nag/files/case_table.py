@@ -14,12 +14,11 @@ from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any, NoReturn
 
 from nag.algebra.bounded import Budget
 from nag.algebra.expression import parse_number
-from nag.algebra.from_python import parameter
+from nag.algebra.from_python import exact_complex
 from nag.algebra.given import check_type
 from nag.algebra.imaginary_unit import parse_parameter
 from nag.algebra.number import ComplexNumber, Irrational, Number, Surd
@@ -34,6 +33,7 @@ from nag.algebra.tokens import (
     quote,
 )
 from nag.errors import InputError
+from nag.numerics.read_only import FixedMapping
 
 ReadNumber = Callable[[Any], Number]
 
@@ -286,7 +286,7 @@ def read_parameters(
     for name in order:
         with table.at(name):
             values[name] = _parameter(table.values[name], values, budget, unit)
-    return MappingProxyType({name: values[name] for name in table.values})
+    return FixedMapping({name: values[name] for name in table.values})
 
 
 def _parameter(
@@ -311,7 +311,7 @@ def with_values(table: CaseTable, values: Mapping[str, Any]) -> CaseTable:
                 key_text(name), f"is no parameter of the case{nearest(name, table.values)}; {known}"
             )
     given = {
-        name: value if isinstance(value, str) else parameter(value, f"values[{name!r}]")
+        name: value if isinstance(value, str) else exact_complex(value, f"values[{name!r}]")
         for name, value in values.items()
     }
     return replace(table, values={**table.values, **given})

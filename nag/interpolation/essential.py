@@ -36,6 +36,7 @@ from nag.interpolation.vanishing import (
 from nag.numerics.digits import in_bits
 from nag.numerics.double_ranks import clearly_independent
 from nag.numerics.rational_relations import Echelon, TooFewDigitsError
+from nag.numerics.read_only import equal_values
 
 # Largest degree of a numerator that is looked at.
 MOST_DEGREE = 4
@@ -54,6 +55,8 @@ class VariableMap:
     variable: int
     numerator: Polynomial
     denominator: Polynomial
+
+    __eq__ = equal_values
 
     @property
     def polynomial(self) -> bool:

@@ -30,6 +30,7 @@ from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.surd import normal_sum
 from nag.interpolation.vanishing import InterpolationError, monomials_of_degree, primitive
+from nag.numerics.read_only import equal_values
 
 # Points beyond the number of monomials: so many more conditions, each of which a form that does not
 # vanish on the image meets with a probability of its degree over the prime.
@@ -124,6 +125,8 @@ class ImageForms:
     forms: tuple[Polynomial, ...]
     degree: int
     cuts: bool
+
+    __eq__ = equal_values
 
     @property
     def codimension(self) -> int:

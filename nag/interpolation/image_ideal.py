@@ -37,6 +37,7 @@ from nag.interpolation.vanishing import (
 )
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.rational_relations import rank_of_columns
+from nag.numerics.read_only import equal_values
 from nag.witness.witness import WitnessSet
 
 # Where no degree is asked for, no higher one is looked at.
@@ -96,6 +97,8 @@ class ImageIdeal:
     fresh: tuple[int, float]
     together: tuple[int, ...] = ()
     note: str = ""
+
+    __eq__ = equal_values
 
     @property
     def defines(self) -> bool:

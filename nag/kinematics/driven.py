@@ -33,6 +33,7 @@ from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.quaternion import conjugate, multiply
 from nag.numerics.double_ranks import NEARLY_SINGULAR
+from nag.numerics.read_only import equal_values
 from nag.real.real_pieces import find_real_points
 from nag.text.table import join_words
 from nag.tracking.run import Run
@@ -94,6 +95,8 @@ class DrivenAssembly:
     values: np.ndarray
     poses: Poses
     point: np.ndarray | None = None
+
+    __eq__ = equal_values
 
     def document(self) -> dict[str, Any]:
         """The assembly as a JSON object."""

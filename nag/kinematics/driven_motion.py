@@ -36,6 +36,7 @@ from nag.kinematics.motion import (
 from nag.kinematics.poses import Poses, pose_distances
 from nag.kinematics.scene import Scene, scene_of
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
+from nag.numerics.read_only import equal_values
 from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
@@ -73,6 +74,8 @@ class DrivenMotion:
     values: tuple[float, ...]
     motions: tuple[Motion, ...]
     continuations: tuple[Continuation, ...]
+
+    __eq__ = equal_values
 
     @property
     def complete(self) -> bool:

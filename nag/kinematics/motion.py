@@ -33,6 +33,7 @@ from nag.kinematics.walks import CurveWalk, points_of, walks_of
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.numerics.local_dimension import local_dimension
+from nag.numerics.read_only import equal_values
 from nag.real.curve import RealCurve
 from nag.text.table import count_text, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -116,6 +117,12 @@ class Circuit:
     poses: Poses
     values: Values
     crossings: tuple[Crossing, ...]
+
+    __eq__ = equal_values
+
+    def __repr__(self) -> str:
+        kind = "closed" if self.closed else "open"
+        return f"Circuit({self.number}, {kind}, length={self.length:.4g}, samples={len(self)})"
 
     @property
     def length(self) -> float:
@@ -211,6 +218,8 @@ class Motion:
     assemblies: tuple[DrivenAssembly, ...] = ()
     held: tuple[Drive, ...] = ()
     poses: tuple[Pose, ...] = ()
+
+    __eq__ = equal_values
 
     @property
     def complete(self) -> bool:
@@ -614,7 +623,7 @@ class _FoundCircuit:
 def _circuits(
     problem: Problem, scene: Scene, curves: Sequence[RealCurve], which: Which, samples: int
 ) -> list[_FoundCircuit]:
-    """All circuits, or those through the reference configuration, each motion once."""
+    """All circuits, or those through the reference configuration, which are the first ones."""
     reference = None
     if scene.from_reference and problem.reference is not None:
         reference = np.array([float(x) for x in problem.reference])
@@ -624,6 +633,7 @@ def _circuits(
         for walk in walks_of(real):
             begun = None if reference is None else _begin_at(curve, walk, reference)
             candidates.append((number, curve, begun or walk, begun is not None))
+    candidates.sort(key=lambda c: not c[3])
     if which == "reference":
         candidates = [c for c in candidates if c[3]]
     found: list[_FoundCircuit] = []

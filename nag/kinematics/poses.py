@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.mechanism.quaternion import conjugate, multiply, rotate
+from nag.numerics.read_only import equal_values
 
 
 def turn_product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -44,6 +45,8 @@ class Poses:
 
     turns: np.ndarray
     places: np.ndarray
+
+    __eq__ = equal_values
 
     def __post_init__(self) -> None:
         for array in (self.turns, self.places):

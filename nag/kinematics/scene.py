@@ -9,7 +9,8 @@ it, after that joint's turn.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from nag.mechanism.linkage import LinkageModel
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem
 from nag.mechanism.quaternion import translation
+from nag.numerics.read_only import equal_values
 
 IDENTITY = (1, 0, 0, 0)
 UP = (0, 0, 1)
@@ -51,6 +53,8 @@ class SceneJoint:
     frames: np.ndarray
     axis: np.ndarray | None
     second_axis: np.ndarray | None = None
+
+    __eq__ = equal_values
 
     def axis_in(self, end: int, second: bool = False) -> np.ndarray:
         """A direction of the joint in the frame of its first or second body."""
@@ -81,7 +85,9 @@ class Scene:
     from_reference: bool
     points: dict[str, tuple[int, np.ndarray]]
     variables: tuple[str, ...]
-    lift: Callable[[np.ndarray], Poses]
+    lift: Callable[[np.ndarray], Poses] = field(compare=False)
+
+    __eq__ = equal_values
 
     @property
     def centres(self) -> np.ndarray:
@@ -162,15 +168,6 @@ def _of_mechanism(made: Model) -> Scene:
             )
         )
 
-    def lift(points: np.ndarray) -> Poses:
-        placed: Configuration = made.form.lift(_columns(points))
-        count = len(points)
-        return Poses.of(
-            [_stack(placed.euler[b], count) for b in names],
-            [_stack(placed.position[b], count) for b in names],
-            count,
-        )
-
     normal = None
     if made.space == "planar":
         from nag.mechanism.axes import planar_normal
@@ -184,7 +181,18 @@ def _of_mechanism(made: Model) -> Scene:
         True,
         {},
         made.system.variables,
-        lift,
+        partial(_lift_mechanism, made),
+    )
+
+
+def _lift_mechanism(made: Model, points: np.ndarray) -> Poses:
+    names = made.mechanism.body_names
+    placed: Configuration = made.form.lift(_columns(points))
+    count = len(points)
+    return Poses.of(
+        [_stack(placed.euler[b], count) for b in names],
+        [_stack(placed.position[b], count) for b in names],
+        count,
     )
 
 
@@ -221,45 +229,48 @@ def _of_linkage(made: LinkageModel) -> Scene:
     links = made.linkage.links
     names = tuple(link.name for link in links)
     shapes = [_in_plane(link.shape) for link in links]
-    held, *moving = made.in_loops
-    index = {name: i for i, name in enumerate(names)}
-
-    def lift(points: np.ndarray) -> Poses:
-        count = len(points)
-        turns = {held.name: np.broadcast_to(IDENTITY, (count, 4))}
-        for i, link in enumerate(moving):
-            turns[link.name] = _planar_turns(points[:, 2 * i], points[:, 2 * i + 1])
-        places = {held.name: np.zeros((count, 3))}
-        pins: dict[str, np.ndarray] = {}
-        left = [link for link in links if link.name != held.name]
-        placed = held
-        while True:
-            own = index[placed.name]
-            for pin, local in zip(placed.pins, shapes[own], strict=True):
-                at = places[placed.name] + turn_vectors(turns[placed.name], local)
-                pins.setdefault(pin, at)
-            following = next((link for link in left if pins.keys() & set(link.pins)), None)
-            if following is None:
-                break
-            placed = following
-            left.remove(placed)
-            # Links that close nothing turn freely; they are shown unturned.
-            turns.setdefault(placed.name, np.broadcast_to(IDENTITY, (count, 4)))
-            pin = next(p for p in placed.pins if p in pins)
-            local = shapes[index[placed.name]][placed.pins.index(pin)]
-            places[placed.name] = pins[pin] - turn_vectors(turns[placed.name], local)
-        return Poses.of([turns[n] for n in names], [places[n] for n in names], count)
-
     return Scene(
         names,
-        index[made.linkage.ground],
+        names.index(made.linkage.ground),
         _pin_joints(names, [link.pins for link in links], shapes),
         np.array(UP),
         False,
         {},
         made.system.variables,
-        lift,
+        partial(_lift_linkage, made),
     )
+
+
+def _lift_linkage(made: LinkageModel, points: np.ndarray) -> Poses:
+    links = made.linkage.links
+    names = tuple(link.name for link in links)
+    shapes = [_in_plane(link.shape) for link in links]
+    held, *moving = made.in_loops
+    index = {name: i for i, name in enumerate(names)}
+    count = len(points)
+    turns = {held.name: np.broadcast_to(IDENTITY, (count, 4))}
+    for i, link in enumerate(moving):
+        turns[link.name] = _planar_turns(points[:, 2 * i], points[:, 2 * i + 1])
+    places = {held.name: np.zeros((count, 3))}
+    pins: dict[str, np.ndarray] = {}
+    left = [link for link in links if link.name != held.name]
+    placed = held
+    while True:
+        own = index[placed.name]
+        for pin, local in zip(placed.pins, shapes[own], strict=True):
+            at = places[placed.name] + turn_vectors(turns[placed.name], local)
+            pins.setdefault(pin, at)
+        following = next((link for link in left if pins.keys() & set(link.pins)), None)
+        if following is None:
+            break
+        placed = following
+        left.remove(placed)
+        # Links that close nothing turn freely; they are shown unturned.
+        turns.setdefault(placed.name, np.broadcast_to(IDENTITY, (count, 4)))
+        pin = next(p for p in placed.pins if p in pins)
+        local = shapes[index[placed.name]][placed.pins.index(pin)]
+        places[placed.name] = pins[pin] - turn_vectors(turns[placed.name], local)
+    return Poses.of([turns[n] for n in names], [places[n] for n in names], count)
 
 
 def _of_framework(made: FrameworkModel) -> Scene:
@@ -282,17 +293,6 @@ def _of_framework(made: FrameworkModel) -> Scene:
         p: (bodies.index(f"{a}-{b}"), k) for a, b in framework.bars for k, p in enumerate((a, b))
     }
 
-    def lift(points: np.ndarray) -> Poses:
-        at = made.places_at(_columns(points))
-        places = {name: _stack((*own, 0.0)[:3], len(points)) for name, own in at.items()}
-        turns, origins = [], []
-        for a, b in framework.bars:
-            along = places[b] - places[a]
-            origins.append(places[a])
-            turn = _planar_turns(along[:, 0], along[:, 1]) if planar else _turns_to(along)
-            turns.append(turn)
-        return Poses.of(turns, origins, len(points))
-
     held = set(made.pinned[:2])
     return Scene(
         bodies,
@@ -302,8 +302,21 @@ def _of_framework(made: FrameworkModel) -> Scene:
         False,
         {p: (bar, shapes[bar][k]) for p, (bar, k) in ends.items()},
         made.system.variables,
-        lift,
+        partial(_lift_framework, made),
     )
+
+
+def _lift_framework(made: FrameworkModel, points: np.ndarray) -> Poses:
+    planar = made.framework.dimension == PLANE
+    at = made.places_at(_columns(points))
+    places = {name: _stack((*own, 0.0)[:3], len(points)) for name, own in at.items()}
+    turns, origins = [], []
+    for a, b in made.framework.bars:
+        along = places[b] - places[a]
+        origins.append(places[a])
+        turn = _planar_turns(along[:, 0], along[:, 1]) if planar else _turns_to(along)
+        turns.append(turn)
+    return Poses.of(turns, origins, len(points))
 
 
 def _turns_to(vectors: np.ndarray) -> np.ndarray:
@@ -317,14 +330,20 @@ def _turns_to(vectors: np.ndarray) -> np.ndarray:
     return half / np.linalg.norm(half, axis=1, keepdims=True)
 
 
-def _of_table(made: DHModel | DHEulerModel) -> Scene:
-    rows = [made.loop.rows[i] for i in made.loop.open]
-    count = len(rows)
+def _link_transforms(made: DHModel | DHEulerModel) -> tuple[list[np.ndarray], list[np.ndarray]]:
+    """The links' rotations, and how far they carry."""
     rotations, places = [], []
     for link in made.loop.links:
         moved, size = translation(link)
         rotations.append(_unit(link[0]))
         places.append(_vector([x / size for x in moved]))
+    return rotations, places
+
+
+def _of_table(made: DHModel | DHEulerModel) -> Scene:
+    rows = [made.loop.rows[i] for i in made.loop.open]
+    count = len(rows)
+    rotations, places = _link_transforms(made)
     joints = []
     for i, row in enumerate(rows):
         before = (i - 1) % count
@@ -332,37 +351,49 @@ def _of_table(made: DHModel | DHEulerModel) -> Scene:
         frames = np.array([rotations[before], IDENTITY])
         joints.append(SceneJoint(row.name, "revolute", (before, i), points, frames, np.array(UP)))
 
-    def lift(points: np.ndarray) -> Poses:
-        k = len(points)
-        if isinstance(made, DHModel):
-            angles = made.turns(as_entries(_columns(points)), float)
-            halves = [angles[row.name] for row in rows]
-        else:
-            values = made.elimination.images
-            entries = as_entries(_columns(points))
-            flat = [image(entries, float) for image in values]
-            bodies = [_stack(flat[4 * i : 4 * i + 4], k) for i in range(count - 1)]
-            bodies.append(np.broadcast_to(IDENTITY, (k, 4)))
-            relative = [
-                turn_product(turn_back(turn_product(bodies[i - 1], rotations[i - 1])), bodies[i])
-                for i in range(count)
-            ]
-            halves = [(r[:, 0], r[:, 3]) for r in relative]
-        turns, origins = [], []
-        # The base is the last body, its frame the global one.
-        turn, origin = np.broadcast_to(IDENTITY, (k, 4)), np.zeros((k, 3))
-        for i, (c, s) in enumerate(halves):
-            origin = origin + turn_vectors(turn, places[i - 1])
-            turn = turn_product(turn_product(turn, rotations[i - 1]), _about_third(c, s, k))
-            turns.append(turn)
-            origins.append(origin)
-        return Poses.of([*turns[:-1], np.array(IDENTITY)], [*origins[:-1], np.zeros(3)], k)
-
     names = tuple(f"link{i + 1}" for i in made.loop.open)
-    return Scene(names, count - 1, tuple(joints), None, False, {}, made.system.variables, lift)
+    return Scene(
+        names,
+        count - 1,
+        tuple(joints),
+        None,
+        False,
+        {},
+        made.system.variables,
+        partial(_lift_table, made),
+    )
 
 
 def _about_third(c: Any, s: Any, count: int) -> np.ndarray:
     """Quaternions of turns about the third axis, from cosine and sine of half of them."""
     turn = _stack((c, 0.0, 0.0, s), count)
     return turn / np.linalg.norm(turn, axis=1, keepdims=True)
+
+
+def _lift_table(made: DHModel | DHEulerModel, points: np.ndarray) -> Poses:
+    rows = [made.loop.rows[i] for i in made.loop.open]
+    rotations, places = _link_transforms(made)
+    count, k = len(rows), len(points)
+    if isinstance(made, DHModel):
+        angles = made.turns(as_entries(_columns(points)), float)
+        halves = [angles[row.name] for row in rows]
+    else:
+        values = made.elimination.images
+        entries = as_entries(_columns(points))
+        flat = [image(entries, float) for image in values]
+        bodies = [_stack(flat[4 * i : 4 * i + 4], k) for i in range(count - 1)]
+        bodies.append(np.broadcast_to(IDENTITY, (k, 4)))
+        relative = [
+            turn_product(turn_back(turn_product(bodies[i - 1], rotations[i - 1])), bodies[i])
+            for i in range(count)
+        ]
+        halves = [(r[:, 0], r[:, 3]) for r in relative]
+    turns, origins = [], []
+    # The base is the last body, its frame the global one.
+    turn, origin = np.broadcast_to(IDENTITY, (k, 4)), np.zeros((k, 3))
+    for i, (c, s) in enumerate(halves):
+        origin = origin + turn_vectors(turn, places[i - 1])
+        turn = turn_product(turn_product(turn, rotations[i - 1]), _about_third(c, s, k))
+        turns.append(turn)
+        origins.append(origin)
+    return Poses.of([*turns[:-1], np.array(IDENTITY)], [*origins[:-1], np.zeros(3)], k)

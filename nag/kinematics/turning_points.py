@@ -8,6 +8,7 @@ import numpy as np
 
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values, unwrap_angles
 from nag.kinematics.path import Path, along_three
+from nag.numerics.read_only import equal_values
 
 # Decides: By how much a joint moves that never does: 1e-14 was seen; others moved by 1e-3 and more.
 STILL = 1e-9
@@ -53,6 +54,8 @@ class Values:
     ranges: np.ndarray
     turns: np.ndarray
     still: np.ndarray
+
+    __eq__ = equal_values
 
     def turns_fully(self, index: int) -> bool:
         """Whether an angle takes all values."""

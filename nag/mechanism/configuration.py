@@ -7,7 +7,6 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from types import MappingProxyType
 from typing import Any
 
 import flint
@@ -17,6 +16,7 @@ from nag.algebra.number import Number, square_root, to_mpf
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import conjugate, multiply, rotate
 from nag.numerics.digits import to_ball
+from nag.numerics.read_only import FixedMapping, fixed_mapping
 from nag.text.table import one_line
 
 
@@ -38,8 +38,8 @@ class Configuration:
     position: Mapping[str, tuple[Any, ...]]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "euler", MappingProxyType(dict(self.euler)))
-        object.__setattr__(self, "position", MappingProxyType(dict(self.position)))
+        object.__setattr__(self, "euler", fixed_mapping(self.euler))
+        object.__setattr__(self, "position", fixed_mapping(self.position))
 
     __repr__ = one_line
 
@@ -106,7 +106,7 @@ def configuration(
     structure: LoopStructure,
     euler: Mapping[str, Sequence[Any]],
     arithmetic: Arithmetic,
-    slides: Mapping[str, Sequence[Any]] = MappingProxyType({}),
+    slides: Mapping[str, Sequence[Any]] = FixedMapping({}),
 ) -> Configuration:
     """Place all bodies, given the orientations of those with loops.
 

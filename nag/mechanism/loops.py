@@ -11,11 +11,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 from typing import TypeVar
 
 from nag.mechanism.axes import space_of
 from nag.mechanism.graph import Body, Joint, Mechanism, check_mechanism
+from nag.numerics.read_only import fixed_mapping
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class RigidGroups:
     idle: tuple[Joint, ...] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "leader", MappingProxyType(dict(self.leader)))
+        object.__setattr__(self, "leader", fixed_mapping(self.leader))
 
     @property
     def is_one_body(self) -> bool:

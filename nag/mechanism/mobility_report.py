@@ -17,6 +17,7 @@ from nag.mechanism.bonds import Bonds
 from nag.mechanism.moving_parts import MovingParts
 from nag.mechanism.nearly_mobile import NearMotion
 from nag.numerics.local_dimension import LocalDimension
+from nag.numerics.read_only import equal_values
 from nag.text.table import LINE, count_text, html_table, shorten_text
 from nag.witness.witness import WitnessSet
 
@@ -135,6 +136,8 @@ class MobilityReport:
     near: NearMotion | None = None
     hint: str = ""
     blocked: bool = False
+
+    __eq__ = equal_values
 
     @property
     def local_dimension(self) -> int | None:

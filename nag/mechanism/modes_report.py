@@ -15,6 +15,7 @@ from nag.mechanism.inverse_kinematics import REACHED
 from nag.mechanism.leg_image import COORDINATES
 from nag.mechanism.motions import MotionType, ScrewSystem
 from nag.mechanism.platform import LegEquations, PlatformModel
+from nag.numerics.read_only import equal_values
 from nag.text.table import (
     Row,
     align,
@@ -84,6 +85,8 @@ class OperationMode:
     residuals: tuple[float, ...]
     limits: tuple[int, ...]
     real_residuals: tuple[float, ...]
+
+    __eq__ = equal_values
 
     @property
     def multiplicity(self) -> int:
@@ -202,6 +205,8 @@ class OperationModes:
     spurious: tuple[SpuriousComponent, ...]
     transitions: tuple[Transition, ...]
     notes: tuple[str, ...]
+
+    __eq__ = equal_values
 
     @property
     def complete(self) -> bool:

@@ -37,6 +37,7 @@ from nag.mechanism.leg_image import (
 from nag.mechanism.legs import Leg, ParallelRobot
 from nag.mechanism.loop_product import Element, displacement, factors_in
 from nag.mechanism.quaternion import dual_conjugate, dual_multiply
+from nag.numerics.read_only import equal_values
 
 # Forms of what is left of a leg that keeps joints.
 MOST_DEGREE_BESIDE_JOINTS = 2
@@ -60,6 +61,8 @@ class LegEquations:
     behind: tuple[Element, ...]
     image: ImageForms
     dimension: int
+
+    __eq__ = equal_values
 
     @property
     def kept(self) -> tuple[Element, ...]:
@@ -123,6 +126,8 @@ class PlatformModel:
     chart: tuple[Fraction, Fraction, Fraction]
     charts: Charts
     system: PolynomialSystem
+
+    __eq__ = equal_values
 
     @property
     def reference(self) -> tuple[Number, ...]:

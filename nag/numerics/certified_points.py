@@ -39,6 +39,7 @@ from nag.numerics.double_ranks import pivot_rows
 from nag.numerics.doubles import EPS, ROUNDED, SLACK
 from nag.numerics.krawczyk import Boxes, enter_box, find_overlaps, prove_boxes
 from nag.numerics.newton import newton_to_rest
+from nag.numerics.read_only import equal_values
 from nag.numerics.singular_point import Place, analyse
 from nag.text.json_text import pairs, real_or_null
 from nag.text.table import magnitude, printable
@@ -162,6 +163,8 @@ class CertifiedPoints:
     real: np.ndarray
     refuted: tuple[int, ...]
     multiplicities: np.ndarray
+
+    __eq__ = equal_values
 
     def having(self, *proofs: Proof) -> np.ndarray:
         """Indices of the points with one of these proofs."""

@@ -28,6 +28,7 @@ from nag.numerics.coincidence import neighbours
 from nag.numerics.digits import round_up
 from nag.numerics.discs import UP, DiscPolynomials, Discs, magnitude, matrix_product
 from nag.numerics.doubles import UNIT
+from nag.numerics.read_only import equal_values
 
 # A box that is not mapped into itself is enlarged so many times; how much each side exceeds that
 # of the image, and the side of a coordinate that is zero, relative to the largest.
@@ -57,6 +58,8 @@ class Boxes:
     inner: np.ndarray
     proved: np.ndarray
     fine: dict[int, FineBox]
+
+    __eq__ = equal_values
 
 
 def prove_boxes(

@@ -193,7 +193,7 @@ def local_dimension(
     check_type(system, PolynomialSystem, "system", "a nag.PolynomialSystem: nag.system(equations)")
     check_error(accuracy, "accuracy")
     check_whole(seed, "seed")
-    point = coordinates(point, system.variables)
+    point = coordinates(point, system.variables, system.imaginary)
     exact = exact_numbers(point)
     error: float | None = None
     if exact is not None and not accuracy:
@@ -224,7 +224,7 @@ def local_dimension_near(
     try:
         return local_dimension(system, point, seed=seed)
     except NoSolution as reason:
-        at = np.array([complex(float(x)) for x in point])
+        at = np.array([complex(float(x)) for x in coordinates(point, system.variables)])
         residual = float(Evaluator.of(system.polynomials, system.n).residuals(at[None]).max())
         if not residual < ROUGH:
             text = f"{reason}; its relative residual is {residual:.1e}"

@@ -28,7 +28,7 @@ from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.located_zero import exact_zero
 from nag.numerics.power_series import Series, SeriesRing
-from nag.numerics.read_only import fixed_mapping
+from nag.numerics.read_only import equal_values, fixed_mapping
 from nag.numerics.sharpening import ZERO
 
 # Orders beyond this are not looked at.
@@ -60,6 +60,8 @@ class TangentCone:
     forms: tuple[Form, ...]
     linear: tuple[Form, ...]
     dimension: int | None
+
+    __eq__ = equal_values
 
     def __post_init__(self) -> None:
         for name in ("forms", "linear"):

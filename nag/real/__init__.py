@@ -5,9 +5,9 @@ digits over all values of a linear form, from a circle of them), `critical_value
 them real points may meet), `closure` (the curve in a product of projective spaces, so that
 half-angles pass through infinity), `real_fibres` (vertices over special values, real points between
 them), `arc_tracing` (from one to the other), `even_points` (along arcs), `arcs` (what they make
-up), and `find_curve`, which puts all of it together and says what was not certain. `real_pieces`
-(whether a component of any dimension has real points) and `real_samples` (random ones) are on
-these.
+up), `real_equations` (where coefficients are complex, the equations of real points), and
+`find_curve`, which puts all of it together and says what was not certain. `real_pieces` (whether a
+component of any dimension has real points) and `real_samples` (random ones) are on these.
 
 Real curves inside complex surfaces, where these are singular or meet their conjugates, are not
 looked for.

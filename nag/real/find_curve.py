@@ -44,6 +44,7 @@ from nag.real.fibre_table import (
     fibre_table,
     sample_circle,
 )
+from nag.real.real_equations import find_real_equations, points_of_complex_curve
 from nag.real.real_fibres import SpecialFibre, infinite_fibre, real_fibre, special_fibre
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
@@ -72,7 +73,8 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
     """The complete real part of a one-dimensional component.
 
     Args:
-        component: one of the components of a `nag.Decomposition`.
+        component: one of the components of a `nag.Decomposition`. Where coefficients are complex,
+            the curve is one in the variables without the imaginary unit.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Returns:
@@ -92,6 +94,8 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
     if component.dimension != 1:
         raise NagError(f"component: it has dimension {component.dimension}; a curve has 1")
     given = component._known_system()
+    if given.imaginary:
+        return _of_complex_equations(component, run)
     natural = coordinates_of(given)
     system = natural.system(given)
     component = carry_component(component, natural, system)
@@ -112,6 +116,13 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
             if level == len(DIGITS):
                 break
     return RealCurve(given.variables, turns_of(given), (), (), (), PictureVerdict.UNDECIDED, reason)
+
+
+def _of_complex_equations(component: WitnessSet, run: Run) -> RealCurve:
+    equations = find_real_equations(component, run)
+    if equations.inside and equations.inside[0].dimension:
+        return find_real_curve(equations.inside[0], run=run)
+    return points_of_complex_curve(equations)
 
 
 def _equations(

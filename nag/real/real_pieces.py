@@ -26,6 +26,7 @@ from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
 from nag.real.curve import RealCurve
 from nag.real.find_curve import RealCurveError, find_real_curve
+from nag.real.real_equations import find_real_equations, real_points_of
 from nag.solving.solve import solve
 from nag.text.table import lines_of, one_line, point_text
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -107,7 +108,8 @@ def find_real_points(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealPi
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Returns:
-        The points, whether there are any, and what that rests on.
+        The points, whether there are any, and what that rests on. Where coefficients are complex,
+        they have no coordinate for the imaginary unit.
 
     Raises:
         nag.ComponentError: if the witness points are no regular zeros of equations that cut it.
@@ -122,21 +124,39 @@ def find_real_points(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealPi
     """
     if component.dimension == 0:
         return _of_finite_set(component)
+    if component._known_system().imaginary:
+        return _of_complex_equations(component, run)
     if component.dimension == 1:
         return _of_curve(component, run)
     return _of_larger_set(component, run)
 
 
 def _of_finite_set(component: WitnessSet) -> RealPieces:
-    off, radii = np.abs(component.points.imag), component.radii
-    real = (off <= radii).all(axis=1)
-    if real.any():
+    points = real_points_of(component)
+    if len(points):
         reason = "points that are not away from their conjugates by more than their errors"
-        points = component.points[real].real
         return RealPieces(points, (0,) * len(points), Reality.FOUND, True, reason)
-    nothing = np.zeros((0, component.points.shape[1]))
     reason = "all points are away from their conjugates by more than their errors"
-    return RealPieces(nothing, (), Reality.NONE, True, reason)
+    return RealPieces(points, (), Reality.NONE, True, reason)
+
+
+def _of_complex_equations(component: WitnessSet, run: Run) -> RealPieces:
+    """Real points of a set of larger dimension than zero, where coefficients are complex."""
+    equations = find_real_equations(component, run)
+    found = [find_real_points(c, run=run) for c in equations.inside]
+    beside = [find_real_points(c, run=run).reality for c in equations.beside]
+    doubts = [equations.doubt] if equations.doubt else []
+    if any(reality is not Reality.NONE for reality in beside):
+        doubts.append("real points may be missing at which it meets other real zeros")
+    doubts += [f.reason for f in found if not f.each_piece]
+    reason = "; ".join(doubts) or "real and imaginary parts of the equations"
+    known = [f for f in found if len(f)]
+    if known:
+        points = np.vstack([f.points for f in known])
+        dimensions = tuple(d for f in known for d in f.dimensions)
+        return RealPieces(points, dimensions, Reality.FOUND, not doubts, reason)
+    nothing = np.zeros((0, len(equations.variables)))
+    return RealPieces(nothing, (), Reality.NONE_FOUND if doubts else Reality.NONE, True, reason)
 
 
 def _of_curve(component: WitnessSet, run: Run) -> RealPieces:

@@ -6,8 +6,11 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_whole
+from nag.algebra.imaginary_unit import append_unit
+from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
 from nag.real.find_curve import find_real_curve
+from nag.real.real_equations import find_real_equations
 from nag.real.real_pieces import Reality, find_real_points
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import EPS
@@ -43,7 +46,8 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Returns:
-        The points, of which the imaginary parts are zero.
+        The points, of which the imaginary parts are zero, but of the imaginary unit where
+        coefficients are complex.
 
     Raises:
         NoRealPointsError: if there are none.
@@ -52,6 +56,8 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
     check_whole(count, "count")
     rng = run.random(14)
     system = component._known_system()
+    if component.dimension and system.imaginary:
+        return _of_complex_equations(component, count, rng, run)
     if component.dimension == 1:
         points = _of_curve(component, count, rng, run)
     else:
@@ -63,9 +69,30 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
             points = points[rng.integers(len(points), size=count)]
         else:
             points = _near(component, points, count, rng, run)
-    evaluator = Evaluator.of(system.polynomials, system.n)
-    residual = float(evaluator.residuals(points + 0j).max(initial=0.0))
-    return Samples(points + 0j, residual, max(residual, EPS))
+    return _samples(system, points)
+
+
+def _samples(system: PolynomialSystem, points: np.ndarray) -> Samples:
+    points = append_unit(points) if system.imaginary else points + 0j
+    residual = float(Evaluator.of(system.polynomials, system.n).residuals(points).max(initial=0.0))
+    return Samples(points, residual, max(residual, EPS))
+
+
+def _of_complex_equations(
+    component: WitnessSet, count: int, rng: np.random.Generator, run: Run
+) -> Samples:
+    """Points of the largest sets of zeros of the equations' real parts that lie on a component."""
+    system = component._known_system()
+    found = find_real_points(component, run=run)
+    if found.reality is not Reality.FOUND:
+        raise _why_none(found.reality, found.reason)
+    largest = max(found.dimensions)
+    if largest <= 0:
+        points = found.points[rng.integers(len(found.points), size=count)]
+        return _samples(system, points)
+    inside = find_real_equations(component, run).inside
+    chosen = next(c for c in inside if c.dimension == largest)
+    return _samples(system, sample_real(chosen, count, run=run).points.real)
 
 
 def _of_curve(component: WitnessSet, count: int, rng: np.random.Generator, run: Run) -> np.ndarray:

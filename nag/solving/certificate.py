@@ -34,6 +34,7 @@ from nag.numerics.point_claims import (
     find_nonvanishing,
     zero_digits,
 )
+from nag.numerics.read_only import equal_values
 from nag.solving.solution_claims import claims_of_solutions
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.start.multihomogeneous import best_groups
@@ -74,6 +75,8 @@ class SolutionsCertificate:
     solutions_left_out: np.ndarray
     bound: int | None
     bound_name: str
+
+    __eq__ = equal_values
 
     @cached_property
     def simple(self) -> int:

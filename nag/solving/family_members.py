@@ -21,9 +21,11 @@ from nag.algebra.family import Family
 from nag.algebra.from_python import system
 from nag.errors import NagError, StartError
 from nag.numerics.coincidence import radii_of_balls
+from nag.numerics.read_only import equal_values
 from nag.solving.member_lines import MemberLines
 from nag.solving.parameter import Solved, solve_generic, solve_targets
 from nag.solving.start.family_monodromy import random_values
+from nag.text.table import count_text, data_frame, lines_of, one_line
 from nag.tracking import blocks
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -51,7 +53,8 @@ class FamilySolutions:
             that is not known.
         errors: estimated relative errors of the points, shape ``(M, S)``; inf where there is none.
         one_by_one: members that were solved by themselves, shape ``(M,)``.
-        complete: members all of whose isolated solutions are here, shape ``(M,)``.
+        complete: members all of whose isolated solutions are here, shape ``(M,)``; one may have
+            curves of solutions besides.
     """
 
     start: Solved
@@ -62,8 +65,68 @@ class FamilySolutions:
     one_by_one: np.ndarray
     complete: np.ndarray
 
+    __eq__ = equal_values
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Names of the unknowns."""
+        return self.start.family.variables
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+        return self.start.family.parameters
+
     def __len__(self) -> int:
         return len(self.values)
+
+    def __iter__(self) -> Iterator[np.ndarray]:
+        """The solutions of each member, as `at` has them."""
+        return map(self.at, range(len(self)))
+
+    def __getitem__(self, member: int) -> np.ndarray:
+        return self.at(range(len(self))[member])
+
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        all_known = int(self.complete.sum())
+        rows = [
+            ("answer", f"{count_text(int(self.counts.sum()), 'solution')} of {len(self)} members"),
+            ("complete", f"{all_known} of {count_text(len(self), 'member')}"),
+        ]
+        if self.one_by_one.any():
+            rows.append(("by themselves", count_text(int(self.one_by_one.sum()), "member")))
+        title = f"FamilySolutions of {', '.join(self.variables)} by {', '.join(self.parameters)}"
+        return lines_of(title, rows)
+
+    def to_dataframe(self) -> Any:
+        """A row for each solution: its member, from 0, parameters, coordinates, and whether real.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        members, places = np.nonzero(self.status <= PathStatus.SINGULAR)
+        columns: dict[str, Any] = {"member": members}
+        columns |= dict(zip(self.parameters, self.values[members].T, strict=True))
+        columns |= dict(zip(self.variables, self.points[members, places].T, strict=True))
+        columns["real"] = self._is_real(slice(None))[members, places]
+        columns["error"] = self.errors[members, places]
+        return data_frame(columns)
+
+    @property
+    def real_counts(self) -> np.ndarray:
+        """Numbers of distinct real solutions, shape ``(M,)``."""
+        return self._is_real(slice(None)).sum(axis=1)
+
+    def _is_real(self, members: slice) -> np.ndarray:
+        """Which points of some members are real to within their errors, shape ``(k, S)``."""
+        points, status = self.points[members], self.status[members]
+        flat = points.reshape(-1, points.shape[-1])
+        with np.errstate(invalid="ignore"):
+            off = np.linalg.norm(flat.imag, axis=1)
+            real = off <= radii_of_balls(flat, self.errors[members].reshape(-1))
+        return np.asarray(real.reshape(status.shape) & (status <= PathStatus.SINGULAR))
 
     @property
     def counts(self) -> np.ndarray:
@@ -76,10 +139,8 @@ class FamilySolutions:
 
     def real(self, member: int) -> np.ndarray:
         """The real ones among them, to within their errors, shape ``(count, n)``."""
-        found = self.status[member] <= PathStatus.SINGULAR
-        points = self.points[member, found]
-        radii = radii_of_balls(points, self.errors[member, found])
-        return points.real[np.linalg.norm(points.imag, axis=1) <= radii]
+        member = range(len(self))[member]
+        return self.points[member, self._is_real(slice(member, member + 1))[0]].real
 
 
 @takes_run
@@ -99,7 +160,8 @@ def solve_family(
     Args:
         equations: as many as there are unknowns, as for `nag.system`.
         parameters: names of the parameters, or sympy's symbols.
-        values: those of each member, real or complex, shape ``(M, k)``: the doubles that they are.
+        values: those of each member, real or complex: an array, shape ``(M, k)``, in the order of
+            ``parameters``, or columns by their names: a DataFrame or a mapping.
         variables: names of the unknowns, in order; by default all other names that occur.
         start: how the family is solved for random parameters, as for
             `nag.solving.parameter.solve_generic`: a start system, or ``"parameter"``, by loops.
@@ -159,6 +221,8 @@ def check_values(family: Family, values: Any) -> np.ndarray:
         NagError: if they are no finite numbers, or not as many as parameters.
     """
     k = len(family.parameters)
+    if hasattr(values, "keys"):
+        values = _columns_by_name(family.parameters, values)
     try:
         array = np.asarray(values, dtype=np.complex128)
     except (TypeError, ValueError):
@@ -172,6 +236,27 @@ def check_values(family: Family, values: Any) -> np.ndarray:
     if len(wrong):
         raise NagError(f"values: those of member {wrong[0] + 1} are not all finite")
     return array
+
+
+def _columns_by_name(parameters: Sequence[str], table: Any) -> np.ndarray:
+    """The columns of a table, in the order of the parameters.
+
+    Raises:
+        NagError: if one is missing, or is of no parameter.
+    """
+    names = [str(name) for name in table.keys()]  # noqa: SIM118, of a DataFrame the columns
+    for name in parameters:
+        if names.count(name) != 1:
+            raise NagError(f"values: {names.count(name)} columns have the name {name!r}; give one")
+    for name in names:
+        if name not in parameters:
+            raise NagError(
+                f"values: column {name!r} is no parameter; they are {', '.join(parameters)}"
+            )
+    columns = {str(name): np.asarray(table[name]) for name in table.keys()}  # noqa: SIM118
+    if len({column.shape for column in columns.values()}) != 1:
+        raise NagError("values: the columns have different lengths")
+    return np.stack([columns[name] for name in parameters], axis=-1)
 
 
 def _solve_from_known(

@@ -18,6 +18,7 @@ from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import Completeness, judge_number
 from nag.errors import StartError
+from nag.numerics.read_only import equal_values
 from nag.numerics.system_facts import SystemFacts
 from nag.solving.certificate import bound_of_zeros
 from nag.solving.parameter_line import parameter_line
@@ -61,6 +62,8 @@ class Solved:
     complete: bool
     detail: str = ""
     classes: SolvedClasses | None = None
+
+    __eq__ = equal_values
 
 
 @takes_run

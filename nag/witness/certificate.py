@@ -42,6 +42,7 @@ from nag.numerics.point_claims import (
     find_nonvanishing,
     is_away,
 )
+from nag.numerics.read_only import equal_values
 from nag.witness.component_claims import claims_of_components
 from nag.witness.frame import image
 from nag.witness.moving import witness_at
@@ -76,6 +77,8 @@ class ComponentCertificate:
     distinct: bool
     moved: CertifiedPoints | None
     images: tuple[CertifiedPoints | None, ...] = ()
+
+    __eq__ = equal_values
 
     @property
     def all_proved(self) -> bool:
@@ -117,6 +120,8 @@ class DecompositionCertificate:
     bounds: dict[int, int]
     most: int
     surfaces: int | None
+
+    __eq__ = equal_values
 
     @property
     def all_proved(self) -> bool:

@@ -9,6 +9,7 @@ import numpy as np
 
 from nag.algebra.branches import Branch, branches
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.imaginary_unit import as_real
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.natural_coordinates import scale_coordinates
@@ -72,7 +73,7 @@ def _cut(
         parts = [part for part in parts if all_vanish(part.polynomials, point) is not False]
     if len(parts) > 1:
         together = dict.fromkeys(f for part in parts for f in part.polynomials)
-        parts.append(replace(system, polynomials=tuple(together)))
+        parts.append(replace(as_real(system), polynomials=tuple(together)))
     for part in (*parts, system):
         for deflate in dict.fromkeys((False, component.multiplicity != 1)):
             if part is system and deflate != (component.multiplicity != 1):

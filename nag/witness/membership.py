@@ -23,8 +23,10 @@ from nag.numerics.digits import BITS, bits_of, doubles, in_bits, to_ball
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.newton import newton_step
+from nag.numerics.read_only import equal_values
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import LEAST, NONZERO, ON
+from nag.text.table import lines_of, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.close_points import BASIN, DIGITS, PointInWords, distance, with_newton_constant
@@ -51,18 +53,30 @@ class PointMembership:
     """Which components of a decomposition a point lies on.
 
     Attributes:
-        point: exact.
-        exact: whether it satisfies the equations exactly.
+        point: exact where all coordinates are real.
+        exact: whether it is exact and satisfies the equations exactly.
         residual: largest relative residual of the equations there.
         components: all of them, none for a whole orbit.
         answers: one for each.
     """
 
-    point: tuple[Number, ...]
+    point: tuple[Number | complex, ...]
     exact: bool
     residual: float
     components: tuple[WitnessSet, ...]
     answers: tuple[Membership, ...]
+
+    __eq__ = equal_values
+
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        on = [str(i) for i, a in enumerate(self.answers, 1) if a is Membership.MEMBER]
+        text = f"on component{'s' * (len(on) > 1)} {', '.join(on)}" if on else "on no component"
+        if self.open:
+            text += f"; not known for {', '.join(map(str, self.open))}"
+        point = ", ".join(map(number_text, self.point))
+        return lines_of("PointMembership", [("answer", text), ("point", f"({point})")])
 
     @property
     def on(self) -> tuple[WitnessSet, ...]:
@@ -381,20 +395,22 @@ def memberships(
 
 
 def locate_point(
-    decomposition: Decomposition, point: Sequence[Number], *, run: Run
+    decomposition: Decomposition, point: Sequence[Number | complex], *, run: Run
 ) -> PointMembership:
-    """Which components of a decomposition an exact point lies on.
+    """Which components of a decomposition a point lies on.
 
-    One that satisfies the equations to `ON` only is taken for a rounded one.
+    One that satisfies the equations to `ON` only is taken for a rounded one, and so is a complex
+    one.
 
     Args:
         decomposition: with every component of each orbit.
-        point: exact, in the system's variables.
+        point: in the system's variables; exact where all coordinates are real.
         run: how it is worked out.
     """
     system, components = decomposition.system, decomposition.components
-    exact = all(is_zero(value) for value in system(point))
-    at = np.array([complex(float(value)) for value in point])
+    known = [x for x in point if not isinstance(x, complex)]
+    exact = len(known) == len(point) and all(is_zero(value) for value in system(known))
+    at = round_point(point)
     evaluator = Evaluator.of(system.polynomials, system.n)
     residual = float(evaluator.residuals(at[None]).max(initial=0.0))
     answers = (Membership.FOREIGN,) * len(components)
@@ -403,7 +419,7 @@ def locate_point(
             decomposition,
             at,
             accuracy=ROUNDED if exact else max(LEAST, 10 * residual),
-            exact=tuple(point) if exact else (),
+            exact=known if exact else (),
             run=run,
         )
     return PointMembership(tuple(point), exact, residual, components, answers)
@@ -678,7 +694,7 @@ def is_on_component(
     run: Run,
 ) -> bool:
     """Whether a point lies on a component, see `WitnessSet.contains`."""
-    entries = coordinates(point, system.variables)
+    entries = coordinates(point, system.variables, system.imaginary)
     exact = all(isinstance(e, Number) for e in entries)
     at = round_point(entries)
     if exact:

@@ -123,6 +123,8 @@ def real_points_near(
     """
     check_component(system, component)
     check_whole(starts, "starts", 1)
+    if system.imaginary:
+        raise NagError("component: its equations have complex coefficients; use find_real_points")
     near = _real_vector(near, system.n)
     rng = run.random(8)
     # Distances are those in the units that are given.

@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 
 from nag.algebra.bounded import Budget, Value
 from nag.algebra.expression import parse_polynomial
-from nag.algebra.from_python import parameter
+from nag.algebra.from_python import exact_complex
 from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, values_with_unit
 from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.polynomial import Polynomial
@@ -216,7 +216,7 @@ def _given_value(
     """The number that was given for a parameter, as text in the file's names or as it is."""
     if isinstance(value, str):
         return parse_parameter(value, units, known, budget)
-    return parameter(value, "the value")
+    return exact_complex(value, "the value")
 
 
 def free_parameters(source: SourceFile, given: GivenSystem, names: Sequence[str]) -> GivenSystem:

@@ -1,0 +1,93 @@
+"""Real points where coefficients are complex: those of the equations' real and imaginary parts.
+
+Where ``g + i h`` vanishes at a real point, so do g and h, whose coefficients are real. Of their
+components some lie on a component C of the complex equations: C itself if it is its own conjugate,
+else sets of less dimension. Its other real points lie where it meets the others of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.imaginary_unit import append_unit, real_and_imaginary_parts
+from nag.decomposition.decompose import decompose
+from nag.numerics.doubles import EPS
+from nag.real.curve import PictureVerdict, PieceKind, RealCurve, RealPiece, RealVertex, VertexKind
+from nag.tracking.run import Run
+from nag.witness.frame import expand_orbits
+from nag.witness.membership import Membership, membership_in
+from nag.witness.witness import WitnessSet
+
+
+@dataclass(frozen=True)
+class RealEquations:
+    """What the real and imaginary parts of equations say of the real points of a component.
+
+    Attributes:
+        variables: names, without the imaginary unit.
+        inside: components of the parts that lie on the component, the largest first.
+        beside: others, no points, that may meet it.
+        doubt: what is not known; empty where all are.
+    """
+
+    variables: tuple[str, ...]
+    inside: tuple[WitnessSet, ...]
+    beside: tuple[WitnessSet, ...]
+    doubt: str = ""
+
+
+def find_real_equations(component: WitnessSet, run: Run) -> RealEquations:
+    """The components of the real and imaginary parts of a component's complex equations."""
+    system = component._known_system()
+    parts = real_and_imaginary_parts(system)
+    found = decompose(parts, run=run)
+    doubts = [] if found.complete else [f"real and imaginary parts: {'; '.join(found.notes)}"]
+    inside, beside = [], []
+    for each in sorted(expand_orbits(found).components, key=lambda c: -c.dimension):
+        if each.dimension > component.dimension:
+            beside.append(each)
+            continue
+        point, error = append_unit(each.points[:1])[0], max(float(each.errors[0]), EPS)
+        answer = membership_in(system, component, point, error, run)
+        if answer is Membership.MEMBER:
+            inside.append(each)
+        elif answer is Membership.UNDECIDED:
+            doubts.append("not known whether one of their components lies on it")
+        elif each.dimension:
+            beside.append(each)
+    return RealEquations(parts.variables, tuple(inside), tuple(beside), "; ".join(doubts))
+
+
+def points_of_complex_curve(equations: RealEquations) -> RealCurve:
+    """The real points of a curve that is not its own conjugate: finitely many."""
+    points = [c for c in equations.inside if c.dimension == 0]
+    found = [x for c in points for x in real_points_of(c)]
+    pieces = (RealPiece(PieceKind.POINT, (), (k,)) for k in range(len(found)))
+    doubt = equations.doubt or (
+        "points at which it meets a larger set of zeros of the equations' real parts may be missing"
+        if equations.beside
+        else ""
+    )
+    return RealCurve(
+        equations.variables,
+        (),
+        tuple(RealVertex(VertexKind.ISOLATED, x) for x in found),
+        (),
+        tuple(pieces),
+        PictureVerdict.UNDECIDED if doubt else PictureVerdict.COMPLETE,
+        doubt,
+    )
+
+
+def real_points_of(component: WitnessSet) -> np.ndarray:
+    """The points of a finite set that are not away from their conjugates, shape ``(k, n)``.
+
+    Of complex equations without the coordinate that is the imaginary unit.
+    """
+    own = component.points.shape[1]
+    if component.system is not None and component.system.imaginary:
+        own -= 1
+    off, radii = np.abs(component.points.imag[:, :own]), component.radii[:, :own]
+    return component.points[(off <= radii).all(axis=1), :own].real

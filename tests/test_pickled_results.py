@@ -1,0 +1,61 @@
+"""What users get is equal to itself after a pickle, and prints as one line."""
+
+from __future__ import annotations
+
+import pickle
+from functools import cache
+from typing import Any
+
+import pytest
+
+import nag
+
+BENNETT = "cases/bennett.toml"
+
+
+@cache
+def found() -> nag.Decomposition:
+    return nag.decompose("(x^2 + y^2 - 1)*(x - y)")
+
+
+@cache
+def solved() -> nag.SolveResult:
+    return nag.solve(["x^2 - 2", "y^2 - x"])
+
+
+RESULTS = {
+    "decompose": found,
+    "component": lambda: found().components[0],
+    "member": lambda: nag.member(found(), [0, 1]),
+    "sample": lambda: nag.sample(found()),
+    "singular": lambda: nag.singular(found()),
+    "intersect": lambda: nag.intersect(found(), 1, 2),
+    "eliminate": lambda: nag.eliminate(["y - x^2", "z - x^3"], "y, z"),
+    "certified components": lambda: nag.certify(found()),
+    "certified points": lambda: nag.certify(solved()),
+    "solve": solved,
+    "family": lambda: nag.solve_family(["x^2 = a"], ["a"], [[1], [2]]),
+    "local": lambda: nag.local("x^2 - y^3", [0, 0]),
+    "real points": lambda: nag.find_real_points(found().components[0]),
+    "real curve": lambda: nag.find_real_curve(found().components[0]),
+    "mobility": lambda: nag.mobility(BENNETT),
+    "motion": lambda: nag.motion(BENNETT),
+    "motion of a linkage": lambda: nag.motion("cases/planar/four-bar.toml"),
+    "circuit": lambda: nag.motion(BENNETT).circuits[0],
+    "driven motion": lambda: nag.driven_motion(BENNETT, "J0", [0.1, 0.2]),
+    "modes": lambda: nag.modes("cases/robots/3-rps.toml"),
+    "case": lambda: nag.read(BENNETT),
+    "model": lambda: nag.model(BENNETT),
+}
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_results_are_equal_to_themselves_after_a_pickle(name: str) -> None:
+    result: Any = RESULTS[name]()
+    assert pickle.loads(pickle.dumps(result)) == result
+
+
+@pytest.mark.parametrize("name", sorted(RESULTS.keys() - {"case"}))
+def test_results_are_one_line_at_the_prompt(name: str) -> None:
+    text = repr(RESULTS[name]())
+    assert len(text) <= 100 and "\n" not in text
