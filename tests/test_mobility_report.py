@@ -303,7 +303,8 @@ def test_a_bounded_degree_is_a_complete_answer_and_the_same_on_any_machine(
         jsonschema.validate(document, schema("nag-mobility"))
         answers.append(document)
     assert answers[0] == answers[1] and answers[0]["complete"] and answers[0]["budget"] == 0
-    assert answers[0]["components"] == [{"dimension": 1, "degree": None}]
+    reduced = {"dimension": 1, "degree": None, "multiplicity": 1}
+    assert answers[0]["components"] == [reduced]
     assert answers[0]["degree_at_least"] == 1
     assert "degree 1 at least" in capsys.readouterr().out
 
@@ -317,13 +318,20 @@ def test_what_was_asked_is_said_first_and_then_what_it_rests_on(capsys) -> None:
     assert {line[12] == " " for line in lines[2:]} == {False}
 
 
-def test_what_is_known_before_the_components_is_told_meanwhile(
-    monkeypatch: pytest.MonkeyPatch,
+def test_what_is_known_before_the_components_is_printed_before_they_are_looked_for(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    told: list[str] = []
-    monkeypatch.setattr(ProgressLine, "__call__", lambda self, stage, *_: told.append(stage))
+    printed: dict[str, str] = {}
+
+    def tell(_: ProgressLine, stage: str, *__: int) -> None:
+        printed[stage] = printed.get(stage, "") + capsys.readouterr().out
+
+    monkeypatch.setattr(ProgressLine, "__call__", tell)
     assert main(["mobility", str(CASES / "bennett.toml")]) == 0
-    assert "components; tangent dimension 1, local dimension 1" in told
+    early = "".join(printed.values())
+    assert "local       tangent dimension 1, local dimension 1" in early
+    assert early.count("mobility    overconstrained") == 1 and "components" not in early
+    assert capsys.readouterr().out.startswith("components  1 through the configuration")
 
 
 def stretched_robot() -> nag.Mechanism:
@@ -355,3 +363,18 @@ def test_where_motions_of_a_robot_meet_and_its_legs_are_regular_its_modes_are_th
     assert max(found.components)[0] == found.local_dimension
     assert found.status == "at a crossing of components"
     assert "by the platform's poses" in dict(found.rows())["components"]
+
+
+def test_components_that_are_nowhere_reduced_are_told_with_their_multiplicity() -> None:
+    """Six equal parallel rods: the platform's circles have tangents of one dimension more."""
+    places = [(0, 0), (3, 0), (4, 2), (2, 5), (-1, 3), (1, 1)]
+    joints = [
+        nag.Joint(f"{end}{i}", "spherical", pair, (x, y, z), None)
+        for i, (x, y) in enumerate(places)
+        for end, pair, z in (("A", ("base", f"rod{i}"), 0), ("B", (f"rod{i}", "plate"), 5))
+    ]
+    report = nag.mobility(nag.Mechanism("base", tuple(joints)), of="plate")
+    assert (report.tangent_dimension, report.local_dimension) == (9, 8)
+    assert (report.components, report.multiplicities) == (((8, 2),), (2,))
+    assert "all configurations near by are singular" in report.sentence
+    assert "degree 2, multiplicity 2" in str(report)

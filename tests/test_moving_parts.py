@@ -15,6 +15,7 @@ from nag.cli import main
 from nag.errors import MechanismError
 from nag.files.cases import read_case
 from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.motions import ScrewSystem
 from nag.mechanism.moving_parts import MovingParts, find_moving_parts
 
 X, Y, Z = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
@@ -39,11 +40,11 @@ def joint(name: str, kind: str, bodies: tuple[str, str], point: tuple, axis: tup
     ("name", "dimension", "freedoms"),
     [
         ("robots/3-rrr-planar", 3, "planar motion"),
-        ("robots/3-rrr-spherical", 3, "turns about a point"),
-        ("robots/tripteron", 3, "translations"),
-        ("robots/3-upu-tsai", 3, "translations"),
-        ("robots/quadrupteron", 4, "translations and turns of one direction"),
-        ("robots/hexapod", None, "all"),
+        ("robots/3-rrr-spherical", 3, "spherical motion"),
+        ("robots/tripteron", 3, "translation"),
+        ("robots/3-upu-tsai", 3, "translation"),
+        ("robots/quadrupteron", 4, "translation and rotation (Schoenflies)"),
+        ("robots/hexapod", None, "all displacements"),
     ],
 )
 def test_freedoms_of_a_platform_are_those_that_the_robot_was_built_for(
@@ -52,7 +53,7 @@ def test_freedoms_of_a_platform_are_those_that_the_robot_was_built_for(
     if dimension is None:
         dimension = nag.mobility(mechanism(name), detail="local").local_dimension
     found = parts(name, dimension, "platform").body
-    assert found is not None and found.kind == freedoms
+    assert found is not None and found.motion.group == freedoms
 
 
 def test_rods_between_balls_are_idle_and_the_rest_is_not() -> None:
@@ -87,7 +88,7 @@ def test_joints_that_never_move_are_locked_and_their_bodies_rigid_together() -> 
     made = Mechanism("base", (*turns, slide, last))
     found = find_moving_parts(made, 1, np.random.default_rng(0), None, "end")
     assert found.locked == ("S",) and found.together == (("right", "end"),)
-    assert found.body is not None and found.body.kind == "a turn"
+    assert found.body is not None and found.body.motion.group == "rotation"
 
 
 @settings(max_examples=10, deadline=None)
@@ -96,10 +97,10 @@ def test_what_moves_does_not_depend_on_where_it_is_looked_at(seed: int) -> None:
     one, other = parts("robots/3-rps", 3, "platform"), parts("robots/3-rps", 3, "platform", seed)
     assert (one.idle, one.locked, one.together) == (other.idle, other.locked, other.together)
     assert one.body is not None and other.body is not None
-    kinds = [
-        (b.screws.rank, b.screws.turning, len(b.screws.pitches)) for b in (one.body, other.body)
-    ]
-    assert kinds[0] == kinds[1] == (3, 2, 1)
+    assert one.body == other.body
+    assert (one.body.motion.rank, one.body.motion.turning) == (3, 2)
+    # At the reference the platform is level: two axes in it, and a translation across.
+    assert one.body.screws == ScrewSystem(3, 2, (0.0, 0.0))
 
 
 def test_what_hangs_on_a_joint_turns_about_it_and_is_not_idle() -> None:
@@ -138,9 +139,9 @@ def test_a_door_on_two_hinges_is_not_idle(kind: str) -> None:
 def test_the_report_names_the_body_that_is_asked_for_first(capsys) -> None:
     report = nag.mobility(mechanism("robots/tripteron"), of="platform", detail="local")
     assert report.sentence.startswith(
-        "platform: 3 freedoms, translations; the mechanism moves with "
+        "platform: 3 freedoms, translation; the mechanism moves with "
     )
-    assert report.document()["moving"]["of"]["kind"] == "translations"
+    assert report.document()["moving"]["of"]["kind"] == "translation"
     with pytest.raises(MechanismError, match="of: 'nobody' is no body; they are B0, B1"):
         nag.mobility(mechanism("bennett"), of="nobody")
     assert main(["mobility", str(CASES / "bennett.toml"), "--of", "nobody", "--quiet"]) == 2
@@ -154,7 +155,7 @@ def test_a_part_of_a_mechanism_elsewhere_is_described_there() -> None:
     there = find_moving_parts(made, 3, np.random.default_rng(5), None, "platform").body
     report = nag.mobility(made, model.reference, of="platform", detail="local")
     assert report.moving is not None and report.moving.body is not None
-    assert there is not None and report.moving.body.kind == there.kind
+    assert there is not None and report.moving.body.motion == there.motion
 
 
 @pytest.mark.parametrize(
@@ -173,3 +174,70 @@ def test_what_is_asked_for_and_not_found_is_said(
     (label,) = (option.removeprefix("--") for option in options if option.startswith("--"))
     (row,) = [line for line in capsys.readouterr().out.splitlines() if line.startswith(label)]
     assert said in row
+
+
+def crank(name: str, bodies: tuple[str, str], point: tuple) -> Joint:
+    return joint(name, "revolute", bodies, point, Z)
+
+
+def slide(name: str, bodies: tuple[str, str], axis: tuple) -> Joint:
+    return joint(name, "prismatic", bodies, (0, 0, 0), axis)
+
+
+def ball(name: str, bodies: tuple[str, str], point: tuple) -> Joint:
+    return joint(name, "spherical", bodies, point, Z)
+
+
+@pytest.mark.parametrize(
+    "joints",
+    [
+        (
+            crank("A", ("base", "crank"), (0, 0, 0)),
+            ball("B", ("crank", "tube"), (1, 0, 0)),
+            slide("C", ("tube", "rod"), (2, 2, 1)),
+            ball("D", ("rod", "rocker"), (3, 2, 1)),
+            joint("E", "revolute", ("rocker", "base"), (3, 0, 1), X),
+        ),
+        (
+            slide("A", ("base", "sledge"), (1, 2, 2)),
+            ball("B", ("sledge", "tube"), (1, 0, 0)),
+            slide("C", ("tube", "rod"), (2, 2, 1)),
+            ball("D", ("rod", "base"), (3, 2, 1)),
+        ),
+    ],
+)
+def test_a_telescope_between_two_balls_turns_idly(joints: tuple[Joint, ...]) -> None:
+    report = nag.mobility(Mechanism("base", joints), detail="local")
+    assert report.moving is not None
+    assert [(e.bodies, e.count, e.turns) for e in report.moving.idle] == [
+        (("tube", "rod"), 1, True)
+    ]
+    assert "tube with rod turn" in report.sentence
+
+
+def test_no_part_of_a_ring_of_five_bars_is_idle() -> None:
+    corners = [(0, 0, 0), (0, 2, 0), (1, 4, 0), (4, 3, 0), (5, 0, 0)]
+    names = ("base", "a", "b", "c", "d")
+    turns = [crank(f"T{i}", (names[i], names[(i + 1) % 5]), corners[i]) for i in range(5)]
+    found = find_moving_parts(Mechanism("base", tuple(turns)), 2, np.random.default_rng(0))
+    assert not found.idle and not found.hanging and not found.locked
+
+
+def test_single_turns_that_never_move_are_named() -> None:
+    corners = [(0, 0, 0), (0, 2, 0), (3, 3, 0), (4, 0, 0)]
+    names = ("base", "left", "top", "right")
+    turns = [crank(f"T{i}", (names[i], names[(i + 1) % 4]), corners[i]) for i in range(3)]
+    cross = Joint("U", "universal", ("right", "base"), corners[3], Z, X)
+    found = find_moving_parts(Mechanism("base", (*turns, cross)), 1, np.random.default_rng(0))
+    assert found.locked == ("U.second",)
+    assert ("locked", "U.second: never moving") in found.rows()
+
+
+def test_a_body_s_motion_is_told_where_it_is() -> None:
+    axes = [(1, 0, 0), (0, 1, 0), (2, 3, 6)]
+    joints = [
+        joint(f"R{i}", "revolute", (f"b{i}", f"b{i + 1}"), (5, -7, 11), axis)
+        for i, axis in enumerate(axes)
+    ]
+    report = nag.mobility(Mechanism("b0", tuple(joints)), of="b3")
+    assert "b3: 3 freedoms, spherical motion about the point (5, -7, 11)" in report.sentence

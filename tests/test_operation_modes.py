@@ -649,3 +649,31 @@ def test_what_is_not_found_is_said_only_of_modes_without_a_real_pose_that_is_kno
         other = replace(mode, through_reference=through, real_residuals=nowhere)
         ((_, text),) = replace(found, modes=(other,)).mode_rows()
         assert ("no real pose" in text) == said
+
+
+@pytest.mark.parametrize("seed", [1, 5])
+def test_real_poses_of_modes_are_found_where_most_are_beyond_reach(seed: int) -> None:
+    """4-PRRR+R, upright and turned over: seeds for which no pose taken at random is reached."""
+    ends = (
+        (X, (2, 5, 4), (2, 3, 6), (2, 1, 1)),
+        (Y, (4, 2, 5), (6, 2, 3), (1, 2, 1)),
+        (X, (-3, -4, 3), (-3, -2, 5), (-3, 1, 1)),
+        (Y, (-5, -2, 4), (-3, -2, 6), (1, -2, 1)),
+    )
+    joints = []
+    for i, (axis, *points) in enumerate(ends):
+        bodies = ("base", *(f"{part}{i}" for part in "abcd"), "platform")
+        joints.append(Joint(f"P{i}", "prismatic", bodies[:2], None, axis))
+        pairs = zip(points, bodies[1:4], bodies[2:5], strict=True)
+        joints += [
+            Joint(f"R{i}{k}", "revolute", (one, other), at, axis)
+            for k, (at, one, other) in enumerate(pairs)
+        ]
+        joints.append(Joint(f"U{i}", "revolute", bodies[4:], points[-1], Z))
+    found = nag.modes(Mechanism("base", tuple(joints)), seed=seed)
+    assert [(m.dimension, m.through_reference) for m in found.moving] == [(4, True), (4, False)]
+    over = found.moving[1]
+    assert over.really_reached and max(over.real_residuals) < REACHED
+    # The pose is on the mode: it turns over, and is a displacement.
+    assert np.abs(over.real_pose[[0, 3]]).max() < 1e-8
+    assert abs(over.real_pose[:4] @ over.real_pose[4:]) < 1e-8

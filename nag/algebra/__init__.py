@@ -10,5 +10,5 @@ data), with `flint_numbers` (FLINT's rationals); `tokens`, `bounded`, `expressio
 `consequences`), `algebraic_zeros` (with `bivariate`), `zero_count` and `generic_multiplicity` (what
 exact algebra decides before any path is tracked); `groebner`, `smoothness` and `multipliers`
 (ideals); `rational_function` and `interpolation`; `family`, `rational_map` and `symmetric_family`
-(systems with parameters).
+(systems with parameters). `fixed_mapping` holds what results map names to.
 """

@@ -16,7 +16,7 @@ from nag.cli.arguments import (
     read_given_case,
     whole,
 )
-from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
+from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case, say_first
 from nag.cli.witness_input import real_point_at
 from nag.errors import NagError
 from nag.mechanism import BUDGET
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from nag.mechanism.problem import Problem
 
 FORMAT = "nag-mobility"
+# Labels are as wide as the widest from the first line on.
+WIDTH = len("components")
 MOST_SECONDS = 3600
 
 
@@ -109,9 +111,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.mechanism.mobility_report import MobilityStatus
 
     for report in _reports(options, problem or case, at):
-        if options.progress is not None:
-            # What is known already, for whoever ends the work before the rest is.
-            options.progress(f"components; {report.local_text}", 0, 0)
+        say_first(options, name_case(case), report.early_rows(), WIDTH)
     rows = [*report.rows(), *_unsaid_rows(options, report)]
     complete = options.of is None or report.moving is not None or report.local_dimension == 0
     complete &= report.status is not MobilityStatus.UNDECIDED and not report.open
@@ -138,7 +138,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         "check": compared,
     }
     said = f"budget {options.budget} s" if _is_limited(options, report) else ""
-    return answer_of(options, name_case(case), (), rows, fields, complete, said=said)
+    return answer_of(options, name_case(case), (), rows, fields, complete, said=said, width=WIDTH)
 
 
 def _unsaid_rows(options: argparse.Namespace, report: MobilityReport) -> Iterator[tuple[str, str]]:
@@ -147,17 +147,22 @@ def _unsaid_rows(options: argparse.Namespace, report: MobilityReport) -> Iterato
         if report.local_dimension == 0:
             yield "of", f"{options.of}: no freedom, it stands still"
         else:
-            smooth = report.local is None or report.local.smooth
-            why = (
-                "what moves is not clear in doubles" if smooth else "the configuration is singular"
-            )
-            yield "of", f"{options.of}: not known: {why}"
+            yield "of", f"{options.of}: not known: {_why_unclear(report)}"
     if options.tolerance is not None and report.near is None:
         yield (
             "tolerance",
             "not looked at: that is for the reference configuration of a mechanism that is rigid "
             "as it is given",
         )
+
+
+def _why_unclear(report: MobilityReport) -> str:
+    """Why it is not known what moves."""
+    if report.local is None or report.local.smooth:
+        return "what moves is not clear in doubles"
+    if report.never_reduced:
+        return "all configurations near by are singular"
+    return "the configuration is singular; give one near by with --at"
 
 
 def _beside_known(report: MobilityReport, case: Case) -> tuple[str, bool, dict[str, Any]] | None:

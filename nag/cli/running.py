@@ -81,7 +81,31 @@ def answer_of(
     head = document_head(fields["format"], case)
     document = head | chosen | {"complete": complete} | fields
     lines = sheet(case[0], *blocks, [*tail, run_row(options, rests_on, said)], width=width)
+    if lines[: len(options.said)] == options.said:
+        lines = lines[len(options.said) :]
     return CommandAnswer(lines, complete, lambda: document)
+
+
+def say_first(
+    options: argparse.Namespace, case: tuple[str, str], rows: Sequence[Row], width: int
+) -> None:
+    """Print the first lines of an answer as soon as they are known; they are not printed again.
+
+    Args:
+        rows: of an answer of labelled texts without blocks.
+        width: of labels, the same as of the whole answer.
+    """
+    from nag.text.table import sheet
+
+    lines = sheet(case[0], list(rows), width=width)
+    if lines[: len(options.said)] != options.said:
+        return
+    if options.progress is not None:
+        options.progress.erase()
+    options.write(lines[len(options.said) :])
+    options.said = lines
+    if options.progress is not None:
+        options.progress(WORKING, 0, 0)
 
 
 def document_head(name: str, case: tuple[str, str] | None) -> dict[str, Any]:
@@ -116,6 +140,7 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
     if getattr(options, "json", None) == STANDARD_OUTPUT:
         # The document is all that is written there.
         write = _write_nothing
+    options.write, options.said = write, list[str]()
     with show_progress(options) as options.progress, shared_work(options):
         answer = options.module.run(options)
     tell = getattr(options, "tell", None)

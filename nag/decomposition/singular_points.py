@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.fixed_mapping import fixed_mapping
 from nag.algebra.given import check_listed
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import IntersectionError, Operand
@@ -27,7 +28,7 @@ from nag.numerics.coincidence import SPREAD, coincident
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.natural_coordinates import NaturalCoordinates
-from nag.numerics.read_only import equal_values, fixed_array, fixed_mapping
+from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.tangent_cone import TangentCone, form_text, tangent_cone
 from nag.numerics.zero_values import all_vanish
 from nag.text.json_text import pairs

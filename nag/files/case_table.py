@@ -18,6 +18,7 @@ from typing import Any, NoReturn
 
 from nag.algebra.bounded import Budget
 from nag.algebra.expression import parse_number
+from nag.algebra.fixed_mapping import FixedMapping
 from nag.algebra.from_python import exact_complex
 from nag.algebra.given import check_type
 from nag.algebra.imaginary_unit import parse_parameter
@@ -33,7 +34,6 @@ from nag.algebra.tokens import (
     quote,
 )
 from nag.errors import InputError
-from nag.numerics.read_only import FixedMapping
 
 ReadNumber = Callable[[Any], Number]
 

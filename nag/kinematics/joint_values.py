@@ -9,7 +9,7 @@ import numpy as np
 
 from nag.kinematics.poses import Poses, turn_back, turn_product, turn_vectors
 from nag.kinematics.scene import Scene, SceneJoint
-from nag.mechanism.joint_types import JOINT_TYPES
+from nag.mechanism.joint_types import COORDINATES, JOINT_TYPES
 
 
 @dataclass(frozen=True)
@@ -32,20 +32,9 @@ def joint_coordinates(scene: Scene) -> tuple[Coordinate, ...]:
     return tuple(
         Coordinate(f"{joint.name}.{part}" if len(parts) > 1 else joint.name, joint.name, kind)
         for joint in scene.joints
-        for parts in [_PARTS[JOINT_TYPES[joint.type].factors]]
+        for parts in [COORDINATES[JOINT_TYPES[joint.type].factors]]
         for part, kind in parts
     )
-
-
-_PARTS: dict[tuple[str, ...], tuple[tuple[str, Literal["angle", "slide"]], ...]] = {
-    (): (),
-    ("turn",): (("angle", "angle"),),
-    ("slide",): (("slide", "slide"),),
-    ("turn", "slide"): (("angle", "angle"), ("slide", "slide")),
-    ("turn", "turn"): (("first", "angle"), ("second", "angle")),
-    ("ball",): (),
-    ("plane",): (("angle", "angle"), ("x", "slide"), ("y", "slide")),
-}
 
 
 def joint_values(scene: Scene, poses: Poses) -> np.ndarray:
@@ -70,7 +59,7 @@ def unwrap_angles(coordinates: tuple[Coordinate, ...], values: np.ndarray) -> np
 
 def _values(joint: SceneJoint, poses: Poses) -> list[np.ndarray]:
     factors = JOINT_TYPES[joint.type].factors
-    if not _PARTS[factors]:
+    if not COORDINATES[factors]:
         return []
     first, second = joint.bodies
     before = turn_product(poses.turns[first], joint.frames[0])

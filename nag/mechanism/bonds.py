@@ -23,6 +23,7 @@ from typing import Any
 import flint
 import numpy as np
 
+from nag.algebra.fixed_mapping import fixed_mapping
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError, NagError
@@ -32,7 +33,6 @@ from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
 from nag.numerics.digits import bits_of, in_bits, to_ball
 from nag.numerics.precise_point import POINT_DIGITS
-from nag.numerics.read_only import fixed_mapping
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.component_equations import component_fibres
 from nag.witness.confirm import zero_in_digits

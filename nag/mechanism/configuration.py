@@ -12,11 +12,11 @@ from typing import Any
 import flint
 import numpy as np
 
+from nag.algebra.fixed_mapping import FixedMapping, fixed_mapping
 from nag.algebra.number import Number, square_root, to_mpf
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import conjugate, multiply, rotate
 from nag.numerics.digits import to_ball
-from nag.numerics.read_only import FixedMapping, fixed_mapping
 from nag.text.table import one_line
 
 

@@ -20,6 +20,7 @@ from types import MappingProxyType
 from typing import Any
 
 from nag.algebra.combinations import of_fewest_variables
+from nag.algebra.fixed_mapping import fixed_mapping
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -55,7 +56,6 @@ from nag.mechanism.quaternion import (
     norm_squared,
     scale,
 )
-from nag.numerics.read_only import fixed_mapping
 
 # Dimension of what two joints, or one of three freedoms, range over.
 WIDE = 4

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from nag.algebra.fixed_mapping import fixed_mapping
 from nag.algebra.number import Number, square_root
 from nag.errors import MechanismError
 from nag.mechanism.axes import cross, dot, space_of
@@ -22,7 +23,6 @@ from nag.mechanism.loops import loop_structure
 from nag.mechanism.model import Model, check_loops
 from nag.mechanism.path_estimates import ModelError, path_bound
 from nag.mechanism.quaternion import DualQuaternion, dual_multiply, multiply
-from nag.numerics.read_only import fixed_mapping
 from nag.text.table import count_text
 
 # By the factors of a joint: its freedoms' names, as `nag.kinematics.joint_values` has them, and

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from nag.algebra.evaluation import Evaluator
 from nag.mechanism.loop_product import Element
 from nag.numerics.zero_values import NONZERO
 
@@ -104,6 +105,91 @@ def reach_poses(
             if len(places):
                 _approach(own, targets, places, residuals, rng, real)
     return best
+
+
+def find_reached_pose(
+    chains: Sequence[Sequence[Element]],
+    basis: np.ndarray,
+    forms: Evaluator,
+    pose: np.ndarray,
+    origin: np.ndarray,
+    length: float,
+    rng: np.random.Generator,
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """A real pose that all chains reach with real joint coordinates, of those that equations allow.
+
+    Pose and joint coordinates are sought together: a pose of random size is mostly beyond reach.
+
+    Args:
+        chains, origin, length: as for `reach_poses`.
+        basis: of the linear space that poses are in, shape ``(m, 8)``.
+        forms: of Study coordinates, zero where poses are allowed.
+        pose: where poses are looked for from, shape ``(8,)``.
+
+    Returns:
+        The pose's Study coordinates, shape ``(8,)``, and the residuals of the chains; None if none
+        is found.
+    """
+    scale = np.array([1.0] * 4 + [1.0 / length] * 4)
+    back = shift_origin(conjugate_pose(basis), origin) * scale
+    legs = [[shift_origin(g, origin) * scale for g in map(_generators, own)] for own in chains]
+    one = np.eye(8)[:1]
+    first = np.linalg.lstsq(basis.T, pose, rcond=None)[0]
+    for _ in range(STARTS):
+        weights = [[_unit(_random(rng, (1, len(g)), True)) for g in own] for own in legs]
+        own = _unit(first[None])
+        for _ in range(STEPS):
+            # A leg's displacement, and the pose's back, are to be none together.
+            found = [
+                _across_poses([*generators, back], [*joints, own], one)
+                for generators, joints in zip(legs, weights, strict=True)
+            ]
+            residuals = np.array([size[0] for size, _, _ in found])
+            study = own[0] @ basis
+            values = forms.values(study[None] + 0j)[0].real
+            if max(residuals.max(), np.abs(values).max(initial=0.0)) < REACHED / 10:
+                regular = all(map(_are_displacements, legs, weights))
+                return (study, residuals) if regular and _is_pose(study, length) else None
+            own, weights = _step_together(weights, own, basis, found, values, forms)
+    return None
+
+
+def _is_pose(study: np.ndarray, length: float) -> bool:
+    """Whether the real part is not zero beside the other one."""
+    scaled = study * np.array([1.0] * 4 + [1.0 / length] * 4)
+    return bool(np.linalg.norm(scaled[:4]) > LEAST_SHARE * np.linalg.norm(scaled))
+
+
+def _step_together(
+    weights: Sequence[Sequence[np.ndarray]],
+    own: np.ndarray,
+    basis: np.ndarray,
+    found: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray]],
+    values: np.ndarray,
+    forms: Evaluator,
+) -> tuple[np.ndarray, list[list[np.ndarray]]]:
+    """A step of the pose's coordinates and of all joints', see `_step`."""
+    m, sizes = len(basis), [sum(w.shape[1] for w in each) for each in weights]
+    total = 8 * len(weights) + len(values)
+    derivative, rest = np.zeros((1, total, sum(sizes) + m)), np.zeros((1, total))
+    place = 0
+    for k, (size, (_, across, slopes)) in enumerate(zip(sizes, found, strict=True)):
+        rows = slice(8 * k, 8 * k + 8)
+        rest[0, rows] = across[0]
+        derivative[0, rows, place : place + size] = slopes[0, :, :size]
+        derivative[0, rows, sum(sizes) :] = slopes[0, :, size:]
+        place += size
+    if len(values):
+        rest[0, 8 * len(weights) :] = values
+        slopes = forms.jacobian(own[0] @ basis + 0j).real @ basis.T
+        derivative[0, 8 * len(weights) :, sum(sizes) :] = slopes
+    moved = _step([w for each in weights for w in each] + [own], rest, derivative)
+    *joints, own = moved
+    together, taken = [], 0
+    for each in weights:
+        together.append(joints[taken : taken + len(each)])
+        taken += len(each)
+    return own, together
 
 
 def find_joints(

@@ -20,8 +20,10 @@ A factor of a kind that is not there yet is a new entry of `FACTOR_KINDS`, and h
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import Literal
 
 from nag.errors import NagError
 
@@ -205,6 +207,21 @@ JOINT_TYPES = MappingProxyType(
         "planar": JointType(("axis",), ("point",), 0, 2, 1, ("plane",), "E"),
         "rigid": JointType((), LINE, 1, 3, 0, ()),
     }
+)
+
+# Of the joints of such factors the coordinates that have values: their names, and what they are.
+COORDINATES: Mapping[tuple[str, ...], tuple[tuple[str, Literal["angle", "slide"]], ...]] = (
+    MappingProxyType(
+        {
+            (): (),
+            ("turn",): (("angle", "angle"),),
+            ("slide",): (("slide", "slide"),),
+            ("turn", "slide"): (("angle", "angle"), ("slide", "slide")),
+            ("turn", "turn"): (("first", "angle"), ("second", "angle")),
+            ("ball",): (),
+            ("plane",): (("angle", "angle"), ("x", "slide"), ("y", "slide")),
+        }
+    )
 )
 
 # Other names in use (PT13 has "translational").

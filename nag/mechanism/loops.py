@@ -13,9 +13,9 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
+from nag.algebra.fixed_mapping import fixed_mapping
 from nag.mechanism.axes import space_of
 from nag.mechanism.graph import Body, Joint, Mechanism, check_mechanism
-from nag.numerics.read_only import fixed_mapping
 
 
 @dataclass(frozen=True)

@@ -251,6 +251,7 @@ def _with_product(first: MobilityReport, problem: Problem, curve: FibreProduct) 
     return replace(
         first,
         components=((1 + problem.free, curve.degree),),
+        multiplicities=(1,),
         curves=(CurveOfMotion(curve.degree, curve.genus, None),),
         rests_on=why,
     )
@@ -378,6 +379,7 @@ def _with_components(
         open=doubt,
         curves=tuple(_curve(problem, c, run) for c in curves),
         rests_on="" if known is None else ALL_COMPONENTS,
+        multiplicities=tuple(c.multiplicity for c in through or ()),
     )
 
 
@@ -417,19 +419,23 @@ def _with_only_component(
     local = first.local
     whole = (local.lower + problem.free,)
     if not local.lower:
-        return replace(first, components=((*whole, 1),), rests_on=SMOOTH)
+        return replace(first, components=((*whole, 1),), multiplicities=(1,), rests_on=SMOOTH)
     # Multidegrees are not asked for.
     system = replace(problem.system, groups=())
     grown = grow_component(system, local.point, local.lower, seconds=budget, run=run)
     paths = f"by loops of {count_text(grown.paths.tracked, 'path')} from there"
     if grown.degree is not None:
         return replace(
-            first, components=((*whole, grown.degree),), rests_on=f"{SMOOTH}; its degree {paths}"
+            first,
+            components=((*whole, grown.degree),),
+            multiplicities=(1,),
+            rests_on=f"{SMOOTH}; its degree {paths}",
         )
     why = f"its degree {paths} within a budget of {budget:g} s: {grown.reason}"
     return replace(
         first,
         components=((*whole, None),),
+        multiplicities=(1,),
         least_degree=grown.least,
         rests_on=f"{SMOOTH}; {why}",
     )
@@ -462,6 +468,7 @@ def _in_general(problem: Problem, detail: str, run: Run) -> MobilityReport:
         local=None,
         curves=tuple(_curve(problem, c, run) for c in curves),
         general=known,
+        multiplicities=tuple(c.multiplicity for c in components) if found.complete else (),
         doubt=doubt,
         rests_on=ALL_COMPONENTS if found.complete else "",
     )

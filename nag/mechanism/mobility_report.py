@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import zip_longest
 from typing import Any, Literal
 
 from nag.mechanism.bonds import Bonds
@@ -92,6 +93,8 @@ class MobilityReport:
         lower, upper: bounds of the local dimension, the true mobility.
         components: dimension and degree of each component through the configuration, a degree of
             None where it is not known; None if they were not looked for or are not known.
+        multiplicities: of each of the components in the model's equations, 0 where it is not known;
+            empty where they were not looked for.
         open: why the components are not known; empty if they are.
         local: the local dimension in the model, and what it rests on; None without loops.
         curves: the curves through the configuration, where they were asked for, or are known
@@ -136,6 +139,7 @@ class MobilityReport:
     near: NearMotion | None = None
     hint: str = ""
     blocked: bool = False
+    multiplicities: tuple[int, ...] = ()
 
     __eq__ = equal_values
 
@@ -150,6 +154,11 @@ class MobilityReport:
         if self.general is not None:
             return self.general.multiplicity if self.general.dimension == 0 else 0
         return self.local.multiplicity if self.local is not None else 0
+
+    @property
+    def never_reduced(self) -> bool:
+        """Whether every configuration near this one is known to be singular in the equations."""
+        return bool(self.multiplicities) and min(self.multiplicities) > 1
 
     @property
     def agrees(self) -> bool:
@@ -220,21 +229,39 @@ class MobilityReport:
         return "\n".join(f"{label.ljust(10)}  {text}" for label, text in self.rows())
 
     def rows(self) -> list[tuple[str, str]]:
-        """Labelled lines: what was asked, what that rests on, and a line for each curve."""
+        """Labelled lines: those that are known early, components, and a line for each curve."""
+        early = self.early_rows()
+        return [
+            *early,
+            *(row for row in self._meaning_rows() if row not in early),
+            ("components", _components_text(self)),
+            *(("curve", str(curve)) for curve in self.curves),
+        ]
+
+    def early_rows(self) -> list[tuple[str, str]]:
+        """Those of these lines that no component is needed for, what was asked first.
+
+        At a singular configuration that moves what the numbers mean depends on the components.
+        """
+        alone = self.general is None and (self.local is None or self.local.smooth)
+        if alone or (self.local is not None and self.local.upper == 0):
+            (sentence, *rest) = self._meaning_rows()
+            return [sentence, *self._local_rows(), *rest]
+        return self._local_rows()
+
+    def _meaning_rows(self) -> list[tuple[str, str]]:
+        """The sentence, and what moves."""
         # The sentence says which freedoms are idle.
         moving = () if self.moving is None else self.moving.rows()
         return [
             ("mobility", f"{self.status}: {self.sentence}"),
-            *self.local_rows(),
-            ("components", _components_text(self)),
             *(row for row in moving if row[0] != "idle"),
             *(self.near.rows() if self.near is not None else ()),
             *([("hint", self.hint)] if self.hint else []),
-            *(("curve", str(curve)) for curve in self.curves),
         ]
 
-    def local_rows(self) -> list[tuple[str, str]]:
-        """Those of these lines that no component is needed for."""
+    def _local_rows(self) -> list[tuple[str, str]]:
+        """What was counted, the model, and the dimensions at the configuration."""
         model_text = "no loop, no equations"
         if self.formulation:
             unknowns = count_text(self.variables, "unknown")
@@ -270,7 +297,12 @@ class MobilityReport:
             "meaning": self.sentence,
             "components": None
             if components is None
-            else [{"dimension": d, "degree": degree} for d, degree in components],
+            else [
+                {"dimension": d, "degree": degree, "multiplicity": m or None}
+                for (d, degree), m in zip_longest(
+                    components, self.multiplicities[: len(components)]
+                )
+            ],
             "degree_at_least": self.least_degree,
             "rests_on": self.rests_on,
             "open": self.open,
@@ -295,19 +327,20 @@ def _components_text(report: MobilityReport) -> str:
         return f"not known: {report.open}"
     if not report.components:
         return "none through the configuration"
+    known = report.multiplicities or (1,) * len(report.components)
+    kinds = [
+        f"dimension {d}, degree {degree}" + (f", multiplicity {m}" if m > 1 else "")
+        for (d, degree), m in zip(report.components, known, strict=True)
+    ]
     if report.general is not None:
-        return "in all " + "; ".join(
-            f"{count} of dimension {d}, degree {degree}"
-            for (d, degree), count in Counter(report.components).items()
-        )
+        return "in all " + "; ".join(f"{count} of {k}" for k, count in Counter(kinds).items())
     if report.least_degree is not None:
         ((dimension, _),) = report.components
         return (
             f"1 through the configuration: dimension {dimension}, reduced, degree "
             f"{report.least_degree} at least; {report.rests_on}"
         )
-    listed = "; ".join(f"dimension {d}, degree {degree}" for d, degree in report.components)
-    listed = f"{len(report.components)} through the configuration: {listed}"
+    listed = f"{len(report.components)} through the configuration: {'; '.join(kinds)}"
     return f"{listed}; by {ALL_POSES}" if report.rests_on == ALL_POSES else listed
 
 
@@ -323,8 +356,11 @@ def _sentence(report: MobilityReport) -> str:
         asked = report.moving.body if report.moving is not None else None
         if asked is None:
             return _meaning(report)
-        # "It" would be the body.
-        return f"{asked}; the mechanism {_meaning(report).removeprefix('it ')}"
+        meaning = _meaning(report)
+        if meaning.startswith("it "):
+            # "It" would be the body.
+            return f"{asked}; the mechanism {meaning.removeprefix('it ')}"
+        return f"{asked}; {meaning}"
     if status is MobilityStatus.RIGID:
         return "no configuration moves, not even infinitesimally"
     text = f"at a general configuration of those with the most freedoms {_meaning(report)}"
@@ -364,6 +400,7 @@ def _meaning(report: MobilityReport) -> str:
     elif status is MobilityStatus.CROSSING:
         text += f"; {len(report.components or ())} motions meet here"
     elif tangent is not None and mobility is not None and tangent > mobility:
-        text += "; the configuration is singular, infinitesimally it has "
+        where = "all configurations near by are" if report.never_reduced else "the configuration is"
+        text += f"; {where} singular, infinitesimally it has "
         text += count_text(tangent, "freedom")
     return text

@@ -105,8 +105,12 @@ class OperationMode:
 
     @property
     def really_reached(self) -> bool:
-        """Whether every leg is known to reach the real pose with real joint coordinates."""
-        return bool(self.real_residuals) and all(r < REACHED for r in self.real_residuals)
+        """Whether every leg is known to reach a real pose with real joint coordinates.
+
+        The reference is one.
+        """
+        found = bool(self.real_residuals) and all(r < REACHED for r in self.real_residuals)
+        return found or bool(self.through_reference)
 
     @property
     def equations(self) -> list[str]:
@@ -293,7 +297,7 @@ class OperationModes:
                 names = join_words([self.model.legs[k].leg.name for k in mode.limits])
                 leg = "leg" if len(mode.limits) == 1 else "legs"
                 parts.append(f"of {leg} {names} the outer axes differ by an isotropic vector")
-            elif mode.real_pose is not None and not (mode.really_reached or mode.through_reference):
+            elif mode.real_pose is not None and not mode.really_reached:
                 parts.append("no real pose with real joint coordinates was found")
             found.append((f"mode {i}", "; ".join(parts)))
         return found

@@ -1,24 +1,28 @@
 """What moves near a configuration: parts that are idle, locked or rigid, and freedoms of a body.
 
-All is said of a generic configuration near a given one at which the mechanism is smooth, so that it
-holds all along the component there. Rates of the joints that close all loops to first order are a
-null space; each joint contributes its screws (Ball 1900; Hunt, *Kinematic Geometry of Mechanisms*,
-1978). The configurations are real and found by Newton's method in doubles, in joint coordinates,
-whatever the formulation of the equations; where a rank is not clear, nothing is said.
+All but a body's screws, which are those at a given configuration, is said of generic ones near it:
+the mechanism is smooth there, so that it holds all along the component. Rates of the joints that
+close all loops to first order are a null space; each joint contributes its screws (Ball 1900; Hunt,
+*Kinematic Geometry of Mechanisms*, 1978). The configurations are real and found by Newton's method
+in doubles, in joint coordinates, whatever the formulation of the equations; where a rank is not
+clear, nothing is said.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Any
 
 import numpy as np
 
 from nag.errors import NagError
 from nag.mechanism.graph import Joint, Mechanism
-from nag.mechanism.motions import ScrewSystem, screw_system
+from nag.mechanism.inverse_kinematics import multiply_poses
+from nag.mechanism.joint_types import COORDINATES
+from nag.mechanism.motions import MotionType, ScrewSystem, motion_of, screw_system
+from nag.mechanism.quaternion import quaternion_of
 from nag.numerics.double_ranks import NEARLY_SINGULAR, SINGULAR
 from nag.numerics.doubles import ARRIVED
 from nag.text.table import count_text, join_words
@@ -66,27 +70,34 @@ class BodyFreedoms:
 
     Attributes:
         body: its name.
-        screws: the twists that it can have.
-        kind: what they are in words; empty where there are none.
+        motion: what its poses have in common, all along the component; of rank 0 where it stands
+            still.
+        screws: the twists that it can have at the configuration itself.
     """
 
     body: str
+    motion: MotionType
     screws: ScrewSystem
-    kind: str
 
     def __str__(self) -> str:
-        if not self.screws.rank:
+        rank = self.motion.rank
+        if not rank:
             return f"{self.body}: no freedom, it stands still"
-        return f"{self.body}: {count_text(self.screws.rank, 'freedom')}, {self.kind}"
+        text = f"{self.body}: {count_text(rank, 'freedom')}, {self.motion}"
+        if self.screws.rank < rank:
+            there = f"screws of {self.screws} alone" if self.screws.rank else "none of them"
+            return f"{text}; at the configuration {there}"
+        return text if self.motion.group else f"{text}; at the configuration {self.screws}"
 
     def document(self) -> dict[str, Any]:
         """As a JSON object."""
         return {
             "body": self.body,
-            "freedoms": self.screws.rank,
-            "translations": self.screws.rank - self.screws.turning,
+            "freedoms": self.motion.rank,
+            "translations": self.motion.rank - self.motion.turning,
+            "freedoms_there": self.screws.rank,
             "pitches": list(self.screws.pitches),
-            "kind": self.kind,
+            "kind": str(self.motion) if self.motion.rank else "",
         }
 
 
@@ -99,7 +110,8 @@ class MovingParts:
         idle: freedoms with which parts between two others move by themselves.
         hanging: the same of bodies that are joined to one other body alone, as a pendulum and the
             last link of an arm are.
-        locked: names of joints that never move; all those between bodies of one of ``together``.
+        locked: names of joints that never move; all those between bodies of one of ``together``;
+            and of the turns and slides that never move of other joints.
         together: bodies that never move against each other, groups of two and more.
         body: the freedoms of the body that was asked for; None if none was.
     """
@@ -129,8 +141,7 @@ class MovingParts:
         if self.hanging:
             rows.append(("hanging", _describe_parts(self.hanging)))
         if self.locked and self.freedoms:
-            names = count_text(len(self.locked), "joint") + f": {', '.join(self.locked)}"
-            rows.append(("locked", f"{names}; never moving"))
+            rows.append(("locked", f"{', '.join(self.locked)}: never moving"))
         if self.freedoms:
             groups = [" with ".join(own) for own in self.together]
             rows += [("rigid", f"{'; '.join(groups)}: as one body")] if groups else []
@@ -187,18 +198,32 @@ def find_moving_parts(
         NotClear: if a rank is not clear, or no configuration near by is found.
     """
     chain = _Chain.of(mechanism, places)
-    rates, twists = chain.tangent(chain.generic(dimension, rng), dimension)
+    along = [np.zeros(chain.n), *chain.generic(dimension, rng)]
+    rates, twists = chain.tangent(along[-1], dimension)
     names = mechanism.body_names
     units = _group(names, twists)
     locked = [
-        joint.name
+        name
         for joint, own in zip(mechanism.joints, chain.columns, strict=True)
-        if not joint.of_type.is_rigid and not _moves(rates[own])
+        for name in _locked_names(joint, rates[own])
     ]
     idle, hanging = _idle(mechanism, units, twists) if dimension else ([], [])
-    freedoms = None if body is None else _body_freedoms(body, twists[names.index(body)], chain.size)
+    freedoms = None if body is None else _body_freedoms(body, chain, along, dimension)
     together = tuple(own for own in units if len(own) > 1)
     return MovingParts(*(dimension, tuple(idle), tuple(hanging), tuple(locked), together, freedoms))
+
+
+def _locked_names(joint: Joint, rates: np.ndarray) -> list[str]:
+    """A joint if it never moves, or those of its turns and slides that do not, by their names."""
+    if joint.of_type.is_rigid:
+        return []
+    if not _moves(rates):
+        return [joint.name]
+    factors = joint.of_type.factors
+    if not set(factors) <= {"turn", "slide"}:
+        return []
+    parts = zip(COORDINATES[factors], rates, strict=True)
+    return [f"{joint.name}.{part}" for (part, _), own in parts if not _moves(own)]
 
 
 def _moves(values: np.ndarray) -> bool:
@@ -241,7 +266,7 @@ def _group(names: Sequence[str], twists: np.ndarray) -> list[tuple[str, ...]]:
 def _idle(
     mechanism: Mechanism, units: Sequence[tuple[str, ...]], twists: np.ndarray
 ) -> tuple[list[IdleFreedom], list[IdleFreedom]]:
-    """Freedoms of one unit by itself, then of chains of several between two others.
+    """Freedoms of one unit by itself, of several as one, and of chains between two others.
 
     Those of units that are joined to one other body alone come apart: to move by itself is all that
     these can do.
@@ -271,16 +296,43 @@ def _idle(
             joint = at[0].name if turns and count == 1 and len(at) == 1 else ""
             part = IdleFreedom(own, count, turns, joint)
             (hanging if len(others) == 1 else found).append(part)
+
+    def as_one(own: Sequence[int]) -> np.ndarray:
+        """A basis of the freedoms with which some move as one, and all others not at all."""
+        others = [twists[first[k]] for k in range(len(units)) if k not in own]
+        differences = [twists[first[k]] - twists[first[own[0]]] for k in own[1:]]
+        matrix = np.vstack([*others, *differences])
+        return np.linalg.svd(matrix)[2][matrix.shape[1] - _corank(matrix) :].T
+
     for chain in _chains(mechanism, unit_of, ground):
-        count = alone(chain)[0] - sum(single[k] for k in chain)
-        if count > 0:
-            bodies = tuple(body for k in chain for body in units[k])
-            found.append(IdleFreedom(bodies, count, False))
+        known = sum(single[k] for k in chain)
+        for start, end in combinations(range(len(chain) + 1), 2):
+            part = chain[start:end]
+            if len(part) < 2 or len(part) == len(units) - 1:
+                continue
+            basis = as_one(part)
+            if basis.shape[1]:
+                turns = _are_turns(twists[first[part[0]]] @ basis)
+                bodies = tuple(body for k in part for body in units[k])
+                found.append(IdleFreedom(bodies, basis.shape[1], turns))
+                known += basis.shape[1]
+        if _is_between(mechanism, unit_of, chain):
+            count = alone(chain)[0] - known
+            if count > 0:
+                bodies = tuple(body for k in chain for body in units[k])
+                found.append(IdleFreedom(bodies, count, False))
     return found, hanging
 
 
+def _is_between(mechanism: Mechanism, unit_of: Mapping[str, int], chain: Sequence[int]) -> bool:
+    """Whether a chain of units joins two different other ones."""
+    pairs = [{unit_of[body] for body in joint.bodies} for joint in mechanism.joints]
+    beside = set().union(*(own for own in pairs if own & set(chain))) - set(chain)
+    return len(beside) == 2
+
+
 def _chains(mechanism: Mechanism, unit_of: Mapping[str, int], ground: int) -> list[tuple[int, ...]]:
-    """Units, two or more one after the other, between two different other ones."""
+    """Units, two or more one after the other, each with two neighbours."""
     neighbours: dict[int, list[int]] = {k: [] for k in unit_of.values()}
     for joint in mechanism.joints:
         a, b = (unit_of[body] for body in joint.bodies)
@@ -304,7 +356,7 @@ def _chains(mechanism: Mechanism, unit_of: Mapping[str, int], ground: int) -> li
             if at == start:
                 break
         done.update(chain)
-        if len(ends) == 2 and ends[0] != ends[1] and len(chain) > 1:
+        if len(ends) == 2 and len(chain) > 1:
             chains.append(tuple(chain))
     return chains
 
@@ -318,41 +370,30 @@ def _are_turns(twists: np.ndarray) -> bool:
     return _corank(turning) == 0
 
 
-def _body_freedoms(body: str, twists: np.ndarray, size: float) -> BodyFreedoms:
-    """The freedoms of a body with these twists, shape ``(6, d)``; lengths are over ``size``."""
+def _body_freedoms(
+    body: str, chain: _Chain, along: Sequence[np.ndarray], dimension: int
+) -> BodyFreedoms:
+    """The freedoms of a body.
+
+    Args:
+        along: joint coordinates of the configuration, and of generic ones near it.
+    """
+    place = chain.mechanism.body_names.index(body)
+    own = [chain.tangent(q, dimension)[1][place] for q in along]
+    bases = [_basis(chain.from_origin(twists)) for twists in own]
+    poses = np.array([chain.study(q, body) for q in along])
+    generic = bases[1:] or bases
+    if not len(generic[0]):
+        return BodyFreedoms(body, MotionType(0, 0, ""), ScrewSystem(0, 0, ()))
+    motion = motion_of(poses[-len(generic) :], generic, chain.size)
+    here = screw_system(bases[0], chain.size) if len(bases[0]) else ScrewSystem(0, 0, ())
+    return BodyFreedoms(body, motion, here)
+
+
+def _basis(twists: np.ndarray) -> np.ndarray:
+    """An orthonormal basis of what twists, shape ``(6, d)``, span, shape ``(rank, 6)``."""
     rank = twists.shape[1] - _corank(twists) if twists.shape[1] else 0
-    basis = np.linalg.svd(twists)[0][:, :rank].T if rank else np.zeros((0, 6))
-    screws = screw_system(basis, size) if rank else ScrewSystem(0, 0, ())
-    return BodyFreedoms(body, screws, _describe_freedoms(basis, screws))
-
-
-def _describe_freedoms(basis: np.ndarray, screws: ScrewSystem) -> str:
-    """What freedoms are, in words; empty where there are none."""
-    rank, turning = screws.rank, screws.turning
-    if rank == 6:
-        return "all"
-    if not turning:
-        return ["", "a translation", "translations in a plane", "translations"][rank]
-    if turning == rank and not any(screws.pitches):
-        meets = rank == 3 and not _moves(
-            basis[:, TURNING] @ basis[:, SLIDING].T + basis[:, SLIDING] @ basis[:, TURNING].T
-        )
-        if rank == 1:
-            return "a turn"
-        return "turns about a point" if meets else "turns"
-    if (rank, turning) == (3, 1) and _is_planar(basis.T):
-        return "planar motion"
-    if (rank, turning) == (4, 1):
-        return "translations and turns of one direction"
-    return f"screws of {screws}"
-
-
-def _is_planar(basis: np.ndarray) -> bool:
-    """Whether two translations are across the direction of the turn beside them."""
-    turning = basis[TURNING]
-    axis = np.linalg.svd(turning)[0][:, 0]
-    null = np.linalg.svd(turning)[2][1:].T
-    return not _moves(axis @ (basis[SLIDING] @ null))
+    return np.linalg.svd(twists)[0][:, :rank].T if rank else np.zeros((0, 6))
 
 
 @dataclass(frozen=True, eq=False)
@@ -365,6 +406,7 @@ class _Chain:
         closing: indices of the joints that close loops.
         screws: of each joint, at the given configuration, shape ``(k, 6)``.
         columns: of each joint's coordinates among all.
+        centre: the point that all lengths are taken from, shape ``(3,)``.
         size: of the lengths.
     """
 
@@ -373,6 +415,7 @@ class _Chain:
     closing: tuple[int, ...]
     screws: tuple[np.ndarray, ...]
     columns: tuple[slice, ...]
+    centre: np.ndarray
     size: float
 
     @classmethod
@@ -403,7 +446,7 @@ class _Chain:
         used = {i for _, _, i in tree}
         closing = tuple(i for i in range(len(mechanism.joints)) if i not in used)
         columns = tuple(slice(a, b) for a, b in pairwise(ends))
-        return cls(mechanism, tuple(tree), closing, screws, columns, size)
+        return cls(mechanism, tuple(tree), closing, screws, columns, centre, size)
 
     @property
     def n(self) -> int:
@@ -418,6 +461,20 @@ class _Chain:
             forward = self.mechanism.joints[i].bodies[0] == parent
             found[child] = found[parent] @ (own if forward else np.linalg.inv(own))
         return found
+
+    def study(self, q: np.ndarray, body: str) -> np.ndarray:
+        """How a body is displaced against the given configuration, Study coordinates."""
+        place = self.displacements(q)[body]
+        turn = quaternion_of(place[:3, :3])
+        moved = self.size * place[:3, 3] + self.centre - place[:3, :3] @ self.centre
+        return multiply_poses(
+            np.array([1.0, 0, 0, 0, 0, *(moved / 2)]), np.array([*turn, 0, 0, 0, 0])
+        )
+
+    def from_origin(self, twists: np.ndarray) -> np.ndarray:
+        """Twists, shape ``(6, d)``, with velocities of the origin instead of the middle."""
+        velocity = twists[SLIDING] + np.cross(self.centre / self.size, twists[TURNING], axis=0)
+        return np.vstack([twists[TURNING], velocity])
 
     def _joint(self, i: int, q: np.ndarray) -> np.ndarray:
         result = np.eye(4)
@@ -456,13 +513,13 @@ class _Chain:
             place = place @ _exponential(screw * q[first + k])
         return result
 
-    def generic(self, dimension: int, rng: np.random.Generator) -> np.ndarray:
-        """Joint coordinates of a configuration near the given one, generic on its component.
+    def generic(self, dimension: int, rng: np.random.Generator) -> list[np.ndarray]:
+        """Joint coordinates of configurations near the given one, generic on its component.
 
         Raises:
             NotClear: if none is found.
         """
-        q = np.zeros(self.n)
+        q, found = np.zeros(self.n), []
         for _ in range(STEPS if dimension else 0):
             tangent = self._tangent(q, dimension)[0]
             direction = tangent @ rng.standard_normal(dimension)
@@ -474,7 +531,8 @@ class _Chain:
                     break
             else:
                 raise NotClear("no configuration near by was found")
-        return q
+            found.append(q)
+        return found or [q]
 
     def _on_component(self, q: np.ndarray, dimension: int) -> np.ndarray | None:
         """The configuration that Newton's method leads to."""

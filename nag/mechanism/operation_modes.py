@@ -38,7 +38,7 @@ from nag.interpolation.vanishing import (
     primitive,
 )
 from nag.mechanism import MODES_BUDGET
-from nag.mechanism.inverse_kinematics import REACHED, reach_poses
+from nag.mechanism.inverse_kinematics import REACHED, find_reached_pose, reach_poses
 from nag.mechanism.isotropic_limits import is_isotropic_limit
 from nag.mechanism.leg_image import COORDINATES, MOST_DEGREE, norm_form, study_quadric
 from nag.mechanism.legs import parallel_robot
@@ -57,7 +57,12 @@ from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.zero_values import NONZERO
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
-from nag.witness.membership import UndecidedError, components_through
+from nag.witness.membership import (
+    Membership,
+    UndecidedError,
+    components_through,
+    membership_in,
+)
 from nag.witness.projection import ProjectionError, project
 from nag.witness.real_points import real_points_near
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
@@ -369,14 +374,44 @@ def _describe(
     residuals = _residuals(model, poses, length, run.random(43), real=True)
     # The pose that most legs reach, the first of several.
     best = int(np.argmin((residuals >= REACHED).sum(axis=1)))
-    twists = _twists(model, points[best], _real_tangents(model, mode, points[best]), length)
+    point, pose, near = points[best], poses[best], residuals[best]
+    if near.max() >= REACHED and not through:
+        found = _reached_point(model, mode, pose, length, run)
+        if found is not None:
+            point, near = found
+            pose = _normalise_real_parts(model.study(point[None]).real)[0]
+    twists = _twists(model, point, _real_tangents(model, mode, point), length)
     return replace(
         mode,
         reality=ModeReality.REAL,
-        real_pose=poses[best],
+        real_pose=pose,
         screws=screw_system(twists.real, length),
-        real_residuals=tuple(residuals[best].tolist()),
+        real_residuals=tuple(near.tolist()),
     )
+
+
+def _reached_point(
+    model: PlatformModel, mode: OperationMode, pose: np.ndarray, length: float, run: Run
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """A smooth real point of a mode that all legs reach, looked for from a pose, with residuals.
+
+    Of models that keep joints none is looked for.
+    """
+    if model.charts.n:
+        return None
+    rows = [[f.terms.get(e, 0) for e in UNITS] for f in mode.linear]
+    basis = np.array([[float(c) for c in v] for v in null_space(rows, 8)])
+    forms = Evaluator.of((study_quadric(), *mode.quadratic), 8)
+    chains = [leg.leg.elements() for leg in model.legs]
+    found = find_reached_pose(chains, basis, forms, pose, model.origin, length, run.random(46))
+    if found is None:
+        return None
+    study, residuals = found
+    chart = np.array([1.0, *(-float(c) for c in model.chart)])
+    point = study[1:] / (study[:4] @ chart)
+    smooth = matrix_corank(_jacobian(model.system, point), NEARLY_SINGULAR) == mode.component.corank
+    on = membership_in(model.system, mode.component, point + 0j, REACHED, run)
+    return (point, residuals) if smooth and on is Membership.MEMBER else None
 
 
 def _normalise_real_parts(poses: np.ndarray) -> np.ndarray:

@@ -107,6 +107,21 @@ def R(a: Sequence[Any]) -> Matrix:
     )
 
 
+def quaternion_of(matrix: Any) -> tuple[Any, ...]:
+    """A quaternion, of any length, whose rotation is a matrix, shape ``(3, 3)``.
+
+    The eigenvector of eigenvalue 1 of Davenport's matrix, by the row of its largest entry.
+    """
+    (a, b, c), (d, e, f), (g, h, i) = matrix
+    rows = (
+        (1 + a + e + i, h - f, c - g, d - b),
+        (h - f, 1 + a - e - i, b + d, c + g),
+        (c - g, b + d, 1 - a + e - i, f + h),
+        (d - b, c + g, f + h, 1 - a - e + i),
+    )
+    return rows[max(range(4), key=lambda k: rows[k][k])]
+
+
 def rotate(a: Sequence[Any], v: Sequence[Any]) -> Vector:
     """R(a) v."""
     return tuple(row[0] * v[0] + row[1] * v[1] + row[2] * v[2] for row in R(a))

@@ -1,15 +1,11 @@
-"""Arrays and mappings of results, which nobody may change."""
+"""Arrays of results, which nobody may change, and results that are equal."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
-from typing import TypeVar
 
 import numpy as np
-
-Key = TypeVar("Key")
-Value = TypeVar("Value")
 
 
 def fixed_array(array: np.ndarray, dtype: type | None = None) -> np.ndarray:
@@ -53,32 +49,3 @@ def _equal(one: object, other: object) -> bool:
     if isinstance(one, Mapping) and isinstance(other, Mapping):
         return one.keys() == other.keys() and all(_equal(one[key], other[key]) for key in one)
     return bool(one == other)
-
-
-class FixedMapping(Mapping[Key, Value]):
-    """A copy of a mapping that nobody can write to; unlike Python's own it can be pickled."""
-
-    __slots__ = ("_values",)
-
-    def __init__(self, mapping: Mapping[Key, Value]) -> None:
-        self._values = dict(mapping)
-
-    def __getitem__(self, key: Key) -> Value:
-        return self._values[key]
-
-    def __contains__(self, key: object) -> bool:
-        return key in self._values
-
-    def __iter__(self) -> Iterator[Key]:
-        return iter(self._values)
-
-    def __len__(self) -> int:
-        return len(self._values)
-
-    def __repr__(self) -> str:
-        return repr(self._values)
-
-
-def fixed_mapping(mapping: Mapping[Key, Value]) -> FixedMapping[Key, Value]:
-    """The mapping itself if it is such a copy, else one."""
-    return mapping if isinstance(mapping, FixedMapping) else FixedMapping(mapping)

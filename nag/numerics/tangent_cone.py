@@ -20,6 +20,7 @@ from typing import Any
 import flint
 import numpy as np
 
+from nag.algebra.fixed_mapping import fixed_mapping
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.ball_ranks import row_echelon
@@ -28,7 +29,7 @@ from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.located_zero import exact_zero
 from nag.numerics.power_series import Series, SeriesRing
-from nag.numerics.read_only import equal_values, fixed_mapping
+from nag.numerics.read_only import equal_values
 from nag.numerics.sharpening import ZERO
 
 # Orders beyond this are not looked at.

@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.fixed_mapping import fixed_mapping
 from nag.algebra.number import Number
 from nag.numerics.coincidence import coincident
 from nag.numerics.digits import WORDS
-from nag.numerics.read_only import fixed_array, fixed_mapping
+from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import ON
 from nag.text.json_text import pairs
 from nag.tracking.homotopy import Homotopy, norms

@@ -28,6 +28,7 @@ from nag.mechanism.given_rotation import (
     turn_about,
     turns_in_order,
 )
+from nag.mechanism.quaternion import quaternion_of
 
 WORLD = "world"
 TYPES = {"hinge": "revolute", "slide": "prismatic", "ball": "spherical", "free": "floating"}
@@ -266,16 +267,7 @@ def _quaternion_of(vectors: list[list[float]]) -> list[float] | None:
         return None
     second = second / length
     matrix = np.array([first, second, np.cross(first, second)]).T
-    # The eigenvector of eigenvalue 1 of Davenport's matrix, by the row of its largest entry.
-    a = matrix
-    rows = [
-        [1 + a[0, 0] + a[1, 1] + a[2, 2], a[2, 1] - a[1, 2], a[0, 2] - a[2, 0], a[1, 0] - a[0, 1]],
-        [a[2, 1] - a[1, 2], 1 + a[0, 0] - a[1, 1] - a[2, 2], a[0, 1] + a[1, 0], a[0, 2] + a[2, 0]],
-        [a[0, 2] - a[2, 0], a[0, 1] + a[1, 0], 1 - a[0, 0] + a[1, 1] - a[2, 2], a[1, 2] + a[2, 1]],
-        [a[1, 0] - a[0, 1], a[0, 2] + a[2, 0], a[1, 2] + a[2, 1], 1 - a[0, 0] - a[1, 1] + a[2, 2]],
-    ]
-    largest = max(range(4), key=lambda i: rows[i][i])
-    return [float(x) for x in rows[largest]]
+    return [float(x) for x in quaternion_of(matrix)]
 
 
 def _closures(root: XmlElement, found: _FoundJoints) -> list[LoopClosure]:
