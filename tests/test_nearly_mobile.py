@@ -155,6 +155,7 @@ def test_gaps_within_a_smaller_tolerance_are_not_claimed() -> None:
     wide, narrow = (find_near_motion(made, t) for t in (1e-6, 1e-8))
     assert wide is not None and narrow is not None
     assert wide.nearly_mobile and not narrow.nearly_mobile
+    assert not wide.obstacle and narrow.obstacle.startswith("the gap is ")
     assert 1e-8 < max(wide.gap) < 1e-6
 
 

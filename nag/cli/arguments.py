@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from nag.errors import NagError
 from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
@@ -134,6 +134,21 @@ def add_format(parser: argparse.ArgumentParser) -> None:
         default="auto",
         help="format of the file (default: told by its content)",
     )
+
+
+class StoreOnce(argparse.Action):
+    """An option that makes no sense twice."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        option: str | None = None,
+    ) -> None:
+        if getattr(namespace, self.dest) is not None:
+            raise argparse.ArgumentError(self, "is given twice; one is looked at at a time")
+        setattr(namespace, self.dest, values)
 
 
 def add_parameters(parser: argparse.ArgumentParser) -> None:

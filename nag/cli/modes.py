@@ -6,6 +6,7 @@ import argparse
 from dataclasses import asdict
 
 from nag.cli.arguments import (
+    StoreOnce,
     UsageError,
     add_parameters,
     add_robot,
@@ -29,6 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_running(parser)
     parser.add_argument(
         "--platform",
+        action=StoreOnce,
         metavar="NAME",
         help="the body whose poses are looked at (default: the one with the most legs between "
         "itself and the ground, three at least)",

@@ -34,6 +34,7 @@ from nag.mechanism.overconstrained import known_linkage
 from nag.mechanism.quaternion import multiply
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.zero_values import ON
+from nag.text.table import join_words
 
 # Arc of joint coordinates from one position to the next, radians or sizes of the mechanism; where
 # the motion bends, steps are halved down to the shortest.
@@ -141,11 +142,27 @@ class NearMotion:
     @property
     def nearly_mobile(self) -> bool:
         """Whether the whole motion takes gaps, and a mobile linkage changes, within tolerance."""
-        if not self.whole or self.change is None or self.left_open is None:
-            return False
-        amounts = (self.gap, self.change)
-        within = all(max(a, s / self.size) <= self.tolerance for a, s in amounts)
-        return within and max(self.left_open[0], self.left_open[1] / self.size) <= ROUNDING
+        return not self.obstacle
+
+    @property
+    def obstacle(self) -> str:
+        """Why it is not nearly mobile, in words; empty where it is."""
+        if not self.whole:
+            return "not all of the motion was followed"
+        if self.change is None or self.left_open is None:
+            return "no small change of the axes was found that makes it mobile"
+        if self._relative(self.left_open) > ROUNDING:
+            return "the change that was found does not close all of the motion"
+        wider = [
+            f"the {name} is {self._relative(amount):.2g}"
+            for name, amount in (("gap", self.gap), ("change", self.change))
+            if self._relative(amount) > self.tolerance
+        ]
+        return join_words(wider)
+
+    def _relative(self, amount: tuple[float, float]) -> float:
+        """The larger of an angle and a length in sizes."""
+        return max(amount[0], amount[1] / self.size)
 
     @property
     def first_order(self) -> float:
@@ -156,25 +173,22 @@ class NearMotion:
     def rows(self) -> list[tuple[str, str]]:
         """Labelled lines."""
         word = "nearly mobile" if self.nearly_mobile else "not nearly mobile"
+        size = f"{self.tolerance:g} rad, and {self.tolerance * self.size:.2g} in length"
+        text = f"{word} within {size} ({self.tolerance:g} of the size {self.size:.4g})"
+        rows = [("tolerance", f"{text}: {self.obstacle}" if self.obstacle else text)]
         gap = f"the loops open by at most {_amount(self.gap)}"
-        rows = [("tolerance", f"{word} within {self.tolerance:g}: {self._motion_text()}, {gap}")]
-        if self.change is None:
-            rows.append(("change", "no small change of the axes was found that makes it mobile"))
-        else:
+        rows.append(("motion", f"{self._motion_text()}, {gap}"))
+        if self.change is not None:
             text = f"axes changed by at most {_amount(self.change)} close at {FITTED} positions"
             if self.left_open is not None:
                 text += f", and over the motion open by at most {_amount(self.left_open)}"
             rows.append(("change", text))
-            rows += [("then", text) for text in self._linkage_texts()]
+            if self.left_open is not None and self._relative(self.left_open) <= ROUNDING:
+                rows += [("then", text) for text in self._linkage_texts()]
         least, following = self.singular_values
-        far = f"{self.first_order:.2g}" if self.first_order < 2 * pi else "a whole turn"
-        rows.append(
-            (
-                "1st order",
-                f"smallest singular value {least:.1e}, the next {following:.1e}: within "
-                f"{self.tolerance:g} it moves by {far}",
-            )
-        )
+        far = f"{self.first_order:.2g}" if self.first_order < 2 * pi else "more than a whole turn"
+        text = f"smallest singular value {least:.1e}, the next {following:.1e}"
+        rows.append(("1st order", f"{text}: by these alone the gap would come after {far}"))
         return rows
 
     def _motion_text(self) -> str:

@@ -176,7 +176,7 @@ def platform_model(robot: ParallelRobot, rng: np.random.Generator) -> PlatformMo
         nag.interpolation.vanishing.InterpolationError: if forms have too long coefficients.
     """
     for leg in robot.legs:
-        _check_leg(leg)
+        _check_leg(leg, robot.platform)
     legs = tuple(_leg_equations(leg, rng) for leg in robot.legs)
     steps = rng.integers(-CHART_STEPS, CHART_STEPS + 1, 3).tolist()
     chart = tuple(Fraction(c, CHART_STEPS) for c in steps)
@@ -184,9 +184,12 @@ def platform_model(robot: ParallelRobot, rng: np.random.Generator) -> PlatformMo
     return PlatformModel(robot, legs, chart, charts, _system(legs, chart, charts))
 
 
-def _check_leg(leg: Leg) -> None:
+def _check_leg(leg: Leg, platform: str) -> None:
     if not leg.is_serial:
-        raise MechanismError(f"leg {leg.name} has loops of its own; only serial chains are legs")
+        raise MechanismError(
+            f"leg {leg.name} has loops of its own; only serial chains between the ground and "
+            f"{platform!r} are its legs: is that the platform?"
+        )
     for joint in leg.joints:
         vectors = (joint.point, joint.axis, joint.second_axis)
         entries = [x for v in vectors if v is not None for x in v]
