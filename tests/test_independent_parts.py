@@ -3,15 +3,20 @@
 from collections import Counter
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from linkages import case
 from systems import system
 
+import nag
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.decompose import decompose
 from nag.decomposition.independent_parts import independent_variables
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import model
+from nag.questions import check_traces
+from nag.witness.frame import expand_orbits
 
 
 def kinds(answer) -> Counter:
@@ -85,3 +90,58 @@ def test_answers_name_the_method_that_made_them(equations, method):
     names = "xyzuv" if "v" in "".join(equations) else "xyzu" if "u" in "".join(equations) else "xyz"
     answer = decompose(system(" ".join(names), *equations))
     assert answer.complete and answer.method == method
+
+
+def test_products_carry_all_that_other_components_do():
+    """A circle and a twisted cubic whose variables are mixed."""
+    mixed = system("a u b v w", "a^2 + b^2 - 1", "v - u^2", "w - u^3")
+    (whole,) = decompose(mixed).components
+    assert (whole.dimension, whole.degree, whole.multiplicity, whole.corank) == (2, 6, 1, 2)
+    assert whole.errors.max() < 1e-15
+    points = nag.sample(decompose(mixed), 5).points
+    assert np.abs(points[:, 3] - points[:, 1] ** 2).max() < 1e-8
+    assert whole.contains(["3/5", 2, "4/5", 4, 8]) and not whole.contains(["3/5", 2, "4/5", 4, 9])
+    assert nag.certify(decompose(mixed))
+    assert check_traces(decompose(mixed)).complete
+    met = nag.intersect("(a^2 + b^2 - 1)*(a - b)", 1, 2)
+    assert met.components[0].dimension == 0
+
+
+@pytest.mark.parametrize(
+    ("groups", "expected"),
+    [
+        # A conic has 2 points over a line; the cubic has 3 with c fixed, and one with d fixed.
+        ([["a", "b"], ["c"], ["d"]], {(0, 1): 6, (0, 2): 2}),
+        ([["a", "b"], ["c", "d"]], {(0, 1): 6}),
+        ([["a"], ["b"], ["c", "d"]], {(0, 2): 6, (1, 2): 6}),
+    ],
+)
+def test_so_many_groups_are_fixed_of_each_factor_as_its_dimension(groups, expected):
+    equations = ["a^2 + b^2 - a*b - 1", "c - d^3 - 2*d"]
+    (whole,) = decompose(nag.system(equations, variables="a b c d", groups=groups)).components
+    wanted = np.zeros((len(groups), len(groups)), dtype=int)
+    for (i, j), degree in expected.items():
+        wanted[i, j] = wanted[j, i] = degree
+    assert np.array_equal(whole.multidegree, wanted)
+
+
+def test_images_of_products_are_components():
+    equations = ("a^2 - 2*b^2", "c^4 - 4*d^2", "b - e^2")
+    signs = [
+        SignedPermutation.of_signs((-1, 1, 1, 1, 1)),
+        SignedPermutation.of_signs((1, 1, 1, -1, 1)),
+    ]
+    f = system("a b c d e", *equations)
+    answer = decompose(f, symmetries=signs)
+    everything = expand_orbits(answer).components
+    assert (
+        len(everything) == sum(c.orbit for c in answer.components) == len(decompose(f).components)
+    )
+    evaluator = Evaluator.of(f.polynomials, f.n)
+    for component in everything:
+        assert evaluator.residuals(component.points).max() < 1e-14
+        assert (
+            np.abs(component.slice.A @ component.points.T - component.slice.b[:, None]).max()
+            < 1e-12
+        )
+        assert sum(len(fibre) for fibre in component.fibres) == component.degree

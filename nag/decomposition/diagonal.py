@@ -31,10 +31,11 @@ from nag.numerics.zero_values import possible_zeros, vanishes_at_all
 from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, PointInWords, fine_of_balls
 from nag.witness.confirm import find_vanishing, zero_in_digits
-from nag.witness.cutting import Cut, is_end, regular_on, sharpen
+from nag.witness.cutting import is_end, regular_on, sharpen
 from nag.witness.fibres import STEEPER, Fibre, SliceEnds
 from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.points import with_fine
+from nag.witness.product import multiply_fibres
 from nag.witness.slices import pad_rows, random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
@@ -70,7 +71,7 @@ class _Product:
     def fibres(self, rng: np.random.Generator) -> list[Fibre]:
         """The pairs of witness points."""
         others = self.second.fibres(rng)
-        return [_pairs(a, b) for a in self.first.fibres(rng) for b in others]
+        return [multiply_fibres(a, b) for a in self.first.fibres(rng) for b in others]
 
     def excluded_by(self, common: Reduction) -> tuple[Polynomial, ...]:
         """What must not vanish where both points are equal, by the first one's coordinates."""
@@ -94,45 +95,6 @@ class _Product:
         A[:, self.first.reduction.kept] += rows[:, 1 : 1 + split]
         A[:, self.second.reduction.kept] += rows[:, 1 + split :]
         return orthonormal_rows(common.frame.pulled_back(A, -rows[:, 0]))
-
-
-def _pairs(first: Fibre, second: Fibre) -> Fibre:
-    """The product of two fibres, the unknowns that deflation added after all coordinates."""
-    a, b = first.cut, second.cut
-    n, aux = a.n + b.n, a.aux + b.aux
-    left = [*range(a.n), *range(n, n + a.aux)]
-    right = [*range(a.n, n), *range(n + a.aux, n + aux)]
-    polynomials = [f.with_variables(n + aux, left) for f in a.polynomials]
-    polynomials += [f.with_variables(n + aux, right) for f in b.polynomials]
-    points = np.zeros((len(first) * len(second), n + aux), dtype=complex)
-    points[:, left] = np.repeat(first.points, len(second), axis=0)
-    points[:, right] = np.tile(second.points, (len(first), 1))
-    fine = {
-        i * len(second) + j: _pair(first, i, second, j, (left, right))
-        for i in range(len(first))
-        for j in range(len(second))
-        if i in first.fine or j in second.fine
-    }
-    d = first.dimension
-    rows = np.zeros((d + second.dimension, 1 + n), dtype=complex)
-    rows[:d, : 1 + a.n] = first.rows
-    rows[d:, 0] = second.rows[:, 0]
-    rows[d:, 1 + a.n :] = second.rows[:, 1:]
-    return Fibre(Cut(n, aux, tuple(polynomials)), rows, points, fine)
-
-
-def _pair(
-    first: Fibre, i: int, second: Fibre, j: int, places: tuple[Sequence[int], Sequence[int]]
-) -> PointInWords:
-    """The pair of two points in the digits that are known of them."""
-    both = [
-        fibre.fine.get(k) or PointInWords.of_doubles(fibre.points[k])
-        for fibre, k in ((first, i), (second, j))
-    ]
-    words = np.zeros((sum(len(each.words) for each in both), *both[0].words.shape[1:]))
-    for each, place in zip(both, places, strict=True):
-        words[place] = each.words
-    return PointInWords(words, max(each.curvature for each in both))
 
 
 def meet_on_diagonal(

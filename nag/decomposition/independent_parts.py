@@ -8,24 +8,28 @@ such.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import reduce
 from itertools import product
 from math import prod
-
-import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.decomposition.final_checks import choose_groups, judge_components, multidegree_of
 from nag.decomposition.method import Attempt, Others, Task
-from nag.witness.witness import PathCounts
+from nag.numerics.system_facts import SystemFacts
+from nag.witness.frame import image
+from nag.witness.product import multiply_components
+from nag.witness.witness import PathCounts, WitnessSet
 
-# Products beyond this number, or with more witness points, are not worked out one by one.
-MOST_PRODUCTS = 64
-MOST_POINTS = 1000
+# Products beyond this number, or with more witness points in all, are not written out.
+MOST_PRODUCTS = 4096
+MOST_POINTS = 200_000
 
 
 def decompose_parts(task: Task, others: Others) -> Attempt:
-    """The components of a system that falls apart by its variables.
+    """The components of a system that falls apart by its variables: products, without paths.
 
     None where there are too many products, or a symmetry exchanges parts.
     """
@@ -34,35 +38,63 @@ def decompose_parts(task: Task, others: Others) -> Attempt:
     if len(parts) < 2 or not all(_stays(g, parts) for g in symmetries):
         return Attempt()
     answers = [
-        others(task.of_part(_part(system, part), _restrict_symmetries(symmetries, part)))
+        others(
+            replace(
+                task,
+                facts=SystemFacts(_part(system, part)),
+                symmetries=tuple(_restrict_symmetries(symmetries, part)),
+            )
+        )
         for part in parts
     ]
-    if not all(a.complete for a in answers):
+    counts = [len(a.components) for a in answers]
+    points = prod(sum(c.degree for c in a.components) for a in answers)
+    if prod(counts) > MOST_PRODUCTS or points > MOST_POINTS:
         return Attempt()
-    choices = list(product(*(a.components for a in answers)))
-    points = [prod(c.degree for c in chosen) for chosen in choices]
-    if len(choices) > MOST_PRODUCTS or max(points, default=0) > MOST_POINTS:
-        return Attempt()
-    from nag.decomposition.given_points import components_through_points
+    order = SignedPermutation(tuple(i for part in parts for i in part), (1,) * system.n).inverse
+    found = []
+    for chosen in product(*(a.components for a in answers)):
+        whole = reduce(multiply_components, chosen)
+        found.append(_in_order(_with_multidegree(whole, chosen, parts, system.groups), order))
+    found.sort(key=lambda c: (-c.dimension, c.degree))
+    paths = sum((a.paths for a in answers), PathCounts())
+    notes = [note for a in answers for note in a.notes]
+    return Attempt(judge_components(system, found, paths, task.run, notes))
 
-    starts = []
-    for chosen in choices:
-        x = np.zeros(system.n, dtype=complex)
-        for part, component in zip(parts, chosen, strict=True):
-            x[list(part)] = component.points[0]
-        starts.append((sum(c.dimension for c in chosen), x))
-    answer = components_through_points(
-        system,
-        starts,
-        run=task.run,
-        symmetries=symmetries,
-    )
-    wanted = [
-        (sum(c.dimension for c in chosen), k) for chosen, k in zip(choices, points, strict=False)
-    ]
-    if sorted(wanted) != sorted((c.dimension, c.degree) for c in answer.components):
-        return Attempt()
-    return Attempt(answer, sum((a.paths for a in answers), PathCounts()))
+
+def _in_order(component: WitnessSet, order: SignedPermutation) -> WitnessSet:
+    """A product with its variables where the system has them."""
+    images = tuple(order.after(g).after(order.inverse) for g in component.images)
+    moved = image(component, order)
+    return replace(moved, orbit=component.orbit, images=images)
+
+
+def _with_multidegree(
+    whole: WitnessSet,
+    factors: Sequence[WitnessSet],
+    parts: Sequence[Sequence[int]],
+    groups: Sequence[Sequence[int]],
+) -> WitnessSet:
+    """A product with its multidegree: so many groups are fixed of each part as its dimension.
+
+    Groups are those of the system, each of the variables of one part alone.
+    """
+    choices = choose_groups(groups, whole.dimension)
+    owners = [[k for k, part in enumerate(parts) if set(group) <= set(part)] for group in groups]
+    if choices is None or not all(owners) or any(c.multidegree is None for c in factors):
+        return whole
+    # The place of each group among those of its part.
+    own = [owner for (owner,) in owners]
+    places = [own[:g].count(owner) for g, owner in enumerate(own)]
+    degrees = {}
+    for choice in choices:
+        split = [[places[g] for g in choice if own[g] == k] for k in range(len(parts))]
+        if [len(each) for each in split] != [c.dimension for c in factors]:
+            degrees[choice] = 0
+            continue
+        values = (c.multidegree[tuple(at)] for c, at in zip(factors, split, strict=True))
+        degrees[choice] = prod(map(int, values))
+    return replace(whole, multidegree=multidegree_of(degrees, len(groups), whole.dimension))
 
 
 def independent_variables(system: PolynomialSystem) -> list[tuple[int, ...]]:
