@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 import nag
+from nag.algebra.evaluation import Evaluator
 from nag.decomposition.growth import grow_component
 from nag.mechanism.problem import problem_of
 from nag.tracking.evaluations import PREPARATION, count, count_evaluations
+from nag.witness.witness import Status
 
 # Equations, a regular point, the dimension there, and the degree of the component through it.
 COMPONENTS = {
@@ -64,17 +66,42 @@ def sarrus_row(count: int) -> nag.Mechanism:
     return nag.Mechanism("p0", tuple(joints))
 
 
+@pytest.mark.parametrize("seed", [0, 3, 4])
+def test_a_product_is_grown_factor_by_factor(seed: int) -> None:
+    problem = problem_of(sarrus_row(3))
+    point = np.array(problem.reference, dtype=float)
+    grown = grow_component(problem.system, point, 3, seconds=10.0, seed=seed)
+    assert grown.degree == 125 == grown.component.degree
+    assert grown.component.status is Status.IRREDUCIBLE
+    evaluator = Evaluator.of(problem.system.polynomials, problem.system.n)
+    assert evaluator.residuals(grown.component.points).max() < 1e-12
+
+
+def test_points_in_a_product_are_not_grown() -> None:
+    system = nag.system(["x^2 - 2", "y^2 + z^2 - 1", "w^3 - w"], variables="x y z w")
+    grown = grow_component(system, np.array([2**0.5, 0.6, 0.8, 1.0]), 1, seconds=10.0)
+    assert (grown.dimension, grown.degree, grown.component) == (1, 2, None)
+
+
+def tied(system: nag.PolynomialSystem) -> nag.PolynomialSystem:
+    """The same equations, with one variable more that holds the sum of all others."""
+    n = system.n + 1
+    *others, last = nag.Polynomial.variables(n)
+    rows = [f.with_variables(n, range(n - 1)) for f in system.polynomials]
+    return nag.PolynomialSystem((*system.variables, "s"), (*rows, last - sum(others, last * 0)))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 3, 4])
 def test_no_point_of_another_component_is_counted(seed: int) -> None:
     """Each linkage has two curves of degree 5, and with default settings paths jump to the other.
 
-    Seeds are such on which they did.
+    As one system; seeds are such on which they did, without the variable that ties them.
     """
     problem = problem_of(sarrus_row(3))
-    grown = grow_component(
-        problem.system, np.array(problem.reference, dtype=float), 3, seconds=10.0, seed=seed
-    )
+    point = np.array([float(x) for x in problem.reference])
+    point = np.append(point, point.sum())
+    grown = grow_component(tied(problem.system), point, 3, seconds=10.0, seed=seed)
     assert grown.least <= 125 and grown.degree in (None, 125)
 
 

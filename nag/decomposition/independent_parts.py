@@ -41,7 +41,7 @@ def decompose_parts(task: Task, others: Others) -> Attempt:
         others(
             replace(
                 task,
-                facts=SystemFacts(_part(system, part)),
+                facts=SystemFacts(restrict_to_part(system, part)),
                 symmetries=tuple(_restrict_symmetries(symmetries, part)),
             )
         )
@@ -51,19 +51,21 @@ def decompose_parts(task: Task, others: Others) -> Attempt:
     points = prod(sum(c.degree for c in a.components) for a in answers)
     if prod(counts) > MOST_PRODUCTS or points > MOST_POINTS:
         return Attempt()
-    order = SignedPermutation(tuple(i for part in parts for i in part), (1,) * system.n).inverse
     found = []
     for chosen in product(*(a.components for a in answers)):
         whole = reduce(multiply_components, chosen)
-        found.append(_in_order(_with_multidegree(whole, chosen, parts, system.groups), order))
+        whole = _with_multidegree(whole, chosen, parts, system.groups)
+        found.append(put_in_order(whole, parts))
     found.sort(key=lambda c: (-c.dimension, c.degree))
     paths = sum((a.paths for a in answers), PathCounts())
     notes = [note for a in answers for note in a.notes]
     return Attempt(judge_components(system, found, paths, task.run, notes))
 
 
-def _in_order(component: WitnessSet, order: SignedPermutation) -> WitnessSet:
-    """A product with its variables where the system has them."""
+def put_in_order(component: WitnessSet, parts: Sequence[Sequence[int]]) -> WitnessSet:
+    """A product of sets, each in some of the variables, with the variables in their order."""
+    places = tuple(i for part in parts for i in part)
+    order = SignedPermutation(places, (1,) * len(places)).inverse
     images = tuple(order.after(g).after(order.inverse) for g in component.images)
     moved = image(component, order)
     return replace(moved, orbit=component.orbit, images=images)
@@ -107,7 +109,8 @@ def independent_variables(system: PolynomialSystem) -> list[tuple[int, ...]]:
     return [tuple(i for i, k in enumerate(label) if k == name) for name in sorted(set(label))]
 
 
-def _part(system: PolynomialSystem, part: Sequence[int]) -> PolynomialSystem:
+def restrict_to_part(system: PolynomialSystem, part: Sequence[int]) -> PolynomialSystem:
+    """The equations in some variables, of which each has all of its own or none."""
     position = {i: k for k, i in enumerate(part)}
 
     def restrict(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
