@@ -85,7 +85,10 @@ def _read_export(path: str | os.PathLike[str]) -> Decomposition | SolveResult:
             return export.export_of(value).decomposition
         if name == solutions_export.FORMAT:
             return solutions_export.solutions_of(value).result
-        raise ExportError(f'format: must be "{export.FORMAT}" or "{solutions_export.FORMAT}"')
+        raise ExportError(
+            f'format: must be "{export.FORMAT}" or "{solutions_export.FORMAT}"; what other '
+            "commands write is for Python's json"
+        )
 
     return read_file(path, convert)
 
@@ -159,7 +162,7 @@ def _point(
     if point is None or isinstance(point, str):
         known = f"its points are {', '.join(points)}" if points else "it has none with a name"
         if point not in points:
-            names = ", ".join(system.variables[: system.n - system.imaginary])
+            names = ", ".join(system.own_variables)
             raise NagError(
                 f"point: {value_text(point)} is given; give the name of one ({known}), or numbers "
                 f"for {names}"

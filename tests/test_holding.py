@@ -161,6 +161,9 @@ def test_a_five_bars_circuits_are_one_where_its_rods_reach_everywhere_and_two_el
 
 def test_a_driven_crank_of_one_freedom_has_assemblies_at_each_value() -> None:
     driven = nag.driven_motion(CASES / "bennett.toml", "J0", [0.2, 0.3, 0.4], samples=60)
+    table = driven.table(angles="radians")
+    assert np.allclose(table["driven"], table["J0"], atol=FIT)
+    assert len(table["arc"]) == sum(len(motion.assemblies) for motion in driven)
     assert [len(m.assemblies) for m in driven] == [1, 1, 1]
     (only,) = driven.continuations
     assert (only.moves, only.first, only.members) == (False, 0, (0, 0, 0))

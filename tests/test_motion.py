@@ -27,6 +27,7 @@ from nag.kinematics.walks import walks_of
 from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import real_assemblies
+from nag.pictures.motion_picture import point_of
 from nag.real.curve import (
     PictureVerdict,
     PieceKind,
@@ -458,3 +459,21 @@ def test_the_motion_of_the_reference_is_the_first_circuit(coupler_end: tuple) ->
     assert (len(alone.circuits), len(every.circuits)) == (1, 2)
     assert [c.through_reference for c in every.circuits] == [True, False]
     assert alone.circuits[0] == every.circuits[0]
+
+
+def test_a_pin_of_one_link_alone_is_a_point_of_it() -> None:
+    links = [
+        Link("base", ("A", "D"), ((0, 0), (4, 0))),
+        Link("crank", ("A", "B"), ((0, 0), (1, 0))),
+        Link("coupler", ("B", "C", "P"), ((0, 0), (3, 0), (1, 2))),
+        Link("rocker", ("C", "D"), ((0, 0), (Fraction(7, 2), 0))),
+    ]
+    motion = nag.motion(Linkage("base", tuple(links)), samples=40)
+    assert set(motion.scene.points) == {"P"}
+    circuit = motion.circuits[0]
+    points = {
+        name: circuit.poses.move(*point_of(motion.scene, name)) for name in ("A", "B", "C", "P")
+    }
+    for one, other, squared in (("A", "B", 1), ("B", "P", 5), ("C", "P", 8)):
+        gaps = ((points[one] - points[other]) ** 2).sum(axis=1) - squared
+        assert np.abs(gaps).max() < 1e-12

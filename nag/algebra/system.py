@@ -98,6 +98,11 @@ class PolynomialSystem:
         """Partial derivatives, one row for each polynomial."""
         return tuple(tuple(f.derivative(i) for i in range(self.n)) for f in self.polynomials)
 
+    @property
+    def own_variables(self) -> tuple[str, ...]:
+        """The variables without the imaginary unit."""
+        return self.variables[: self.n - self.imaginary]
+
     def __call__(self, point: Sequence[Any]) -> list[Any]:
         """Values of all polynomials at ``point``, exact if its entries are."""
         if not hasattr(point, "__len__") or len(point) != self.n:
@@ -173,8 +178,8 @@ def system_line(system: PolynomialSystem) -> str:
     for degree in sorted(system.degrees[:own]):
         degrees[degree] = degrees.get(degree, 0) + 1
     listed = ", ".join(f"{n} of degree {d}" for d, n in degrees.items())
-    count = system.n - system.imaginary
-    names = ", ".join(system.variables[:count])
+    count = len(system.own_variables)
+    names = ", ".join(system.own_variables)
     text = (
         f"{count_text(count, 'variable')}{f' ({names})' if 0 < len(names) <= 60 else ''}, "
         f"{count_text(own, 'equation')}{f': {listed}' if listed else ''}"

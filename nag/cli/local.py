@@ -98,8 +98,8 @@ def local_dimension_at(
 def _point_text(name: str, at: tuple[Number | complex, ...], system: PolynomialSystem) -> str:
     from nag.algebra.system import values_text
 
-    own = system.n - system.imaginary
-    values = values_text(system.variables[:own], at[:own])
+    own = system.own_variables
+    values = values_text(own, at[: len(own)])
     return f"{name}: {values}" if name else values
 
 

@@ -41,7 +41,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         read_components(options, lambda *known: chosen_point(options, *known))
     )
     system = found.decomposition.system
-    variables = system.variables[: system.n - system.imaginary]
+    variables = system.own_variables
     point = chosen_point(options, system, found.points)
     located = locate_point(found.decomposition, point, run=chosen_run(options))
     fields = {"format": FORMAT, "variables": list(system.variables), **located.document()}

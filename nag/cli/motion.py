@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -25,7 +25,6 @@ from nag.kinematics import MOST_VALUES
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
-    from nag.kinematics.driven_motion import DrivenMotion
     from nag.kinematics.motion import Motion
     from nag.mechanism.problem import Problem
 
@@ -192,7 +191,7 @@ def _run_once(
         own = tuple(a for a in found.assemblies if a.circuit == asked)
         found = replace(found, circuits=(found.circuit(asked),), assemblies=own)
     if options.csv is not None:
-        write_document(_table_text([found], options.angles), options.csv, "csv")
+        write_document(_table_text(found.whole_table(angles=options.angles)), options.csv, "csv")
     tail = [("open", note) for note in found.notes]
     if options.html is not None and not found.circuits:
         tail.append(("page", f"{options.html} is not written: there is no motion to show"))
@@ -229,7 +228,7 @@ def _run_through(
         raise UsageError("--circuit: leave it out where a joint is driven through values")
     found = driven_motion(problem, *drive, **held)
     if options.csv is not None:
-        write_document(_table_text(found.motions, options.angles, found), options.csv, "csv")
+        write_document(_table_text(found.table(angles=options.angles)), options.csv, "csv")
     tail = [("open", f"value {i + 1}: {note}") for i, m in enumerate(found) for note in m.notes]
     if options.html is not None:
         from nag.page.motion_page import driven_page
@@ -274,31 +273,13 @@ def _with_radians(problem: Problem, drives: Sequence[_Drive]) -> list[tuple[str,
     ]
 
 
-def _table_text(motions: Sequence[Motion], angles: str, driven: DrivenMotion | None = None) -> str:
-    """All circuits as lines of numbers that read back to the same doubles.
-
-    Args:
-        driven: what the motions are those of; its value is the first column.
-    """
+def _table_text(columns: Mapping[str, Any]) -> str:
+    """Columns as lines of numbers that read back to the same doubles."""
     import csv
     import io
 
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    headed = False
-    for i, found in enumerate(motions):
-        tables = [found.table(circuit.number, angles=angles) for circuit in found.circuits]
-        if not tables and found.assemblies:
-            tables = [found.assembly_table(angles=angles)]
-        for columns in tables:
-            before = []
-            if driven is not None:
-                in_degrees = driven.coordinate.kind == "angle" and angles == "degrees"
-                value = driven.values[i]
-                before = [math.degrees(value) if in_degrees else value]
-            if not headed:
-                writer.writerow(["driven"] * len(before) + list(columns))
-                headed = True
-            for row in zip(*(column.tolist() for column in columns.values()), strict=True):
-                writer.writerow([*before, *row])
+    writer.writerow(columns)
+    writer.writerows(zip(*(column.tolist() for column in columns.values()), strict=True))
     return text.getvalue()

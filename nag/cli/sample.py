@@ -64,7 +64,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         "component": component.facts(options.component),
         **samples.document(),
     }
-    blocks = [numbered_row(options.component, component)], align(samples.rows(system.variables))
+    blocks = [numbered_row(options.component, component)], align(samples.rows(system.own_variables))
     # A point of a component needs no other component to be known.
     complete = str(component.status) == "irreducible" and not doubt
     return answer_of(options, found.case, blocks, tail, fields, complete)

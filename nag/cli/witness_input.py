@@ -229,7 +229,7 @@ def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...
     from nag.algebra.from_python import coordinates, exact_complex
     from nag.algebra.tokens import nearest, quote
 
-    variables = system.variables[: system.n - system.imaginary]
+    variables = system.own_variables
     values: dict[str, str] = {}
     for part in text.split(","):
         name, equals, value = part.partition("=")

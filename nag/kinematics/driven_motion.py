@@ -32,6 +32,7 @@ from nag.kinematics.motion import (
     drive_circuits,
     has_several_freedoms,
     held_motion,
+    join_tables,
 )
 from nag.kinematics.poses import Poses, pose_distances
 from nag.kinematics.scene import Scene, scene_of
@@ -97,6 +98,22 @@ class DrivenMotion:
         from nag.kinematics.shown import driven_text
 
         return driven_text(self)
+
+    def table(self, *, angles: str = "degrees") -> dict[str, np.ndarray]:
+        """What is left at each value, one below the other, with the value as first column.
+
+        Args:
+            angles: ``"degrees"`` or ``"radians"``.
+        """
+        turned = self.coordinate.kind == "angle" and angles == "degrees"
+        values = np.degrees(self.values) if turned else np.array(self.values)
+        tables = []
+        for value, motion in zip(values, self.motions, strict=True):
+            # Circuits are those of what is left only where the joint is held.
+            held = motion.drive is None
+            columns = (motion.whole_table if held else motion.assembly_table)(angles=angles)
+            tables.append({"driven": np.full(len(columns["arc"]), value)} | columns)
+        return join_tables(tables)
 
     def document(self) -> dict[str, Any]:
         """All of it as a JSON object without its head; angles are in radians."""

@@ -264,6 +264,11 @@ class Motion:
             columns |= {f"{name}.q{k}": own.poses.turns[i, :, k] for k in range(4)}
         return columns
 
+    def whole_table(self, *, angles: str = "degrees") -> dict[str, np.ndarray]:
+        """All circuits one below the other, or the assemblies where there is no circuit."""
+        tables = [self.table(each.number, angles=angles) for each in self.circuits]
+        return join_tables(tables) if tables else self.assembly_table(angles=angles)
+
     def assembly_table(self, *, angles: str = "degrees") -> dict[str, np.ndarray]:
         """The assemblies with joints or bodies held, a row each, with the columns of `table`.
 
@@ -323,6 +328,11 @@ class Motion:
             "assemblies": [each.document() for each in self.assemblies],
             "circuits": [c.document(scene) for c in self.circuits],
         }
+
+
+def join_tables(tables: Sequence[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:
+    """Tables of the same columns, one below the other."""
+    return {name: np.concatenate([t[name] for t in tables]) for name in tables[0]}
 
 
 @takes_run

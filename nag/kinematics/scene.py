@@ -8,6 +8,7 @@ it, after that joint's turn.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -73,7 +74,8 @@ class Scene:
         joints: all of them.
         planar: the unit normal of the plane of motion, or None.
         from_reference: whether angles and slides count from a configuration that is known.
-        points: named points, each as a body's index and a place in its frame; of frameworks.
+        points: named points, each as a body's index and a place in its frame: of frameworks, and
+            pins of a single link.
         variables: those of the equations.
         lift: poses at points, shape ``(k, n)``.
     """
@@ -229,13 +231,20 @@ def _of_linkage(made: LinkageModel) -> Scene:
     links = made.linkage.links
     names = tuple(link.name for link in links)
     shapes = [_in_plane(link.shape) for link in links]
+    shared = Counter(pin for link in links for pin in link.pins)
+    own = {
+        pin: (i, shapes[i][k])
+        for i, link in enumerate(links)
+        for k, pin in enumerate(link.pins)
+        if shared[pin] == 1
+    }
     return Scene(
         names,
         names.index(made.linkage.ground),
         _pin_joints(names, [link.pins for link in links], shapes),
         np.array(UP),
         False,
-        {},
+        own,
         made.system.variables,
         partial(_lift_linkage, made),
     )

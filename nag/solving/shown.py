@@ -56,7 +56,7 @@ def solution_rows(
     At most ``columns`` coordinates are shown, the imaginary unit not.
     """
     ordered = sorted(range(len(result.solutions)), key=lambda i: not is_real(result.solutions[i]))
-    names = result.system.variables[: result.system.n - result.system.imaginary]
+    names = result.system.own_variables
     columns = len(names) if columns is None else min(columns, len(names))
     dots = ["..."] if len(names) > columns else []
     head = ["solution", *names[:columns], *dots]

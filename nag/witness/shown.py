@@ -272,11 +272,16 @@ def samples_text(samples: Samples) -> str:
 
 
 def sample_rows(samples: Samples, variables: Sequence[str]) -> list[list[str]]:
-    """Headings, and a row for each of the first points, in their first coordinates."""
+    """Headings, and a row for each of the first points, in the first of their leading coordinates.
+
+    Args:
+        variables: names of the leading coordinates; the imaginary unit may be left out.
+    """
     dots = ["..."] if len(variables) > MOST_COLUMNS else []
     rows = [["point", *variables[:MOST_COLUMNS], *dots]]
     for i, point in enumerate(samples.points[:MOST_SAMPLES]):
-        cells = [f"{z.real:.6f}{z.imag:+.6f}i" for z in point[:MOST_COLUMNS]]
+        shown = point[: min(len(variables), MOST_COLUMNS)]
+        cells = [f"{z.real:.6f}{z.imag:+.6f}i" for z in shown]
         rows.append([str(i + 1), *cells, *dots])
     return rows
 
