@@ -318,3 +318,37 @@ def test_phcpack_reads_what_is_written(tmp_path: Path) -> None:
     path.write_text(write_system(system, "phc", "a circle and a cubic"))
     subprocess.run(["phc", "-b", str(path), str(out)], check=True, timeout=60)
     assert "THE SOLUTIONS :\n6 2" in out.read_text()
+
+
+def test_a_field_of_macaulay2_may_have_a_name(tmp_path: Path) -> None:
+    file = tmp_path / "named.m2"
+    file.write_text("k = QQ;\nR = k[a..c];\nI = ideal(a*b - c, a + b);\n")
+    assert read_case(file).system == nag.system(["a*b - c", "a + b"], variables="a b c")
+
+
+@pytest.mark.parametrize("name", ["minors(2, M)", "intersect(ideal(a), ideal(b))"])
+def test_operations_of_macaulay2_are_refused_by_their_names(tmp_path: Path, name: str) -> None:
+    file = tmp_path / "made.m2"
+    file.write_text(f"R = QQ[a, b];\nM = matrix{{{{a, b}}, {{b, a}}}};\nI = {name};\n")
+    with pytest.raises(nag.InputError) as error:
+        read_case(file)
+    said = f"line 3, column 5: {name.partition('(')[0]} is not worked out here; write"
+    assert said in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("kind", "text"),
+    [
+        ("m2", "R = QQ[x];\n" + "-*" * 200_000),
+        ("m2", "R = QQ[x];\nI = ideal(" + "{" * 50_000 + "x" + "}" * 50_000 + ");"),
+        ("m2", "R = QQ[x];\nI = ideal(" + "x" * 300_000 + ");"),
+        ("m2", "R = QQ[x];\n" + "GF " * 100_000),
+        ("sing", "ring r = 0, (x), dp;\n" + "/*" * 200_000),
+        ("sing", "ring r = 0, (x, y(1..2)), dp;\nideal i = " + "x" * 300_000 + ";"),
+    ],
+)
+def test_long_pieces_are_refused_in_linear_time(tmp_path: Path, kind: str, text: str) -> None:
+    file = tmp_path / f"long.{kind}"
+    file.write_text(text)
+    with pytest.raises(nag.InputError):
+        read_case(file)

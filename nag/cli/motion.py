@@ -74,8 +74,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=_pose,
         action="append",
         metavar="BODY=X,Y,Z[,Q0,Q1,Q2,Q3]",
-        help="hold a body at a place of its frame, with a quaternion or turned as it is drawn, as "
-        "--csv writes them: all assemblies of an arm with its hand there; may be repeated",
+        help="hold a body so far from where it is drawn (or --at puts it), with a quaternion or "
+        "turned as it is there, as --csv writes them: all assemblies of an arm with its hand at "
+        "the place; may be repeated",
     )
     parser.add_argument(
         "--csv",

@@ -7,11 +7,11 @@ it tracks them to another in coordinates of comparable sizes), `component_equati
 anew), `exact_points` (found in as many digits as are asked for), `close_points`, `confirm`,
 `multiplicity`, `close_to_sets` and `cutting_in_digits` (what is known of them, and of those that
 doubles do not tell apart); then the operations on a set as it is given (`given_component`):
-`moving` (to a slice that is given), `product`, `membership`, `sampling`, `projection`, `real_points` by
-`gauss_newton`, `constraints` (for equations of motion). `change_of_coordinates` leads to natural
-ones, where these operations begin, and back; `frame` leads from what solving linear equations left,
-and from an orbit to its components; `certificate` with `component_claims`, and `certified_loops`
-prove.
+`moving` (to a slice that is given), `product`, `membership`, `sampling`, `projection`,
+`real_points` by `gauss_newton`, `constraints` (for equations of motion). `change_of_coordinates`
+leads to natural ones, where these operations begin, and back; `frame` leads from what solving
+linear equations left, and from an orbit to its components; `certificate` with `component_claims`,
+and `certified_loops` prove.
 
 Points on a slice are held by what is known of them: a `fibres.Fibre` has those that one square
 system cuts, `points.Points` those of several systems under indices that stay, `fibres.SliceEnds`

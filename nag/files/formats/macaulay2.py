@@ -9,20 +9,39 @@ from nag.algebra.tokens import quote
 from nag.files.case_table import MAX_ENTRIES
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
-_COMMENT = re.compile(r"--[^\n]*|-\*.*?\*-", re.DOTALL)
+_COMMENT = re.compile(r"--[^\n]*|-\*.*?(?:\*-|\Z)", re.DOTALL)
+# A field may have a name of its own: k = QQ; R = k[x, y].
+_NAMED = re.compile(r"\b([A-Za-z]\w*)\s*=\s*(?:QQ|ZZ|RR|CC)(?:_\w+)?\s*[;\n]")
 _RING = re.compile(r"\b(QQ|ZZ|RR|CC)(?:_\w+)?[ \t]*\[")
-_FINITE = re.compile(r"\b(?:ZZ\s*/\s*\w+|GF\b[^\[\n]*)\s*\[")
+_FINITE = re.compile(r"\b(?:ZZ\s*/\s*\w+|GF\b[^\[\n]{0,99})\s*\[")
+_OPERATIONS = re.compile(
+    r"\b(minors|pfaffians|intersect|saturate|eliminate|radical|quotient|trim|kernel|ker|gens|sum)\b"
+)
 _ASSIGNED = re.compile(r"\s*([A-Za-z]\w*)\s*=(?!=)\s*")
 _LISTED = re.compile(r"(?:(?:ideal|polySystem|matrix)\b\s*)?([({])")
-_SUBSCRIPT = re.compile(r"([A-Za-z]\w*)_\(([0-9]+(?:,[0-9]+)*)\)")
+_SUBSCRIPT = re.compile(r"\b([A-Za-z]\w*)_\(([0-9]+(?:,[0-9]+)*)\)")
 _RANGE = re.compile(r"(.+?)\.\.(.+)")
 _INDEXED = re.compile(r"([A-Za-z]\w*?)_(?:([0-9]{1,6})|\{([0-9]{1,6}(?:,[0-9]{1,6})*)\})")
+
+# Lists in each other, as a matrix of one row is.
+MOST_NESTED = 8
 
 
 def recognise(text: str) -> bool:
     """Whether a text makes a ring as Macaulay2 does."""
     plain = _COMMENT.sub("", text)
-    return bool(_RING.search(plain) or _FINITE.search(plain))
+    return bool(_find_ring(plain) or _FINITE.search(plain))
+
+
+def _find_ring(text: str) -> re.Match[str] | None:
+    """Where a ring begins, over a field by its own name or one that it is given."""
+    found = _RING.search(text)
+    if found is not None:
+        return found
+    names = _NAMED.findall(text)
+    if not names:
+        return None
+    return re.search(rf"\b({'|'.join(dict.fromkeys(names))})[ \t]*\[", text)
 
 
 def read(source: SourceFile) -> GivenSystem:
@@ -35,7 +54,7 @@ def read(source: SourceFile) -> GivenSystem:
     # The same length, so that columns stay.
     subscripts = _SUBSCRIPT.sub(lambda m: f"{m[1]}_{{{m[2]}}}", source.text)
     source = SourceFile(source.file, subscripts)
-    ring = _RING.search(source.text)
+    ring = _find_ring(source.text)
     finite = _FINITE.search(source.text)
     if finite:
         source.fail(finite.start(), "a ring over a finite field; write QQ[...]")
@@ -55,10 +74,22 @@ def read(source: SourceFile) -> GivenSystem:
         elif assigned:
             definitions[assigned[1]] = right
     if not ideals:
+        _refuse_operations(source, end + 1)
         source.fail(len(source.text.rstrip()), "there is no ideal; write ideal(..., ...)")
     if len(ideals) > 1:
         source.fail(ideals[1][0].offset, "a second ideal or list; leave one in the file")
     return GivenSystem(variables, ideals[0][1], {}, definitions, imaginary=("ii",))
+
+
+def _refuse_operations(source: SourceFile, start: int) -> None:
+    """Refuse an operation that would make an ideal, by its name."""
+    found = _OPERATIONS.search(source.text, start)
+    if found is not None:
+        source.fail(
+            found.start(),
+            f"{found[1]} is not worked out here; write the polynomials in ideal(..., ...), as "
+            "Macaulay2 prints them with toString",
+        )
 
 
 def _closing(source: SourceFile, opening: int) -> int:
@@ -108,15 +139,16 @@ def _statements(source: SourceFile, start: int) -> list[Passage]:
 
 
 def _polynomials(source: SourceFile, text: Passage) -> tuple[Passage, ...] | None:
-    """The entries of ``ideal(...)``, ``ideal {...}`` or ``{...}``, or None."""
-    match = _LISTED.match(text.text)
-    if match is None or (match.group(0) == "(" and not text.text.startswith("{")):
-        return None
-    opening = text.offset + match.end() - 1
-    end = _closing(source, opening)
-    if source.text[end + 1 : text.offset + len(text.text)].strip():
-        return None
-    inside = Passage(source.text[opening + 1 : end], opening + 1).stripped()
-    if inside.text.startswith("{") and inside.text.endswith("}"):
-        return _polynomials(source, inside)
-    return tuple(source.statements(inside, ","))
+    """The entries of ``ideal(...)``, ``ideal {...}``, ``ideal({...})`` or ``{...}``, or None."""
+    for _ in range(MOST_NESTED):
+        match = _LISTED.match(text.text)
+        if match is None or (match.group(0) == "(" and not text.text.startswith("{")):
+            return None
+        opening = text.offset + match.end() - 1
+        end = _closing(source, opening)
+        if source.text[end + 1 : text.offset + len(text.text)].strip():
+            return None
+        text = Passage(source.text[opening + 1 : end], opening + 1).stripped()
+        if not (text.text.startswith("{") and text.text.endswith("}")):
+            return tuple(source.statements(text, ","))
+    source.fail(text.offset, "lists in lists; write their entries in one list")

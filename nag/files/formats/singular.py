@@ -9,12 +9,12 @@ from nag.algebra.tokens import quote
 from nag.files.case_table import MAX_ENTRIES
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
 _RING = re.compile(r"\s*ring\s+\w+\s*=\s*")
 _RECOGNISED = re.compile(r"^[ \t]*ring\s+\w+\s*=", re.MULTILINE)
 _DEFINED = re.compile(r"\s*(poly|number|ideal)\s+(\w+)\s*=\s*")
 _ASSIGNMENT = re.compile(r"[^=<>!]=[^=]")
-_INDEXED = re.compile(r"(\w+)((?:\([0-9]{1,6}(?:\.\.[0-9]{1,6})?\))+)")
+_INDEXED = re.compile(r"\b(\w+)((?:\([0-9]{1,6}(?:\.\.[0-9]{1,6})?\))+)")
 _BOUNDS = re.compile(r"\(([0-9]+)(?:\.\.([0-9]+))?\)")
 # 3x2y stands for 3*x^2*y where all variables are single letters.
 _SHORT = re.compile(r"(?<![\w.])([0-9]*)((?:[A-Za-z][0-9]*)+)(?!\w)")
