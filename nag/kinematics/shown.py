@@ -190,4 +190,8 @@ def motion_text(motion: Motion) -> str:
     """What is seen at the prompt."""
     rows = motion_rows(motion)
     rows += [(f"circuit {c.number}", circuit_text(motion, c)) for c in motion.circuits]
-    return lines_of(f"Motion of {count_text(len(motion.circuits), 'circuit')}", rows)
+    if motion.circuits or not motion.assemblies:
+        return lines_of(f"Motion of {count_text(len(motion.circuits), 'circuit')}", rows)
+    count = len(motion.assemblies)
+    what = f"{count} real assemblies" if count > 1 else "one real assembly"
+    return lines_of(f"Motion, {what} with what is held", rows)
