@@ -513,8 +513,8 @@ def plot(
     from nag.files.written_file import check_target
     from nag.pictures.plot import (
         check_kind,
-        chosen_kind,
-        drawing_to,
+        choose_picture,
+        draw_to_file,
         plot_curves,
         plot_mechanism,
         plot_tree,
@@ -524,7 +524,7 @@ def plot(
     onto, joints = _listed_names(onto), _listed_names(joints)
     asked = {"onto": onto, "joints": joints, "point": point}
     asked |= {"graph": graph, "mechanism": mechanism, "tree": tree}
-    kind, target = chosen_kind(asked), os.fspath(path)
+    kind, target = choose_picture(asked), os.fspath(path)
     if component is not None and kind != "onto":
         raise NagError("component: is for onto; leave it out")
     check_kind(target)
@@ -538,7 +538,7 @@ def plot(
         if problem.model is None:
             raise NagError(f"{kind}: is for mechanisms; equations are given")
         what = asked[kind]
-        return drawing_to(
+        return draw_to_file(
             target,
             lambda: plot_mechanism(
                 problem, kind, what, title, target, run, onto=onto, circuit=circuit
@@ -548,13 +548,13 @@ def plot(
     if not is_a(opened, "nag.witness.witness", "Decomposition"):
         source, _ = _problem_and_points(opened)
         if kind == "onto":  # before anything is decomposed
-            variables_onto(onto or (), source.system.variables)
+            variables_onto(onto or (), source.system.own_variables)
     found = find_components(source, run)
     if kind == "tree":
-        return drawing_to(target, lambda: plot_tree(found, title, target))
-    places = variables_onto(onto or (), found.system.variables)
+        return draw_to_file(target, lambda: plot_tree(found, title, target))
+    places = variables_onto(onto or (), found.system.own_variables)
     chosen = None if component is None else {component: component_numbered(found, component)}
-    return drawing_to(target, lambda: plot_curves(found, places, title, target, run, chosen))
+    return draw_to_file(target, lambda: plot_curves(found, places, title, target, run, chosen))
 
 
 def _listed_names(names: Sequence[str] | str | None) -> tuple[str, ...] | None:

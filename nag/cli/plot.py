@@ -25,7 +25,7 @@ from nag.cli.witness_input import (
     read_components,
 )
 from nag.errors import ComponentError, NagError
-from nag.pictures.plot import DRAWN, KINDS, chosen_kind
+from nag.pictures.plot import DRAWN, KINDS, choose_picture
 
 if TYPE_CHECKING:
     from nag.algebra.system import PolynomialSystem
@@ -110,7 +110,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         UsageError: if it is not said what to draw, or that is not there.
     """
     try:
-        kind = chosen_kind(vars(options), "--")
+        kind = choose_picture(vars(options), "--")
     except NagError as error:
         raise UsageError(str(error)) from None
     check_picture("out", options.out, options.case)
@@ -129,23 +129,23 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
 
 def _of_components(options: argparse.Namespace, kind: str) -> CommandAnswer:
-    from nag.pictures.plot import drawing_to, plot_curves, plot_tree, variables_onto
+    from nag.pictures.plot import draw_to_file, plot_curves, plot_tree, variables_onto
 
     def check(system: PolynomialSystem, _: Any) -> None:
         if kind == "onto":
-            variables_onto(options.onto, system.variables)
+            variables_onto(options.onto, system.own_variables)
 
     found = read_components(options, check)
     answer = found.decomposition
     if kind == "tree":
-        picture = drawing_to(options.out, lambda: plot_tree(answer, found.title, options.out))
+        picture = draw_to_file(options.out, lambda: plot_tree(answer, found.title, options.out))
         return _drawn(options, found.case, picture, doubt_rows(found))
     numbers = [options.component] if options.component else []
     if not numbers:
         numbers = [k for k, c in enumerate(answer.components, 1) if c.dimension == 1]
     chosen = {number: component_of(found, number, "--component") for number in numbers}
-    onto = variables_onto(options.onto, answer.system.variables)
-    picture = drawing_to(
+    onto = variables_onto(options.onto, answer.system.own_variables)
+    picture = draw_to_file(
         options.out,
         lambda: plot_curves(answer, onto, found.title, options.out, chosen_run(options), chosen),
     )
@@ -154,7 +154,7 @@ def _of_components(options: argparse.Namespace, kind: str) -> CommandAnswer:
 
 def _of_mechanism(options: argparse.Namespace, kind: str) -> CommandAnswer:
     from nag.mechanism.problem import in_real_coordinates
-    from nag.pictures.plot import drawing_to, plot_mechanism
+    from nag.pictures.plot import draw_to_file, plot_mechanism
 
     if is_export(options.case):
         raise UsageError(f"{options.case}: is an export; --{kind} is for cases of mechanisms")
@@ -162,7 +162,7 @@ def _of_mechanism(options: argparse.Namespace, kind: str) -> CommandAnswer:
     if case.kind == "system":
         raise UsageError(f"{options.case}: is a polynomial system; --{kind} is for mechanisms")
     problem = in_real_coordinates(problem_of_case(case, options.formulation or "auto"))
-    picture = drawing_to(
+    picture = draw_to_file(
         options.out,
         lambda: plot_mechanism(
             problem,

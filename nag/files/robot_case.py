@@ -14,7 +14,7 @@ from nag.mechanism.axes import vanishes
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.joint_types import JOINT_TYPES, SYNONYMS, VECTORS
 
-MOST_LETTERS = 200
+LONGEST_NAME = 200
 # What may be given of a joint that closes a loop, besides its vectors.
 _CLOSURE_KEYS = ("name", "type", "bodies", *VECTORS, "second_point")
 
@@ -25,8 +25,8 @@ def read_robot_case(top: CaseTable, number: ReadNumber) -> tuple[Mechanism, tupl
     # A case leads to nothing but what lies beside it.
     if PurePosixPath(name).is_absolute() or Path(name).is_absolute() or ".." in Path(name).parts:
         top.fail("file", f"{quote(name)} does not lie beside the case; write a name without '..'")
-    if len(name) > MOST_LETTERS:
-        top.fail("file", f"{quote(name)} is longer than {MOST_LETTERS} characters; shorten it")
+    if len(name) > LONGEST_NAME:
+        top.fail("file", f"{quote(name)} is longer than {LONGEST_NAME} characters; shorten it")
     path = Path(top.file).parent / name
     robot = read_robot(str(path), read_case_text(path))
     hold = top.texts("hold", "names of links") if "hold" in top.values else []

@@ -33,6 +33,7 @@ from nag.mechanism.loops import Loop, loop_structure
 from nag.mechanism.overconstrained import known_linkage
 from nag.mechanism.quaternion import multiply
 from nag.numerics.doubles import ROUNDED
+from nag.numerics.linear_algebra_threads import limit_scipy
 from nag.numerics.zero_values import ON
 from nag.text.table import join_words
 
@@ -816,6 +817,8 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
     many positions with gaps of at most ``widest``.
     """
     from scipy.optimize import least_squares
+
+    limit_scipy()
 
     others = [i for i, q in enumerate(walk.positions) if q.any() and max(chains.gap(q)) <= widest]
     if len(others) < FITTED:

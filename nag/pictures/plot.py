@@ -62,7 +62,7 @@ def check_kind(path: str) -> None:
         raise NagError('matplotlib is missing; install it with pip install "nag[plot]"')
 
 
-def chosen_kind(given: Mapping[str, Any], dashes: str = "") -> str:
+def choose_picture(given: Mapping[str, Any], dashes: str = "") -> str:
     """Which of `DRAWN` is asked for, where each is given by its name.
 
     Args:
@@ -269,7 +269,7 @@ def _axes(onto: Sequence[str] | None, normal: Any) -> tuple[int, int]:
     return AXES.index(names[0]), AXES.index(names[1])
 
 
-def drawing_to(path: str, draw: Callable[[], Picture]) -> Picture:
+def draw_to_file(path: str, draw: Callable[[], Picture]) -> Picture:
     """What is drawn; a file that cannot be written is bad input.
 
     Raises:
