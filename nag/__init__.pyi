@@ -95,11 +95,13 @@ Parts: TypeAlias = Framework | Linkage | DHLoop | AssemblyModel
 Moving: TypeAlias = File | Case | Mechanism | Model | Parts | Problem
 # What has equations, or what has components.
 Solvable: TypeAlias = Moving | PolynomialSystem | Equations
-Decomposed: TypeAlias = Solvable | Decomposition
+Decomposed: TypeAlias = Solvable | Decomposition | WitnessSet
 # The name of a point, or its coordinates by name or in order.
-Point: TypeAlias = str | Mapping[str, RealNumber] | Sequence[RealNumber] | np.ndarray
+Point: TypeAlias = (
+    str | Mapping[str, complex | RealNumber] | Sequence[complex | RealNumber] | np.ndarray
+)
 Formulation: TypeAlias = Literal["auto", "E", "H", "S", "P"]
-Circuits: TypeAlias = Literal["reference", "all"]
+Circuits: TypeAlias = Literal["reference", "all"] | int
 Drives: TypeAlias = tuple[str, float] | Mapping[str, float]
 Poses: TypeAlias = Mapping[str, Sequence[float]]
 

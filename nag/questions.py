@@ -205,10 +205,21 @@ def find_components(given: Any, run: Run) -> Decomposition:
     from nag.witness.frame import expand_orbits
 
     opened = open_file(given)
+    if is_a(opened, "nag.witness.witness", "WitnessSet"):
+        return _of_one_component(opened)
     if not is_a(opened, "nag.witness.witness", "Decomposition"):
         return expand_orbits(problem_of(opened).decompose(run=run))
     found = expand_orbits(opened)
     return found if opened is given else check_traces(found)
+
+
+def _of_one_component(component: WitnessSet) -> Decomposition:
+    """A component alone; what else there is is not known."""
+    from nag.witness.witness import Decomposition, PathCounts
+
+    notes = ("one component is given; others may be there",)
+    system = component._known_system()
+    return Decomposition(system, (component,), PathCounts(), 0, "default", (), False, notes)
 
 
 def check_traces(found: Decomposition) -> Decomposition:
@@ -290,7 +301,9 @@ def member(given: Any, point: Any = None, *, run: Run = DEFAULT_RUN) -> PointMem
 
     opened = open_file(given)
     points: Mapping[str, tuple[Number, ...]] = {}
-    if is_a(opened, "nag.witness.witness", "Decomposition"):
+    if is_a(opened, "nag.witness.witness", "Decomposition") or is_a(
+        opened, "nag.witness.witness", "WitnessSet"
+    ):
         found = find_components(given, run)
     else:
         problem, points = _problem_and_points(opened)
@@ -479,7 +492,7 @@ def plot(
     mechanism: bool = False,
     tree: bool = False,
     component: int | None = None,
-    circuit: str = "reference",
+    circuit: str | int = "reference",
     formulation: str = "auto",
     run: Run = DEFAULT_RUN,
 ) -> Picture:

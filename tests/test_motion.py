@@ -477,3 +477,11 @@ def test_a_pin_of_one_link_alone_is_a_point_of_it() -> None:
     for one, other, squared in (("A", "B", 1), ("B", "P", 5), ("C", "P", 8)):
         gaps = ((points[one] - points[other]) ** 2).sum(axis=1) - squared
         assert np.abs(gaps).max() < 1e-12
+
+
+def test_a_circuit_may_be_asked_for_by_its_number() -> None:
+    every = nag.motion("cases/planar/four-bar.toml", circuit="all", samples=24)
+    one = nag.motion("cases/planar/four-bar.toml", circuit=2, samples=24)
+    assert one.circuits == every.circuits[1:2]
+    with pytest.raises(NagError, match="circuit: 3 is none; they are 1, 2"):
+        nag.motion("cases/planar/four-bar.toml", circuit=3, samples=24)

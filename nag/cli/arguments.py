@@ -136,6 +136,22 @@ def add_format(parser: argparse.ArgumentParser) -> None:
     )
 
 
+# Circuits that may be asked for by their number.
+MOST_CIRCUITS = 100_000
+
+
+def circuit_asked(text: str) -> str | int:
+    """Which circuits of a motion are meant: ``"reference"``, ``"all"`` or a number."""
+    if text in ("reference", "all"):
+        return text
+    try:
+        return whole(text, 1, MOST_CIRCUITS)
+    except argparse.ArgumentTypeError:
+        raise argparse.ArgumentTypeError(
+            f"{text[:30]!r} is none; write reference, all, or a circuit's number"
+        ) from None
+
+
 class StoreOnce(argparse.Action):
     """An option that makes no sense twice."""
 

@@ -6,7 +6,7 @@ import argparse
 import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from nag.cli.arguments import (
     add_case,
     add_robot,
     add_running,
+    circuit_asked,
     problem_of_case,
     read_given_case,
     whole,
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
 
 FORMAT, DRIVEN_FORMAT = "nag-motion", "nag-driven-motion"
 MOST_SAMPLES = 100_000
-MOST_CIRCUITS = 100_000
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_running(parser)
     parser.add_argument(
         "--circuit",
-        type=_circuit,
+        type=circuit_asked,
         metavar="WHICH",
         help="'reference' for the motions through the reference configuration, 'all' for those of "
         "all components of dimension one, or the number that one of these has (default: "
@@ -133,17 +133,6 @@ def _pose(text: str) -> tuple[str, tuple[float, ...]]:
     return name.strip(), values
 
 
-def _circuit(text: str) -> str | int:
-    if text in ("reference", "all"):
-        return text
-    try:
-        return whole(text, 1, MOST_CIRCUITS)
-    except argparse.ArgumentTypeError:
-        raise argparse.ArgumentTypeError(
-            f"{text[:30]!r} is none; write reference, all, or a circuit's number"
-        ) from None
-
-
 def run(options: argparse.Namespace) -> CommandAnswer:
     """How a mechanism of one freedom really moves."""
     case = read_given_case(options)
@@ -187,10 +176,7 @@ def _run_once(
     from nag.kinematics.shown import assembly_rows, drive_text, motion_rows
 
     asked = options.circuit or ("reference" if not held["drive"] else "all")
-    found = motion(problem, circuit=asked if isinstance(asked, str) else "all", **held)
-    if isinstance(asked, int):
-        own = tuple(a for a in found.assemblies if a.circuit == asked)
-        found = replace(found, circuits=(found.circuit(asked),), assemblies=own)
+    found = motion(problem, circuit=asked, **held)
     if options.csv is not None:
         write_document(_table_text(found.whole_table(angles=options.angles)), options.csv, "csv")
     tail = [("open", note) for note in found.notes]

@@ -12,6 +12,7 @@ from nag.cli.arguments import (
     add_parameters,
     add_robot,
     add_tracking,
+    circuit_asked,
     problem_of_case,
     read_given_case,
 )
@@ -63,8 +64,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--circuit",
-        choices=("reference", "all"),
+        type=circuit_asked,
         default="reference",
+        metavar="WHICH",
         help="as of nag motion (default: reference; all where no configuration is given)",
     )
     parser.add_argument("--graph", action="store_true", help="draw the graph of bodies and joints")

@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from nag.algebra.given import check_choice
+from nag.algebra.given import check_choice, check_whole
 from nag.decomposition.through import through_points
 from nag.errors import NagError
 from nag.kinematics.driven import (
@@ -304,6 +304,15 @@ class Motion:
             raise NagError(f"circuit: {number} is none; {there}")
         return own
 
+    def only_circuit(self, number: int) -> Motion:
+        """The same with one circuit, and the assemblies that are on it.
+
+        Raises:
+            NagError: if there is none of that number.
+        """
+        own = tuple(each for each in self.assemblies if each.circuit == number)
+        return replace(self, circuits=(self.circuit(number),), assemblies=own)
+
     def document(self) -> dict[str, Any]:
         """The motion as a JSON object without its head; angles are in radians."""
         scene = self.scene
@@ -339,7 +348,7 @@ def join_tables(tables: Sequence[Mapping[str, np.ndarray]]) -> dict[str, np.ndar
 def motion(
     mechanism: Any,
     *,
-    circuit: Which = "reference",
+    circuit: Which | int = "reference",
     samples: int = SAMPLES,
     formulation: str = "auto",
     drive: tuple[str, float] | Mapping[str, float] | None = None,
@@ -354,7 +363,8 @@ def motion(
     Args:
         mechanism: a mechanism, a case, a linkage, a framework or a table, or a problem of one.
         circuit: ``"reference"`` for the motions through the reference configuration, where there is
-            one; ``"all"`` for those of all components of dimension one.
+            one; ``"all"`` for those of all components of dimension one; the number of one of these
+            for that one.
         samples: into how many even steps each circuit is divided.
         formulation: of a mechanism's model, as for `nag.model`.
         drive: the name of an angle or slide and a value, in radians or a length, or a dict of
@@ -372,6 +382,18 @@ def motion(
     >>> [(circuit.closed, round(circuit.length, 2)) for circuit in moves.circuits]
     [(True, 14.97)]
     """
+    if not isinstance(circuit, str):
+        check_whole(circuit, "circuit", 1)
+        every = motion(
+            mechanism,
+            circuit="all",
+            samples=samples,
+            formulation=formulation,
+            drive=drive,
+            pose=pose,
+            run=run,
+        )
+        return every.only_circuit(circuit)
     check_choice(circuit, "circuit", get_args(Which))
     drives, poses = read_drives(drive), read_poses(pose)
     given = tie_placed_bodies(mechanism, (each.body for each in poses))

@@ -176,7 +176,7 @@ def plot_mechanism(
     run: Run,
     *,
     onto: Sequence[str] | None = None,
-    circuit: str = "reference",
+    circuit: str | int = "reference",
 ) -> Picture:
     """Bodies and joints, or what is drawn along a motion.
 
@@ -228,7 +228,7 @@ def plot_mechanism(
 
 
 def _plot_configuration(
-    problem: Problem, scene: Scene, title: str, path: str, run: Run, circuit: str
+    problem: Problem, scene: Scene, title: str, path: str, run: Run, circuit: str | int
 ) -> Picture:
     import numpy as np
 
@@ -243,12 +243,13 @@ def _plot_configuration(
         notes = tuple(("open", note) for note in found.notes)
         # Circuits may begin where links are in line.
         at = len(found.circuits[0]) // 8
-        poses, where = found.circuits[0].poses.at(slice(at, at + 1)), "an eighth along circuit 1"
+        poses = found.circuits[0].poses.at(slice(at, at + 1))
+        where = f"an eighth along circuit {found.circuits[0].number}"
     draw_mechanism(scene, poses, title, path)
     return Picture(path, (("drawn", where),), notes)
 
 
-def _motion(problem: Problem, circuit: str, run: Run) -> Motion:
+def _motion(problem: Problem, circuit: str | int, run: Run) -> Motion:
     from nag.kinematics.motion import motion
 
     found = motion(problem, circuit=circuit, run=run)

@@ -21,6 +21,7 @@ import flint
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.given import check_type
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
@@ -91,6 +92,7 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
     >>> str(curve.verdict), len(curve.edges), [str(vertex.kind) for vertex in curve.vertices]
     ('complete', 2, ['singular'])
     """
+    check_type(component, WitnessSet, "component", "one of the components of a nag.Decomposition")
     if component.dimension != 1:
         raise NagError(f"component: it has dimension {component.dimension}; a curve has 1")
     given = component._known_system()

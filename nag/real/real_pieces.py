@@ -18,6 +18,7 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.given import check_type
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import StartError
@@ -122,6 +123,7 @@ def find_real_points(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealPi
     >>> [len(nag.find_real_points(c)) for c in nag.decompose("x^4 = 4").components]
     [1, 1, 0, 0]
     """
+    check_type(component, WitnessSet, "component", "one of the components of a nag.Decomposition")
     if component.dimension == 0:
         return _of_finite_set(component)
     if component._known_system().imaginary:

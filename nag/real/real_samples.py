@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.given import check_whole
+from nag.algebra.given import check_type, check_whole
 from nag.algebra.imaginary_unit import append_unit
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
@@ -53,6 +53,7 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
         NoRealPointsError: if there are none.
         ComponentError: if none, or not as many, were found.
     """
+    check_type(component, WitnessSet, "component", "one of the components of a nag.Decomposition")
     check_whole(count, "count")
     rng = run.random(14)
     system = component._known_system()
