@@ -97,7 +97,9 @@ def test_sympys_imaginary_unit_is_read() -> None:
 
 
 def test_a_variable_called_like_the_unit_is_asked_about() -> None:
-    with pytest.raises(nag.EquationError, match="write imaginary='I' if it is, or list"):
+    with pytest.raises(
+        nag.EquationError, match=r"write nag.system\(..., imaginary='I'\) if it is, or list"
+    ):
         nag.system(["x^2 + I"])
     assert nag.system(["x^2 + I"], ["x", "I"]).n == 2
     assert not nag.system(["x^2 + I"], ["x", "I"]).imaginary
@@ -291,3 +293,47 @@ def test_components_of_complex_equations_meet_and_have_singular_points() -> None
     assert nag.intersect(found, conic, line).components[0].degree == 1
     assert len(nag.singular(found).sets) == 2
     assert nag.singular(nag.decompose(complex_system(*CIRCLE))).complete
+
+
+def test_real_points_that_conjugate_sets_share_count_once() -> None:
+    found = real_points_of_first("x^2 + y^2 + z^2 + I*(x - y)")
+    assert (found.points.round(9).tolist(), found.dimensions) == ([[0, 0, 0]], (0,))
+    found = real_points_of_first("z + I*((x^2 + y^2 - 4)^2 + x^2)")
+    assert sorted(found.points.round(6).tolist()) == [[0, -2, 0], [0, 2, 0]]
+    assert found.each_piece
+
+
+def real_points_of_first(*equations: str) -> nag.RealPieces:
+    return nag.find_real_points(nag.decompose(complex_system(*equations)).components[0])
+
+
+def test_real_samples_are_of_all_sets_that_have_real_points() -> None:
+    surface = nag.decompose(complex_system("z + I*(x^2 + y^2 + 1)*(x^2 + y^2 - 4)"))
+    points = nag.sample(surface, 6, real=True).points[:, :3]
+    assert np.abs((points**2).sum(axis=1) - 4).max() < 1e-12
+    surface = nag.decompose(complex_system("z + I*(x^2 + y^2 - 4)*(x^2 + y^2 - 1)"))
+    points = nag.sample(surface, 20, real=True).points[:, :2]
+    assert set((points**2).sum(axis=1).real.round(9)) == {1, 4}
+
+
+def test_points_that_are_nearly_real_are_not_called_so() -> None:
+    for component in nag.decompose("(x - 1)^2 + 1/10^60").components:
+        assert not nag.find_real_points(component).each_piece
+    kinds = [nag.find_real_points(c) for c in nag.decompose("x^4 - 4").components]
+    assert [(len(kind), kind.each_piece) for kind in kinds] == [(1, True)] * 2 + [(0, True)] * 2
+
+
+def test_dimensions_at_real_points_are_said_where_the_set_is_smooth() -> None:
+    """Real points at which complex sheets meet lie on less than the component's dimension."""
+    for equations in (["x^2 + y^2 + z^2"], ["x^2 + y^2 + z^2 + w^2 - 1", "x*y + z*w - 1/2"]):
+        for component in nag.decompose(equations).components:
+            assert set(nag.find_real_points(component).dimensions) == {-1}
+    sphere = nag.decompose("x^2 + y^2 + z^2 - 1").components[0]
+    assert set(nag.find_real_points(sphere).dimensions) == {2}
+
+
+def test_degrees_and_sympys_equations_are_those_without_the_unit() -> None:
+    given = complex_system("x^2 + I*y")
+    assert given.degrees[:-1] == (2,)
+    x, y = sympy.symbols("x y")
+    assert given.to_sympy() == [x**2 + sympy.I * y]

@@ -259,4 +259,5 @@ def test_a_frame_has_a_row_for_each_solution() -> None:
     assert frame["real"].tolist() == [True, True, False, False, True]
     assert found.real_counts.tolist() == [2, 0, 1] == [len(found.real(k)) for k in range(3)]
     assert [len(points) for points in found] == [2, 2, 1]
+    assert [len(points) for points in found[::-1]] == [1, 2, 2] and len(found[-1]) == 1
     assert repr(found) == "<FamilySolutions: 5 solutions of 3 members>"

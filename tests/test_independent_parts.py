@@ -145,3 +145,15 @@ def test_images_of_products_are_components():
             < 1e-12
         )
         assert sum(len(fibre) for fibre in component.fibres) == component.degree
+
+
+@pytest.mark.parametrize("equations", [["y", "1"], ["x^2 - 1", "y^2 - 2", "1 - 2"], ["3", "0"]])
+def test_an_equation_that_is_a_number_has_no_solutions(equations):
+    answer = decompose(nag.system(equations, variables="x y"))
+    assert answer.complete and not answer.components
+    assert not nag.solve(nag.system(equations, variables="x y")).solutions
+
+
+def test_an_equation_that_is_zero_says_nothing():
+    answer = decompose(nag.system(["x^2 - 1", "0"], variables="x y"))
+    assert kinds(answer) == Counter({(1, 1, 1): 2})

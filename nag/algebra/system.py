@@ -85,8 +85,12 @@ class PolynomialSystem:
 
     @property
     def degrees(self) -> tuple[int, ...]:
-        """Total degrees of the polynomials."""
-        return tuple(f.degree for f in self.polynomials)
+        """Total degrees of the polynomials; of the imaginary unit's own equation 2."""
+        if not self.imaginary:
+            return tuple(f.degree for f in self.polynomials)
+        # The imaginary unit is a number.
+        own = (max((sum(e[:-1]) for e in f.terms), default=0) for f in self.polynomials[:-1])
+        return (*own, 2)
 
     @property
     def exact(self) -> bool:
@@ -131,7 +135,8 @@ class PolynomialSystem:
         """
         from nag.algebra.to_sympy import to_sympy_polynomials
 
-        return to_sympy_polynomials(self.polynomials, self.variables, self.imaginary)
+        own = self.polynomials[:-1] if self.imaginary else self.polynomials
+        return to_sympy_polynomials(own, self.variables, self.imaginary)
 
     def document(self) -> dict[str, Any]:
         """The system as a JSON object."""

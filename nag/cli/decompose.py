@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
     UsageError,
@@ -25,6 +25,7 @@ from nag.mechanism import PLATFORM_ALONE
 if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.problem import Problem
+    from nag.tracking.run import Run
     from nag.witness.witness import Decomposition
 
 MOST_STARTS = 10**6
@@ -97,7 +98,11 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
     from nag.report.answer import answer_lines
     from nag.witness.frame import expand_orbits
 
-    problem, decomposition = _decompose(arguments, problem)
+    def document_of(found: Decomposition) -> dict[str, Any] | None:
+        same = found.system == problem.system
+        return found.document(**Origin.of(case, problem).head) if same else None
+
+    problem, decomposition = _decompose(arguments, problem, chosen_run(arguments, document_of))
     if arguments.expand:
         decomposition = expand_orbits(decomposition)
     points = through_points(decomposition, problem.named, arguments.threads)
@@ -143,9 +148,10 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, problem: Problem)
     return read_problem(arguments)[1]
 
 
-def _decompose(arguments: argparse.Namespace, problem: Problem) -> tuple[Problem, Decomposition]:
+def _decompose(
+    arguments: argparse.Namespace, problem: Problem, run: Run
+) -> tuple[Problem, Decomposition]:
     """The components, and the problem in whose coordinates they are."""
-    run = chosen_run(arguments)
     if arguments.method == "sampling":
         from nag.decomposition.discovery import discover
 

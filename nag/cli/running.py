@@ -136,6 +136,7 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
         nag.NagError: as the command does.
     """
     begin(options)
+    _forget_unfinished(options)
     told = write
     if getattr(options, "json", None) == STANDARD_OUTPUT:
         # The document is all that is written there.
@@ -149,6 +150,7 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
             told(document_text(answer.document()).splitlines())
         elif answer.document is not None and options.json is not None:
             write_document(answer.document(), options.json)
+        _forget_unfinished(options)
     finally:
         write(answer.lines)
     if answer.proof is None:
@@ -232,11 +234,56 @@ def shared_work(options: argparse.Namespace) -> Iterator[None]:
         sys.stderr.write(f"nag: {resume}: {engine.ledger.text}\n")
 
 
-def chosen_run(options: argparse.Namespace) -> Run:
-    """How whatever tracks paths is to be worked out."""
+def chosen_run(
+    options: argparse.Namespace, document_of: Callable[[Any], dict[str, Any] | None] | None = None
+) -> Run:
+    """How whatever tracks paths is to be worked out.
+
+    Args:
+        document_of: the document of an answer that is not complete yet, None where it is none of
+            what is asked; it is kept beside the file of ``--json``, for when the work is ended.
+    """
     from nag.tracking.run import Run
 
-    return Run(options.seed, options.threads, options.settings, options.progress)
+    found = None
+    if document_of is not None and keeps_unfinished(options):
+
+        def found(answer: Any) -> None:
+            document = document_of(answer)
+            if document is not None:
+                write_document(document, unfinished_file(options.json))
+
+    return Run(options.seed, options.threads, options.settings, options.progress, found)
+
+
+def keeps_unfinished(options: argparse.Namespace) -> bool:
+    """Whether answers that are not complete yet are kept: in a file, where a parent watches."""
+    target = getattr(options, "json", None)
+    watched = getattr(options, "tell", None) is not None
+    special = target is None or (os.path.exists(target) and not os.path.isfile(target))
+    return watched and target != STANDARD_OUTPUT and not special
+
+
+def unfinished_file(target: str) -> str:
+    """Where an answer that is not complete yet is kept."""
+    return f"{target}.unfinished"
+
+
+def take_unfinished(target: str | None) -> bool:
+    """Put what was kept in the place of the document; whether there was anything."""
+    if target is None or not os.path.isfile(unfinished_file(target)):
+        return False
+    with contextlib.suppress(OSError):
+        os.replace(unfinished_file(target), target)
+        return True
+    return False
+
+
+def _forget_unfinished(options: argparse.Namespace) -> None:
+    target = getattr(options, "json", None)
+    if target not in (None, STANDARD_OUTPUT):
+        with contextlib.suppress(OSError):
+            os.remove(unfinished_file(target))
 
 
 def run_row(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
     UsageError,
@@ -16,6 +17,9 @@ from nag.cli.arguments import (
 from nag.cli.certify import proof_asked_for
 from nag.cli.running import CommandAnswer, chosen_run, name_case, run_row
 from nag.solving.start import ASKED_FOR
+
+if TYPE_CHECKING:
+    from nag.solving.solutions import SolveResult
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -40,8 +44,13 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.report.solutions import realisations, solution_lines
 
     case, problem = read_problem(options)
+
+    def document_of(found: SolveResult) -> dict[str, Any] | None:
+        same = found.system == problem.system
+        return found.document(*name_case(case)) if same else None
+
     try:
-        result = problem.solve(start=options.start, run=chosen_run(options))
+        result = problem.solve(start=options.start, run=chosen_run(options, document_of))
     except StartError as error:
         raise UsageError(f"{options.case}: {error}") from None
     return CommandAnswer(

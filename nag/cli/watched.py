@@ -20,7 +20,7 @@ from types import FrameType
 from typing import TextIO
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import ProgressLine, TellParent
+from nag.cli.running import ProgressLine, TellParent, take_unfinished
 
 # Seconds in which the child may end by itself, its files cleared away; then it is killed. Ctrl-C is
 # to be obeyed within one.
@@ -219,7 +219,10 @@ class _Watch:
         words = [f"{why} after {time.monotonic() - self._started:.1f} s"]
         if self._line.stage:
             words.append(f" ({self._line.stage_text()})")
-        kept = "" if target is None else f"; {target} is as it was"
+        if take_unfinished(target):
+            kept = f"; {target} has what was found by then, marked incomplete"
+        else:
+            kept = "" if target is None else f"; {target} is as it was"
         folder = getattr(self._options, "resume", None)
         how = "the same command starts over"
         if "resume" in self._options:

@@ -6,7 +6,7 @@ come by their points; from there on they are the same.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,6 +48,7 @@ def assemble_components(
     actions: Sequence[Action] = (),
     scheme: bool = True,
     embedded: bool = False,
+    found: Callable[[Sequence[WitnessSet]], None] | None = None,
 ) -> Assembly:
     """The irreducible components of sets that are given by their points, by dimension.
 
@@ -57,15 +58,16 @@ def assemble_components(
             a multiplicity in it.
         embedded: whether sets that deflation made reduced may lie on larger ones; those that do
             are left out.
+        found: called with the components of the largest dimensions when they are known.
     """
     evidence = digits_of_evidence(reduction.natural.system(reduction.system).polynomials)
-    found: list[tuple[WitnessSet, np.ndarray]] = []
+    known: list[tuple[WitnessSet, np.ndarray]] = []
     sets: dict[int, list[Fibre]] = {}
     counts, notes = PathCounts(), []
     for d in sorted(points, reverse=True):
         if not len(points[d]):
             continue
-        run.tell("splitting", len(found), 0)
+        run.tell("splitting", len(known), 0)
         split = irreducible_orbits(points[d], actions, evidence, rng, run)
         counts += split.counts
         notes += [f"dimension {d}: {note}" for note in split.notes]
@@ -85,7 +87,9 @@ def assemble_components(
             counts += spent
             here.append((component, own.indices, fibres))
         here.sort(key=lambda each: each[0].degree)
-        found += [(component, indices) for component, indices, _ in here]
+        known += [(component, indices) for component, indices, _ in here]
+        if found is not None:
+            found([component for component, _ in known])
         sets[d] = [fibre for *_, fibres in here for fibre in fibres]
-    components, indices = zip(*found, strict=True) if found else ((), ())
+    components, indices = zip(*known, strict=True) if known else ((), ())
     return Assembly(components, indices, counts, tuple(notes))

@@ -173,7 +173,13 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     else:
         systems = [natural.system(b.system(given)) for b in apart]
         used = symmetries if len(systems) == 1 and _keep(symmetries, systems[0]) else ()
-        parts = [_part(task.of_part(each, used), others, rng) for each in systems]
+        parts = []
+        for each in systems:
+            parts.append(_part(task.of_part(each, used), others, rng))
+            if task.found is not None:
+                # Some of these may lie on components of other branches.
+                own = [c.witness for part in parts for c in part.found]
+                task.found([_carry_back(c, natural.inverse, given, None) for c in own])
     joined, notes, counts = _join(parts, rng, run)
     components = [c.witness for c in joined]
     if apart is not None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -16,14 +17,15 @@ from nag.algebra.imaginary_unit import as_real, has_unit
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_components import decompose_apart
+from nag.decomposition.final_checks import judge_components
 from nag.decomposition.independent_parts import decompose_parts
 from nag.decomposition.method import Attempt, Method, Others, Task, decompose_by
 from nag.decomposition.one_equation import decompose_one_equation
 from nag.decomposition.rational_curve import decompose_rational_curve
 from nag.numerics.system_facts import SystemFacts
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, takes_run
 from nag.witness.given_component import check_system
-from nag.witness.witness import Decomposition
+from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 
 @takes_run
@@ -68,9 +70,21 @@ def decompose(
     check_listed(symmetries, "symmetries", "a list of nag.SignedPermutation")
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
-    task = Task(SystemFacts(as_real(system)), tuple(symmetries), run)
+    task = Task(
+        SystemFacts(as_real(system)),
+        tuple(symmetries),
+        run.unheard,
+        found=None if run.found is None else partial(_tell_found, system, run),
+    )
     answer = decompose_by(tuple(METHODS), task)
     return leave_out_conjugate(answer, system) if system.imaginary else answer
+
+
+def _tell_found(system: PolynomialSystem, run: Run, components: Sequence[WitnessSet]) -> None:
+    """Tell of components that are known before the others are."""
+    answer = judge_components(as_real(system), components, PathCounts(), run, [UNFINISHED])
+    assert run.found is not None
+    run.found(leave_out_conjugate(answer, system) if system.imaginary else answer)
 
 
 def leave_out_conjugate(answer: Decomposition, system: PolynomialSystem) -> Decomposition:

@@ -35,6 +35,9 @@ def decompose_parts(task: Task, others: Others) -> Attempt:
     """
     system, symmetries = task.system, task.symmetries
     parts = independent_variables(system)
+    if any(f and not f.support for f in system.polynomials) or not all(system.nonzero):
+        # A number that is not zero, or a condition that nothing fulfils, is in no part.
+        return Attempt(judge_components(system, [], PathCounts(), task.run))
     if len(parts) < 2 or not all(_stays(g, parts) for g in symmetries):
         return Attempt()
     answers = [
@@ -43,6 +46,7 @@ def decompose_parts(task: Task, others: Others) -> Attempt:
                 task,
                 facts=SystemFacts(restrict_to_part(system, part)),
                 symmetries=tuple(_restrict_symmetries(symmetries, part)),
+                found=None,
             )
         )
         for part in parts
@@ -110,7 +114,10 @@ def independent_variables(system: PolynomialSystem) -> list[tuple[int, ...]]:
 
 
 def restrict_to_part(system: PolynomialSystem, part: Sequence[int]) -> PolynomialSystem:
-    """The equations in some variables, of which each has all of its own or none."""
+    """The equations in some variables, of which each has all of its own or none.
+
+    Equations without variables are left out.
+    """
     position = {i: k for k, i in enumerate(part)}
 
     def restrict(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]:

@@ -13,7 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.numerics.system_facts import SystemFacts
 from nag.tracking.run import Run
-from nag.witness.witness import Decomposition, PathCounts
+from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,12 +24,14 @@ class Task:
         facts: what is known of the system.
         symmetries: signed permutations of the variables that keep the equations.
         scheme: whether multiplicities are of interest: a branch is not the scheme that was given.
+        found: called with components that are known already; None for a part of the system.
     """
 
     facts: SystemFacts
     symmetries: tuple[SignedPermutation, ...]
     run: Run
     scheme: bool = True
+    found: Callable[[Sequence[WitnessSet]], None] | None = None
 
     @property
     def system(self) -> PolynomialSystem:

@@ -77,7 +77,13 @@ def _settle(
     moving = [g for g in task.symmetries if not g.is_identity]
     actions = [Action.of(g, task.reduction.frame) for g in moving]
     found = assemble_components(
-        superset.points, task.reduction, rng, task.run, actions=actions, scheme=task.scheme
+        superset.points,
+        task.reduction,
+        rng,
+        task.run,
+        actions=actions,
+        scheme=task.scheme,
+        found=task.found,
     )
     answer = judge_components(
         task.system,

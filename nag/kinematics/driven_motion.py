@@ -102,16 +102,28 @@ class DrivenMotion:
     def table(self, *, angles: str = "degrees") -> dict[str, np.ndarray]:
         """What is left at each value, one below the other, with the value as first column.
 
+        Circuits have the numbers of their continuations: what goes on has the same one.
+
         Args:
             angles: ``"degrees"`` or ``"radians"``.
         """
         turned = self.coordinate.kind == "angle" and angles == "degrees"
-        values = np.degrees(self.values) if turned else np.array(self.values)
+        # Degrees that were given come back as they were.
+        values = np.round(np.degrees(self.values), 12) if turned else np.array(self.values)
+        moving = [each for each in self.continuations if each.moves]
         tables = []
-        for value, motion in zip(values, self.motions, strict=True):
+        for k, (value, motion) in enumerate(zip(values, self.motions, strict=True)):
             # Circuits are those of what is left only where the joint is held.
             held = motion.drive is None
             columns = (motion.whole_table if held else motion.assembly_table)(angles=angles)
+            if held and motion.circuits:
+                numbers = {
+                    motion.circuits[each.members[k - each.first]].number: number
+                    for number, each in enumerate(moving, start=1)
+                    if 0 <= k - each.first < len(each.members)
+                }
+                own = [numbers[c] for c in columns["circuit"].tolist()]
+                columns = columns | {"circuit": np.array(own, dtype=int)}
             tables.append({"driven": np.full(len(columns["arc"]), value)} | columns)
         return join_tables(tables)
 

@@ -277,8 +277,8 @@ class Motion:
         check_choice(angles, "angles", ("degrees", "radians"))
         own = self.assemblies
         columns = {
-            "circuit": np.array([a.circuit or 0 for a in own]),
-            "arc": np.array([np.nan if a.arc is None else a.arc for a in own]),
+            "circuit": np.array([a.circuit or 0 for a in own], dtype=int),
+            "arc": np.array([np.nan if a.arc is None else a.arc for a in own], dtype=float),
         }
         for i, each in enumerate(joint_coordinates(self.scene)):
             column = np.array([a.values[i] for a in own])

@@ -12,13 +12,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.imaginary_unit import append_unit, real_and_imaginary_parts
+from nag.algebra.system import PolynomialSystem
 from nag.decomposition.decompose import decompose
+from nag.numerics.coincidence import SPREAD
 from nag.numerics.doubles import EPS
 from nag.real.curve import PictureVerdict, PieceKind, RealCurve, RealPiece, RealVertex, VertexKind
 from nag.tracking.run import Run
+from nag.witness.exact_points import exact_zeros
 from nag.witness.frame import expand_orbits
 from nag.witness.membership import Membership, membership_in
 from nag.witness.witness import WitnessSet
+
+NOT_KNOWN_REAL = "whether a point is real is not known"
 
 
 @dataclass(frozen=True)
@@ -63,9 +68,13 @@ def find_real_equations(component: WitnessSet, run: Run) -> RealEquations:
 def points_of_complex_curve(equations: RealEquations) -> RealCurve:
     """The real points of a curve that is not its own conjugate: finitely many."""
     points = [c for c in equations.inside if c.dimension == 0]
-    found = [x for c in points for x in real_points_of(c)]
+    known = [real_points_of(c) for c in points]
+    found = [x for own, _ in known for x in own]
     pieces = (RealPiece(PieceKind.POINT, (), (k,)) for k in range(len(found)))
-    doubt = equations.doubt or (
+    doubt = equations.doubt
+    if any(doubtful for _, doubtful in known):
+        doubt = doubt or NOT_KNOWN_REAL
+    doubt = doubt or (
         "points at which it meets a larger set of zeros of the equations' real parts may be missing"
         if equations.beside
         else ""
@@ -81,13 +90,27 @@ def points_of_complex_curve(equations: RealEquations) -> RealCurve:
     )
 
 
-def real_points_of(component: WitnessSet) -> np.ndarray:
-    """The points of a finite set that are not away from their conjugates, shape ``(k, n)``.
+def real_points_of(component: WitnessSet) -> tuple[np.ndarray, int]:
+    """The real points of a finite set, shape ``(k, n)``, and how many only may be real.
 
-    Of complex equations without the coordinate that is the imaginary unit.
+    A point is taken for real if its imaginary parts vanish to 100 digits. Of complex equations the
+    coordinate that is the imaginary unit is left out.
     """
-    own = component.points.shape[1]
-    if component.system is not None and component.system.imaginary:
-        own -= 1
+    system = component._known_system()
+    own = len(system.own_variables)
     off, radii = np.abs(component.points.imag[:, :own]), component.radii[:, :own]
-    return component.points[(off <= radii).all(axis=1), :own].real
+    near = np.flatnonzero((off <= radii).all(axis=1)).tolist()
+    judged = {k: _is_real(system, component, k, own) for k in near}
+    kept = [k for k in near if judged[k] is not False]
+    doubtful = sum(answer is None for answer in judged.values())
+    return component.points[kept, :own].real, doubtful
+
+
+def _is_real(system: PolynomialSystem, component: WitnessSet, index: int, own: int) -> bool | None:
+    """Whether a point is real to 100 digits; None if it is not known to so many."""
+    zeros = exact_zeros(system.polynomials, component, index)
+    known = zeros[0].precise if len(zeros) == 1 else None
+    if known is None:
+        return None
+    off = np.array([float(abs(z.imag.mid())) for z in known.centre[:own]])
+    return bool((off <= SPREAD * np.asarray(known.radii[:own])).all())

@@ -23,11 +23,12 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import StartError
 from nag.numerics.coincidence import coincident
+from nag.numerics.local_dimension import local_dimension
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
 from nag.real.curve import RealCurve
 from nag.real.find_curve import RealCurveError, find_real_curve
-from nag.real.real_equations import find_real_equations, real_points_of
+from nag.real.real_equations import NOT_KNOWN_REAL, find_real_equations, real_points_of
 from nag.solving.solve import solve
 from nag.text.table import lines_of, one_line, point_text
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -43,6 +44,9 @@ from nag.witness.witness import WitnessSet
 MOST_PATHS = 3000
 # Random points round which Newton's method looks for real ones, of each size.
 PLACES, SIZES = 3, (0.3, 1.0, 3.0)
+# Decides: Relative distance of real points of several sets that are one, and the error of one that
+# is nearest to another where the set may be singular.
+SAME, ROUGHLY = 1e-9, 1e-6
 
 
 class Reality(StrEnum):
@@ -134,10 +138,10 @@ def find_real_points(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealPi
 
 
 def _of_finite_set(component: WitnessSet) -> RealPieces:
-    points = real_points_of(component)
+    points, doubtful = real_points_of(component)
     if len(points):
-        reason = "points that are not away from their conjugates by more than their errors"
-        return RealPieces(points, (0,) * len(points), Reality.FOUND, True, reason)
+        reason = NOT_KNOWN_REAL if doubtful else "points whose imaginary parts are 0 to 100 digits"
+        return RealPieces(points, (0,) * len(points), Reality.FOUND, not doubtful, reason)
     reason = "all points are away from their conjugates by more than their errors"
     return RealPieces(points, (), Reality.NONE, True, reason)
 
@@ -154,11 +158,25 @@ def _of_complex_equations(component: WitnessSet, run: Run) -> RealPieces:
     reason = "; ".join(doubts) or "real and imaginary parts of the equations"
     known = [f for f in found if len(f)]
     if known:
-        points = np.vstack([f.points for f in known])
-        dimensions = tuple(d for f in known for d in f.dimensions)
+        points, dimensions = _each_once(known)
         return RealPieces(points, dimensions, Reality.FOUND, not doubts, reason)
     nothing = np.zeros((0, len(equations.variables)))
-    return RealPieces(nothing, (), Reality.NONE_FOUND if doubts else Reality.NONE, True, reason)
+    reality = Reality.NONE_FOUND if doubts else Reality.NONE
+    return RealPieces(nothing, (), reality, not doubts, reason)
+
+
+def _each_once(found: Sequence[RealPieces]) -> tuple[np.ndarray, tuple[int, ...]]:
+    """Points of sets that may have some in common, and the largest dimensions there."""
+    points, dimensions = np.vstack([f.points for f in found[:1]])[:0], list[int]()
+    for own in found:
+        for x, dimension in zip(own.points, own.dimensions, strict=True):
+            there = np.flatnonzero(coincident(points, x, SAME))
+            if len(there):
+                dimensions[there[0]] = max(dimensions[there[0]], dimension)
+            else:
+                points = np.vstack([points, x])
+                dimensions.append(dimension)
+    return points, tuple(dimensions)
 
 
 def _of_curve(component: WitnessSet, run: Run) -> RealPieces:
@@ -298,11 +316,13 @@ def _members(
 
 
 def _dimension_at(system: PolynomialSystem, component: WitnessSet, x: np.ndarray) -> int:
-    """The component's dimension where the equations have the rank that they have on it."""
-    evaluator = Evaluator.of(system.polynomials, system.n)
-    s = np.linalg.svd(evaluator.balanced_jacobian(x + 0j), compute_uv=False)
-    rank = system.n - component.corank
-    smooth = rank == 0 or s[rank - 1] > ON * s[0]
+    """The component's dimension where the equations have the rank that they have on it.
+
+    There the real part has the same dimension; elsewhere it is not known, -1. A nearest point at
+    which the set is singular is a multiple solution, and known to fewer digits.
+    """
+    there = local_dimension(system, x + 0j, accuracy=ROUGHLY)
+    smooth = there.tangent_dimension == component.corank
     return component.dimension if smooth else -1
 
 

@@ -82,18 +82,24 @@ def _samples(system: PolynomialSystem, points: np.ndarray) -> Samples:
 def _of_complex_equations(
     component: WitnessSet, count: int, rng: np.random.Generator, run: Run
 ) -> Samples:
-    """Points of the largest sets of zeros of the equations' real parts that lie on a component."""
+    """Points of the sets of the most real dimensions that lie on a component, all alike often."""
     system = component._known_system()
-    found = find_real_points(component, run=run)
-    if found.reality is not Reality.FOUND:
-        raise _why_none(found.reality, found.reason)
-    largest = max(found.dimensions)
-    if largest <= 0:
-        points = found.points[rng.integers(len(found.points), size=count)]
-        return _samples(system, points)
     inside = find_real_equations(component, run).inside
-    chosen = next(c for c in inside if c.dimension == largest)
-    return _samples(system, sample_real(chosen, count, run=run).points.real)
+    found = [(each, find_real_points(each, run=run)) for each in inside]
+    largest = max((max(f.dimensions) for _, f in found if len(f)), default=-1)
+    if largest <= 0:
+        whole = find_real_points(component, run=run)
+        if whole.reality is not Reality.FOUND:
+            raise _why_none(whole.reality, whole.reason)
+        return _samples(system, whole.points[rng.integers(len(whole.points), size=count)])
+    chosen = [each for each, f in found if len(f) and max(f.dimensions) == largest]
+    shares = rng.multinomial(count, np.full(len(chosen), 1 / len(chosen)))
+    points = [
+        sample_real(each, int(share), run=run).points.real
+        for each, share in zip(chosen, shares, strict=True)
+        if share
+    ]
+    return _samples(system, rng.permutation(np.vstack(points)))
 
 
 def _of_curve(component: WitnessSet, count: int, rng: np.random.Generator, run: Run) -> np.ndarray:

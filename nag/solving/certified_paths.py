@@ -14,6 +14,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.coincidence import NEAR
+from nag.numerics.read_only import equal_values
 from nag.solving.solutions import SolveResult
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start import KINDS
@@ -59,6 +60,8 @@ class ProvedPaths:
     ends: np.ndarray
     steps: int
     others: np.ndarray
+
+    __eq__ = equal_values
 
     def rows(self, solutions: int, seconds: float) -> list[tuple[str, str]]:
         """What is proved of the paths to so many solutions, as labelled texts."""

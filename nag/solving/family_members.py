@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 
@@ -84,8 +84,15 @@ class FamilySolutions:
         """The solutions of each member, as `at` has them."""
         return map(self.at, range(len(self)))
 
-    def __getitem__(self, member: int) -> np.ndarray:
-        return self.at(range(len(self))[member])
+    @overload
+    def __getitem__(self, member: int) -> np.ndarray: ...
+
+    @overload
+    def __getitem__(self, member: slice) -> list[np.ndarray]: ...
+
+    def __getitem__(self, member: int | slice) -> np.ndarray | list[np.ndarray]:
+        chosen = range(len(self))[member]
+        return self.at(chosen) if isinstance(chosen, int) else [self.at(k) for k in chosen]
 
     __repr__ = one_line
 

@@ -47,7 +47,7 @@ class SolveTask:
 
     def of_part(self, system: PolynomialSystem) -> SolveTask:
         """The same for what a branch leaves of the system."""
-        return replace(self, facts=SystemFacts(system))
+        return replace(self, facts=SystemFacts(system), run=self.run.unheard)
 
     @cached_property
     def rng(self) -> np.random.Generator:

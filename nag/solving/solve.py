@@ -29,7 +29,7 @@ from nag.solving.start.choice import check_kind, choose, mixed_volume
 from nag.solving.start.isotropic import isotropic
 from nag.solving.start.target import StartSystem
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, takes_run
 from nag.tracking.settings import Settings, find_settings, tighten
 from nag.tracking.track import track
 
@@ -73,6 +73,9 @@ def solve(
     check_kind(start)
     run.tell("solving", 0, 0)
     if system.imaginary:
+        told = run.found
+        if told is not None:
+            run = replace(run, found=lambda found: told(leave_out_conjugate(found, system)))
         result = solve(as_real(system), start=start, run=run, finite=finite)
         return leave_out_conjugate(result, system)
     return solve_by(tuple(METHODS), SolveTask(facts or SystemFacts(system), start, run, finite))
@@ -267,7 +270,10 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
     run.tell(f"tracking {len(begin.points)} paths", 0, 0)
     paths = track(begin.homotopy, begin.points, run.settings, run.threads, known=begin.known)
     run.tell(f"judging the ends of {len(begin.points)} paths", 0, 0)
-    search = _look(PathSearch.of(task, task.problem, begin, reason, paths, task.rng))
+    search = PathSearch.of(task, task.problem, begin, reason, paths, task.rng)
+    if run.found is not None:
+        run.found(replace(search.result(), complete=False, notes=(UNFINISHED,)))
+    search = _look(search)
     for find in AGAIN:
         if search.completeness is not Completeness.ALL:
             search = find(search)

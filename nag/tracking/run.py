@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import wraps
 from os import PathLike
 from typing import Any, TypeVar
@@ -18,6 +18,9 @@ from nag.tracking.settings import Settings
 
 # Called with a stage's name, the step reached and the number of steps; 0 if that is not known.
 Progress = Callable[[str, int, int], None]
+# Called with an answer that is not complete yet, of what is known so far; and what it says of that.
+UNFINISHED = "the work was ended early: this is what was known by then, some of it perhaps twice"
+Found = Callable[[Any], None]
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,8 @@ class Run:
         threads: for path tracking; answers do not depend on them.
         settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking, or settings of one's own.
         progress: called with a stage's name, the step reached and the number of steps.
+        found: called now and then by `nag.decompose` and `nag.solve` with what is known already, an
+            incomplete answer, for whoever ends the work early.
         resume: a folder in which finished blocks of work are kept, and found again by whoever asks
             the same; answers do not depend on it.
         executor: who works blocks out: an executor of `concurrent.futures`, or ``"processes:4"``,
@@ -47,11 +52,14 @@ class Run:
     threads: int = 1
     settings: Settings | str = "default"
     progress: Progress | None = None
+    found: Found | None = None
     resume: str | PathLike[str] | None = None
     executor: Any = None
 
     def __post_init__(self) -> None:
         check_running(self.seed, self.threads, self.settings, self.progress)
+        if self.found is not None and not callable(self.found):
+            raise NagError(f"found: {type(self.found).__name__} is given; give a function")
         if self.resume is not None and not isinstance(self.resume, str | PathLike):
             raise NagError(f"resume: {type(self.resume).__name__} is given; give a folder")
         if self.executor is not None:
@@ -60,6 +68,11 @@ class Run:
             check_executor(self.executor)
         object.__setattr__(self, "seed", int(self.seed))
         object.__setattr__(self, "threads", int(self.threads))
+
+    @property
+    def unheard(self) -> Run:
+        """The same for a part of the work, whose answers are not those that are asked for."""
+        return self if self.found is None else replace(self, found=None)
 
     @property
     def short(self) -> dict[str, Any]:

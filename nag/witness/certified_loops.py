@@ -22,6 +22,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.certified_points import Proof
 from nag.numerics.coincidence import NEAR, join_labels
 from nag.numerics.discs import Terms
+from nag.numerics.read_only import equal_values
 from nag.tracking.certified_paths import ProvedZeros, certified_paths, prove_zeros_near
 from nag.tracking.moving_discs import MovingPart, MovingSystem
 from nag.witness.certificate import certify_witness_points
@@ -49,6 +50,8 @@ class ProvedMonodromy:
     orbits: np.ndarray
     steps: int
     zeros: bool
+
+    __eq__ = equal_values
 
     def document(self) -> dict[str, Any]:
         """What is proved, as a JSON object."""
