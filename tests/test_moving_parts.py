@@ -241,3 +241,74 @@ def test_a_body_s_motion_is_told_where_it_is() -> None:
     ]
     report = nag.mobility(Mechanism("b0", tuple(joints)), of="b3")
     assert "b3: 3 freedoms, spherical motion about the point (5, -7, 11)" in report.sentence
+
+
+def between_balls(*inner: Joint, bodies: tuple[str, ...] = ("r1",)) -> Mechanism:
+    """Cranks and a rod between two balls, made of several bodies with joints between these."""
+    return Mechanism(
+        "base",
+        (
+            crank("A", ("base", "crank"), (0, 0, 0)),
+            ball("B", ("crank", bodies[0]), (1, 0, 0)),
+            *inner,
+            ball("C", (bodies[-1], "rocker"), (3, 2, 1)),
+            joint("D", "revolute", ("rocker", "base"), (3, 0, 1), X),
+        ),
+    )
+
+
+def idle_of(made: Mechanism) -> list[tuple[tuple[str, ...], int]]:
+    report = nag.mobility(made, detail="local")
+    assert report.moving is not None
+    return [(e.bodies, e.count) for e in report.moving.idle]
+
+
+def test_freedoms_are_idle_once() -> None:
+    """Both halves of a rod turn about the line of the balls: together as well, which is no more."""
+    hinge = joint("H", "revolute", ("r1", "r2"), (1, 0, 0), (2, 2, 1))
+    made = between_balls(hinge, bodies=("r1", "r2"))
+    assert idle_of(made) == [(("r1",), 1), (("r2",), 1)]
+    assert "it moves with 3 freedoms, 2 of them idle" in nag.mobility(made).sentence
+
+
+def test_what_a_rod_carries_turns_idly_with_it() -> None:
+    arm = joint("H", "revolute", ("r1", "arm"), (2, 1, 5), (1, 3, 2))
+    made = between_balls(arm, bodies=("r1",))
+    assert idle_of(made) == [(("r1", "arm"), 1)]
+    moving = nag.mobility(made).moving
+    assert moving is not None and [e.bodies for e in moving.hanging] == [("arm",)]
+
+
+def test_a_door_between_parts_that_are_rigid_together_hangs() -> None:
+    hinges = [
+        joint("low", "revolute", ("wall", "door"), (0, 0, 0), Z),
+        joint("high", "revolute", ("frame", "door"), (0, 0, 2), Z),
+        Joint("screwed", "rigid", ("wall", "frame")),
+    ]
+    report = nag.mobility(Mechanism("wall", tuple(hinges)))
+    assert report.moving is not None and not report.moving.idle
+    assert [e.bodies for e in report.moving.hanging] == [("door",)]
+
+
+@pytest.mark.parametrize("away", [0, 10**5, 10**7])
+def test_bodies_far_from_the_origin_move_as_near_it(away: int) -> None:
+    at = (away, -3 * away, 2 * away)
+    corners = [(0, 0, 0), (0, 2, 0), (3, 3, 0), (4, 0, 0)]
+    names = ("base", "left", "top", "right")
+    turns = [
+        crank(
+            f"T{i}",
+            (names[i], names[(i + 1) % 4]),
+            tuple(map(sum, zip(corners[i], at, strict=True))),
+        )
+        for i in range(4)
+    ]
+    made = Mechanism("base", tuple(turns))
+    top = nag.mobility(made, of="top").moving.body
+    assert (top.motion.rank, top.motion.turning, top.motion.group) == (1, 1, "")
+    left = nag.mobility(made, of="left").moving.body
+    assert left.motion.group == "rotation" and left.screws.pitches == (0.0,)
+    axes = [(1, 0, 0), (0, 1, 0), (2, 3, 6)]
+    wrist = [joint(f"R{i}", "revolute", (f"b{i}", f"b{i + 1}"), at, a) for i, a in enumerate(axes)]
+    hand = nag.mobility(Mechanism("b0", tuple(wrist)), of="b3").moving.body
+    assert hand.motion.group == "spherical motion" and hand.screws.pitches == (0.0, 0.0, 0.0)

@@ -11,7 +11,7 @@ from linkages import CASES
 import nag
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.mobility_report import MobilityStatus
-from nag.numerics.second_order import is_blocked
+from nag.numerics.second_order import count_real_directions, is_blocked
 
 Z = (0, 0, 1)
 
@@ -90,3 +90,37 @@ def test_a_definite_combination_blocks_all_of_the_tangent_space(equations, block
 def test_where_real_motions_meet_nothing_is_blocked(name: str) -> None:
     report = nag.mobility(nag.read_case(CASES / f"{name}.toml"), detail="through")
     assert not report.blocked
+
+
+def test_a_blocked_loop_beside_one_that_moves_takes_its_freedoms_away() -> None:
+    """On the coupler of a four-bar a loop of bars of lengths 1, 2, 3 and 6, all in one line."""
+    corners = {"A": (0, 0), "B": (0, 2), "C": (7, 3), "D": (8, 0)}
+    links = ("base", "crank", "coupler", "rocker", "base")
+    joints = [
+        Joint(name, "revolute", links[i : i + 2], (*place, 0), Z)
+        for i, (name, place) in enumerate(corners.items())
+    ]
+    bars = ("coupler", "one", "two", "three", "coupler")
+    joints += [
+        Joint(f"L{i}", "revolute", bars[i : i + 2], (x, 2, 0), Z)
+        for i, x in enumerate((0, 1, 3, 6))
+    ]
+    report = nag.mobility(Mechanism("base", tuple(joints)), detail="local")
+    assert (report.tangent_dimension, report.local_dimension, report.unreal) == (3, 2, 1)
+    assert not report.blocked and "it moves with 1 freedom, and with 1 more" in report.sentence
+
+
+@pytest.mark.parametrize(
+    ("equations", "count"),
+    [
+        (["x^2 + y^2"], 1),
+        (["x^2 - y^2"], 3),
+        (["x^2 + y^2 + z^3"], 1),
+        (["x^2 + y^2", "z^2"], 0),
+        (["x^2 - y^2", "x*y"], 3),
+        (["(x + y)^2"], 2),
+    ],
+)
+def test_real_curves_leave_in_the_directions_that_no_form_sees(equations, count: int) -> None:
+    system = nag.system(equations, variables="x y z")
+    assert count_real_directions(system, np.zeros(3), 3) == count

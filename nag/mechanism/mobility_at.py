@@ -34,7 +34,7 @@ from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.quaternion import R
 from nag.mechanism.real_assemblies import real_doubt
 from nag.numerics.local_dimension import local_dimension_near
-from nag.numerics.second_order import is_blocked
+from nag.numerics.second_order import count_real_directions
 from nag.text.table import count_text
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expand_orbits
@@ -260,9 +260,10 @@ def _with_product(first: MobilityReport, problem: Problem, curve: FibreProduct) 
 def _local_report(problem: Problem, at: Sequence[Number], run: Run) -> MobilityReport:
     found = local_dimension_near(problem.system, at, seed=run.seed)
     free, tangent = problem.free, found.tangent_dimension
-    blocked = False
+    unreal = 0
     if found.dimension and not found.smooth and in_real_coordinates(problem) is problem:
-        blocked = is_blocked(problem.system, found.point, tangent or 0)
+        real = count_real_directions(problem.system, found.point, tangent or 0)
+        unreal = max(0, found.dimension - real)
     return MobilityReport(
         **_count_freedoms(problem),
         tangent_dimension=None if tangent is None else tangent + free,
@@ -271,7 +272,7 @@ def _local_report(problem: Problem, at: Sequence[Number], run: Run) -> MobilityR
         components=None,
         open="",
         local=found,
-        blocked=blocked,
+        unreal=unreal,
     )
 
 

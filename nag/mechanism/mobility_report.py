@@ -112,8 +112,8 @@ class MobilityReport:
         near: how a rigid mechanism would move if its loops were let open; None if that was not
             asked for.
         hint: at a rigid mechanism that may be meant to move; empty where there is none.
-        blocked: whether terms of second order prove that no real motion of its loops leaves the
-            configuration: what passes through it has no other real point nearby.
+        unreal: freedoms of the local dimension that no real motion leaves the configuration with,
+            as terms of second order prove: complex ones alone do.
     """
 
     space: str
@@ -138,7 +138,7 @@ class MobilityReport:
     moving: MovingParts | None = None
     near: NearMotion | None = None
     hint: str = ""
-    blocked: bool = False
+    unreal: int = 0
     multiplicities: tuple[int, ...] = ()
 
     __eq__ = equal_values
@@ -154,6 +154,11 @@ class MobilityReport:
         if self.general is not None:
             return self.general.multiplicity if self.general.dimension == 0 else 0
         return self.local.multiplicity if self.local is not None else 0
+
+    @property
+    def blocked(self) -> bool:
+        """Whether no real motion of its loops leaves the configuration, as is proved."""
+        return self.unreal > 0 and self.unreal == self.lower - self.free
 
     @property
     def never_reduced(self) -> bool:
@@ -293,6 +298,7 @@ class MobilityReport:
             "multiplicity": self.multiplicity,
             "overconstrained": self.overconstrained,
             "blocked": self.blocked,
+            "unreal": self.unreal,
             "status": str(self.status),
             "meaning": self.sentence,
             "components": None
@@ -387,13 +393,19 @@ def _meaning(report: MobilityReport) -> str:
         )
     idle = 0 if report.moving is None else report.moving.idle_count
     if report.moving is not None and idle and idle == mobility:
-        text = f"nothing moves but idly: {report.moving.idle_text}, {count_text(idle, 'freedom')}"
+        text = f"nothing moves but idly, with {count_text(idle, 'freedom')}"
     else:
-        text = f"it moves with {count_text(mobility or 0, 'freedom')}"
+        text = f"it moves with {count_text((mobility or 0) - report.unreal, 'freedom')}"
+        if report.unreal:
+            text += (
+                f", and with {report.unreal} more that no real motion has, by terms of second order"
+            )
         if report.moving is not None and idle:
             text += f", {idle} of them idle: {report.moving.idle_text}"
     if report.overconstrained:
         text += f", though counting predicts {report.gruebler_kutzbach}"
+    if report.moving is not None and idle and idle == mobility:
+        text += f": {report.moving.idle_text}"
     if status is MobilityStatus.KINEMATOTROPIC:
         dimensions = sorted({d for d, _ in report.components or ()})
         text += f"; motions with {' and '.join(map(str, dimensions))} freedoms meet here"

@@ -101,23 +101,30 @@ def _rank(rows: np.ndarray) -> int:
     return 0 if size < NO_PITCH else rows.shape[1] - matrix_corank(rows / size, NEARLY_SINGULAR)
 
 
-def motion_of(poses: np.ndarray, systems: Sequence[np.ndarray], length: float) -> MotionType:
+def motion_of(
+    poses: np.ndarray,
+    systems: Sequence[np.ndarray],
+    length: float,
+    origin: np.ndarray | None = None,
+) -> MotionType:
     """What poses have in common, by some general ones and their twists.
 
     Args:
         poses: Study coordinates, shape ``(k, 8)``.
         systems: orthonormal bases of the twists, shape ``(d, 6)`` each.
         length: by which lengths are measured.
+        origin: the place of the origin of these coordinates; by default it is the global one.
     """
     rank = len(systems[0])
     turning = _rank(systems[0][:, :3])
     if _rank(np.vstack(systems)) > rank:
         return MotionType(rank, turning, "")
-    return _motion_of_group(systems[0], turning, poses[0], length)
+    there = np.zeros(3) if origin is None else origin
+    return _motion_of_group(systems[0], turning, poses[0], length, there)
 
 
 def _motion_of_group(
-    twists: np.ndarray, turning: int, pose: np.ndarray, length: float
+    twists: np.ndarray, turning: int, pose: np.ndarray, length: float, origin: np.ndarray
 ) -> MotionType:
     """The group whose twists these are, and how it lies; unnamed where its axis is not real."""
     rank = len(twists)
@@ -151,7 +158,7 @@ def _motion_of_group(
         found = np.linalg.lstsq(_cross_rows(twists[:, :3]), twists[:, 3:].ravel(), rcond=None)[0]
         if np.abs(found.imag).max() > NO_PITCH:
             return MotionType(rank, turning, "spherical motion", "about a complex point")
-        centre = found.real * length
+        centre = found.real * length + origin
         place = f"about the point {_point_text(centre)}"
         return MotionType(rank, turning, "spherical motion", place)
     return MotionType(rank, turning, "all displacements" if rank == 6 else "")

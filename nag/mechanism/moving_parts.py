@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise
 from typing import Any
 
+import networkx
 import numpy as np
 
 from nag.errors import NagError
@@ -30,6 +31,8 @@ from nag.text.table import count_text, join_words
 # Steps that lead to a generic configuration, and their length; how often one is shortened; and
 # Newton's steps.
 STEPS, LENGTH, SHORTER, NEWTON = 3, 0.15, 4, 25
+# Of more units, those between two others are not looked at.
+MOST_UNITS = 60
 # Screws of a turn or slide, as 3 + 3 coordinates: turning, and velocity at the origin.
 TURNING, SLIDING = slice(0, 3), slice(3, 6)
 
@@ -266,99 +269,52 @@ def _group(names: Sequence[str], twists: np.ndarray) -> list[tuple[str, ...]]:
 def _idle(
     mechanism: Mechanism, units: Sequence[tuple[str, ...]], twists: np.ndarray
 ) -> tuple[list[IdleFreedom], list[IdleFreedom]]:
-    """Freedoms of one unit by itself, of several as one, and of chains between two others.
+    """Freedoms of one unit, or of several as one, that move nothing else, each once.
 
-    Those of units that are joined to one other body alone come apart: to move by itself is all that
+    Those of units that are joined to one other unit alone come apart: to move by itself is all that
     these can do.
     """
     names = mechanism.body_names
     unit_of = {body: k for k, own in enumerate(units) for body in own}
     first = [names.index(own[0]) for own in units]
-    ground = unit_of[mechanism.ground]
-
-    def alone(own: Sequence[int]) -> tuple[int, np.ndarray]:
-        """How many freedoms leave all other units where they are, and a basis of all of these."""
-        others = [twists[first[k]] for k in range(len(units)) if k not in own]
-        matrix = np.vstack(others)
-        count = _corank(matrix)
-        return count, np.linalg.svd(matrix)[2][matrix.shape[1] - count :].T
-
-    found, hanging, single = [], [], {}
-    for k, own in enumerate(units):
-        if k == ground:
-            continue
-        count, basis = alone([k])
-        single[k] = count
-        if count:
-            turns = _are_turns(twists[first[k]] @ basis)
-            at = [j for j in mechanism.joints if [unit_of[b] for b in j.bodies].count(k) == 1]
-            others = {body for j in at for body in j.bodies if unit_of[body] != k}
-            joint = at[0].name if turns and count == 1 and len(at) == 1 else ""
-            part = IdleFreedom(own, count, turns, joint)
-            (hanging if len(others) == 1 else found).append(part)
-
-    def as_one(own: Sequence[int]) -> np.ndarray:
-        """A basis of the freedoms with which some move as one, and all others not at all."""
+    graph = networkx.Graph()
+    graph.add_nodes_from(range(len(units)))
+    graph.add_edges_from(tuple(unit_of[b] for b in joint.bodies) for joint in mechanism.joints)
+    graph.remove_edges_from(list(networkx.selfloop_edges(graph)))
+    taken = np.zeros((twists.shape[2], 0))
+    found: list[IdleFreedom] = []
+    hanging: list[IdleFreedom] = []
+    for own in _parts_between(graph, unit_of[mechanism.ground]):
         others = [twists[first[k]] for k in range(len(units)) if k not in own]
         differences = [twists[first[k]] - twists[first[own[0]]] for k in own[1:]]
         matrix = np.vstack([*others, *differences])
-        return np.linalg.svd(matrix)[2][matrix.shape[1] - _corank(matrix) :].T
-
-    for chain in _chains(mechanism, unit_of, ground):
-        known = sum(single[k] for k in chain)
-        for start, end in combinations(range(len(chain) + 1), 2):
-            part = chain[start:end]
-            if len(part) < 2 or len(part) == len(units) - 1:
-                continue
-            basis = as_one(part)
-            if basis.shape[1]:
-                turns = _are_turns(twists[first[part[0]]] @ basis)
-                bodies = tuple(body for k in part for body in units[k])
-                found.append(IdleFreedom(bodies, basis.shape[1], turns))
-                known += basis.shape[1]
-        if _is_between(mechanism, unit_of, chain):
-            count = alone(chain)[0] - known
-            if count > 0:
-                bodies = tuple(body for k in chain for body in units[k])
-                found.append(IdleFreedom(bodies, count, False))
+        basis = np.linalg.svd(matrix)[2][matrix.shape[1] - _corank(matrix) :].T
+        both = np.hstack([taken, basis])
+        count = both.shape[1] - _corank(both) - (taken.shape[1] - _corank(taken))
+        if not count:
+            continue
+        taken = both
+        turns = count == basis.shape[1] and _are_turns(twists[first[own[0]]] @ basis)
+        at = [j for j in mechanism.joints if len({unit_of[b] for b in j.bodies} - set(own)) == 1]
+        at = [j for j in at if {unit_of[b] for b in j.bodies} & set(own)]
+        joint = at[0].name if turns and count == 1 and len(at) == 1 else ""
+        part = IdleFreedom(tuple(body for k in own for body in units[k]), count, turns, joint)
+        beside = set().union(*(graph.neighbors(k) for k in own)) - set(own)
+        (hanging if len(beside) == 1 else found).append(part)
     return found, hanging
 
 
-def _is_between(mechanism: Mechanism, unit_of: Mapping[str, int], chain: Sequence[int]) -> bool:
-    """Whether a chain of units joins two different other ones."""
-    pairs = [{unit_of[body] for body in joint.bodies} for joint in mechanism.joints]
-    beside = set().union(*(own for own in pairs if own & set(chain))) - set(chain)
-    return len(beside) == 2
-
-
-def _chains(mechanism: Mechanism, unit_of: Mapping[str, int], ground: int) -> list[tuple[int, ...]]:
-    """Units, two or more one after the other, each with two neighbours."""
-    neighbours: dict[int, list[int]] = {k: [] for k in unit_of.values()}
-    for joint in mechanism.joints:
-        a, b = (unit_of[body] for body in joint.bodies)
-        if a != b:
-            neighbours[a].append(b)
-            neighbours[b].append(a)
-    inner = {k for k, own in neighbours.items() if len(own) == 2 and k != ground}
-    chains, done = [], set[int]()
-    for start in sorted(inner):
-        if start in done:
-            continue
-        ends = []
-        chain = [start]
-        for side in neighbours[start]:
-            before, at = start, side
-            while at in inner and at != start:
-                chain = [at, *chain] if side is neighbours[start][0] and not ends else [*chain, at]
-                ahead = [k for k in neighbours[at] if k != before] or [before]
-                before, at = at, ahead[0]
-            ends.append(at)
-            if at == start:
-                break
-        done.update(chain)
-        if len(ends) == 2 and len(chain) > 1:
-            chains.append(tuple(chain))
-    return chains
+def _parts_between(graph: networkx.Graph, ground: int) -> list[tuple[int, ...]]:
+    """Single units but the ground, and what is connected between two units, the smallest first."""
+    single = [(k,) for k in graph if k != ground]
+    between: set[tuple[int, ...]] = set()
+    for pair in combinations(graph, 2) if len(graph) <= MOST_UNITS else ():
+        rest = graph.subgraph(set(graph) - set(pair))
+        for part in networkx.connected_components(rest):
+            joined = all(part & set(graph.neighbors(k)) for k in pair)
+            if len(part) > 1 and ground not in part and joined:
+                between.add(tuple(sorted(part)))
+    return single + sorted(between, key=lambda part: (len(part), part))
 
 
 def _are_turns(twists: np.ndarray) -> bool:
@@ -380,12 +336,13 @@ def _body_freedoms(
     """
     place = chain.mechanism.body_names.index(body)
     own = [chain.tangent(q, dimension)[1][place] for q in along]
-    bases = [_basis(chain.from_origin(twists)) for twists in own]
+    # Far from the origin, velocities of its point would hide the turns.
+    bases = [_basis(twists) for twists in own]
     poses = np.array([chain.study(q, body) for q in along])
     generic = bases[1:] or bases
     if not len(generic[0]):
         return BodyFreedoms(body, MotionType(0, 0, ""), ScrewSystem(0, 0, ()))
-    motion = motion_of(poses[-len(generic) :], generic, chain.size)
+    motion = motion_of(poses[-len(generic) :], generic, chain.size, chain.centre)
     here = screw_system(bases[0], chain.size) if len(bases[0]) else ScrewSystem(0, 0, ())
     return BodyFreedoms(body, motion, here)
 
@@ -463,18 +420,13 @@ class _Chain:
         return found
 
     def study(self, q: np.ndarray, body: str) -> np.ndarray:
-        """How a body is displaced against the given configuration, Study coordinates."""
-        place = self.displacements(q)[body]
-        turn = quaternion_of(place[:3, :3])
-        moved = self.size * place[:3, 3] + self.centre - place[:3, :3] @ self.centre
-        return multiply_poses(
-            np.array([1.0, 0, 0, 0, 0, *(moved / 2)]), np.array([*turn, 0, 0, 0, 0])
-        )
+        """How a body is displaced against the given configuration, Study coordinates.
 
-    def from_origin(self, twists: np.ndarray) -> np.ndarray:
-        """Twists, shape ``(6, d)``, with velocities of the origin instead of the middle."""
-        velocity = twists[SLIDING] + np.cross(self.centre / self.size, twists[TURNING], axis=0)
-        return np.vstack([twists[TURNING], velocity])
+        In coordinates whose origin is the middle.
+        """
+        place = self.displacements(q)[body]
+        turn = np.array([*quaternion_of(place[:3, :3]), 0, 0, 0, 0])
+        return multiply_poses(np.array([1.0, 0, 0, 0, 0, *(self.size * place[:3, 3] / 2)]), turn)
 
     def _joint(self, i: int, q: np.ndarray) -> np.ndarray:
         result = np.eye(4)

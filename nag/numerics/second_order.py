@@ -4,7 +4,8 @@ Along a real curve x + v s^k + .. of zeros v is a tangent vector, and the terms 
 the second derivatives along v lie in the Jacobian's image. So if for one w in the left kernel the
 form v -> w . D2F(v, v) is definite on the tangent space, the zero is isolated among the real ones,
 whatever the dimension of the complex solution set. (Such a w is a stress that blocks all of the
-tangent space.) The converse is not true: where there is none, nothing is known.
+tangent space.) If it is so only beside the directions in which no form sees anything, real curves
+leave in these alone. The converse is not true: where there is none, nothing is known.
 
 Reference:
     Connelly & Whiteley, Second-order rigidity and prestress stability for tensegrity frameworks,
@@ -22,6 +23,8 @@ from nag.numerics.doubles import CLEAR
 
 # Step of derivatives by complex numbers, which lose no digits.
 COMPLEX_STEP = 1e-40
+# Decides: Parts of the forms that are none.
+UNSEEN = 1e-12
 # Combinations that are tried; each is better than the one before in the direction that was worst.
 TRIALS = 200
 
@@ -29,31 +32,55 @@ TRIALS = 200
 def is_blocked(system: PolynomialSystem, point: np.ndarray, corank: int) -> bool:
     """Whether terms of second order prove that no real curve of zeros leaves a real zero.
 
-    False where they do not prove it, and where the point or an equation is not real.
-
-    Args:
-        point: a zero, correct to rounding, shape ``(n,)``.
-        corank: of the Jacobian there, which is taken as decided.
+    See `count_real_directions`.
 
     >>> import nag
     >>> from nag.numerics.second_order import is_blocked
     >>> [is_blocked(nag.system([f, "z"]), np.zeros(3), 2) for f in ("x^2 + y^2", "x^2 - y^2")]
     [True, False]
     """
+    return corank > 0 and count_real_directions(system, point, corank) == 0
+
+
+def count_real_directions(system: PolynomialSystem, point: np.ndarray, corank: int) -> int:
+    """The dimension of a space of tangents in which all real curves of zeros leave a real zero.
+
+    The corank where terms of second order prove nothing, and where the point is not real.
+
+    Args:
+        point: a zero, correct to rounding, shape ``(n,)``.
+        corank: of the Jacobian there, which is taken as decided.
+
+    >>> import nag
+    >>> from nag.numerics.second_order import count_real_directions
+    >>> count_real_directions(nag.system("x^2 + y^2", "x y z"), np.zeros(3), 3)
+    1
+    """
     evaluator = Evaluator.of(system.polynomials, system.n)
     if not corank or np.any(np.imag(point)):
-        return False
+        return corank
     real = np.real(point)
     jacobian = evaluator.jacobian(real).real
     left, singular, right = np.linalg.svd(jacobian)
     rank = system.n - corank
     if rank and singular[rank - 1] < INDEPENDENT * max(1.0, singular[0]):
-        return False
+        return corank
     tangents, stresses = right[rank:], left[:, rank:]
     aside = real + 1j * COMPLEX_STEP * tangents
     moved = np.array([evaluator.jacobian(x).imag for x in aside]) / COMPLEX_STEP
     second = np.einsum("arn,bn->rab", moved, tangents)
-    return _has_definite_combination(np.einsum("rk,rab->kab", stresses, second))
+    forms = np.einsum("rk,rab->kab", stresses, second)
+    size = np.abs(forms).max(initial=0.0)
+    if size < CLEAR:
+        # Rounding, or too little to tell: largest coefficients are one.
+        return corank
+    _, seen, directions = np.linalg.svd((forms / size).reshape(-1, corank))
+    seen = np.concatenate([seen, np.zeros(corank - len(seen))])
+    if ((seen > UNSEEN) & (seen < CLEAR)).any():
+        return corank
+    beside = directions[seen >= CLEAR]
+    blocked = _has_definite_combination(np.einsum("pa,kab,qb->kpq", beside, forms / size, beside))
+    return corank - len(beside) if blocked else corank
 
 
 def _has_definite_combination(forms: np.ndarray) -> bool:
@@ -63,13 +90,8 @@ def _has_definite_combination(forms: np.ndarray) -> bool:
     if there is a definite one); what no combination changes forbids all.
 
     Args:
-        forms: shape ``(k, t, t)``.
+        forms: of size one, shape ``(k, t, t)``.
     """
-    size = np.abs(forms).max(initial=0.0)
-    if size < CLEAR:
-        # Rounding, or too little to tell: largest coefficients are one.
-        return False
-    forms = forms / size
     weights = _unit(np.trace(forms, axis1=1, axis2=2))
     for _ in range(TRIALS):
         values, vectors = np.linalg.eigh(np.einsum("k,kab->ab", _unit(weights), forms))
