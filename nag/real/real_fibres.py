@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import flint
 import numpy as np
@@ -20,6 +21,8 @@ from nag.real.fibre_table import SPARE, FibreTable, Point
 
 # Decides: Share of the digits beside a critical value at which its fibre is looked at.
 BESIDE = 0.25
+# Share of the digits by which another fibre is further from it: what meets is further apart there.
+APART = 0.1
 # Decides: The same of distances there of points that come together, up to five of them; what is a
 # hundred times as far does not, and between them more digits are taken.
 TOGETHER = 0.05
@@ -69,16 +72,48 @@ def special_fibre(table: FibreTable, closure: ProjectiveClosure, value: flint.ar
         radius = flint.arb(table.radius)
         pencil = np.array([float(value * radius), 1.0])
         fibre = table.at((value + step) * radius)
+        further = table.at((value + step * flint.arb(10) ** round(APART * table.digits)) * radius)
     points = homogeneous_points(closure, fibre)
     together = 10 ** (-TOGETHER * table.digits)
     middles = []
     clusters = _clusters(closure.distances(points, points), together, BETWEEN * together)
     for members in clusters:
         with in_bits(bits_of(table.digits + SPARE)):
+            _check_together(fibre, further, members, APART * table.digits)
             columns = zip(*(fibre[i] for i in members), strict=True)
             x = [sum(column, flint.acb(0)) / len(members) for column in columns]
         middles.append(closure.homogeneous(doubles(x)[None])[0])
     return _of_middles(closure, pencil, middles, clusters)
+
+
+def _check_together(
+    fibre: Sequence[Sequence[flint.acb]],
+    further: Sequence[Sequence[flint.acb]],
+    members: Sequence[int],
+    orders: float,
+) -> None:
+    """Make sure that points come together at a value, and are not near to each other only.
+
+    Args:
+        further: the fibre so many ``orders`` further from the value: m sheets that meet are at
+            least the m-th part of the orders further from each other there.
+
+    Raises:
+        UnclearDigitsError: if they stay apart.
+    """
+    if len(members) < 2:
+        return
+    here = [fibre[i] for i in members]
+    nearest = sorted(further, key=lambda x: float(_distance(x, here[0])))[: len(members)]
+    near, far = (
+        max(_distance(x, y) for x, y in combinations(points, 2)) for points in (here, nearest)
+    )
+    if near > far * flint.arb(10) ** (-orders / (2 * len(members))):
+        raise UnclearDigitsError("points stay apart where they seemed to come together")
+
+
+def _distance(x: Sequence[flint.acb], y: Sequence[flint.acb]) -> flint.arb:
+    return max(abs(a - b).mid() for a, b in zip(x, y, strict=True))
 
 
 def infinite_fibre(table: FibreTable, closure: ProjectiveClosure, alike: int) -> SpecialFibre:
