@@ -111,6 +111,24 @@ def as_real(system: PolynomialSystem) -> PolynomialSystem:
     return replace(system, imaginary=False) if system.imaginary else system
 
 
+def restore_unit(system: PolynomialSystem) -> PolynomialSystem:
+    """Equations whose last variable is the imaginary unit, as ones that know it for that."""
+    own = [f for f in map(reduce_unit, system.polynomials) if f]
+    return adjoin_unit(system.variables, own, system.nonzero, system.groups)
+
+
+def in_variables_with_unit(system: PolynomialSystem, unit: str) -> PolynomialSystem:
+    """The same equations beside those in which a unit occurs."""
+    n = system.n + 1
+    kept = range(system.n)
+    return adjoin_unit(
+        (*system.variables, unit),
+        [f.with_variables(n, kept) for f in system.polynomials],
+        [f.with_variables(n, kept) for f in system.nonzero],
+        system.groups,
+    )
+
+
 def real_and_imaginary_parts(system: PolynomialSystem) -> PolynomialSystem:
     """The equations of the real zeros of equations with the imaginary unit, which is left out."""
     n = system.n - 1

@@ -15,9 +15,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from nag.algebra.given import check_listed, check_whole
+from nag.algebra.imaginary_unit import as_real
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Assembly, assemble_components
+from nag.decomposition.decompose import leave_out_conjugate
 from nag.decomposition.ends import seem_excluded
 from nag.decomposition.final_checks import judge_components
 from nag.decomposition.given_points import CommonSlices, GivenPoint
@@ -78,6 +80,7 @@ def discover(
     check_listed(symmetries, "symmetries", "a list of nag.SignedPermutation")
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
+    given, system = system, as_real(system)
     rng = run.random(7)
     reduction = Reduction.of(system, scaled=True)
     search = _Discovery(reduction, CommonSlices.random(reduction.equations, rng), rng, run)
@@ -89,7 +92,8 @@ def discover(
         components, more, spent = _with_orbits(system, components, symmetries, run)
         notes, counts = notes + more, counts + spent
     notes += found.notes
-    return judge_components(system, components, counts, run, notes)
+    answer = judge_components(system, components, counts, run, notes)
+    return leave_out_conjugate(answer, given) if given.imaginary else answer
 
 
 @dataclass(eq=False)

@@ -40,6 +40,9 @@ def decompose_parts(task: Task, others: Others) -> Attempt:
         return Attempt(judge_components(system, [], PathCounts(), task.run))
     if len(parts) < 2 or not all(_stays(g, parts) for g in symmetries):
         return Attempt()
+    if not all(any(set(group) <= set(part) for part in parts) for group in system.groups):
+        # How many of a group's variables are fixed in which part is not known.
+        return Attempt()
     answers = [
         others(
             replace(
@@ -83,11 +86,12 @@ def _with_multidegree(
 ) -> WitnessSet:
     """A product with its multidegree: so many groups are fixed of each part as its dimension.
 
-    Groups are those of the system, each of the variables of one part alone.
+    Args:
+        groups: those of the system, each of variables of one part alone.
     """
     choices = choose_groups(groups, whole.dimension)
     owners = [[k for k, part in enumerate(parts) if set(group) <= set(part)] for group in groups]
-    if choices is None or not all(owners) or any(c.multidegree is None for c in factors):
+    if choices is None or any(c.multidegree is None for c in factors):
         return whole
     # The place of each group among those of its part.
     own = [owner for (owner,) in owners]

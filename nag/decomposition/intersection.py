@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from nag.algebra.given import check_type
+from nag.algebra.imaginary_unit import in_variables_with_unit, restore_unit
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import assemble_components
 from nag.decomposition.diagonal import meet_on_diagonal
@@ -89,7 +90,13 @@ def intersect_components(
     other = second.system or system
     _check_variables(system, other)
     factors = Operand.in_branch(system, first), Operand.in_branch(other, second)
-    return intersect_factors(*factors, run=run)
+    answer = intersect_factors(*factors, run=run)
+    return _knowing_the_unit(answer) if system.imaginary else answer
+
+
+def _knowing_the_unit(answer: Decomposition) -> Decomposition:
+    """What complex equations have in common, as components of such."""
+    return replace(answer, system=restore_unit(answer.system))
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -165,7 +172,10 @@ def intersect_equations(
     """
     check_component(system, component)
     check_system(equations, "equations")
+    if system.imaginary and equations.variables == system.own_variables:
+        equations = in_variables_with_unit(equations, system.variables[-1])
     _check_variables(system, equations)
+    imaginary = system.imaginary
     system = component_system(system, component)
     whole = _union(system, equations)
     natural = coordinates_of(whole)
@@ -184,7 +194,8 @@ def intersect_equations(
         if len(points[d]) + lost < sum(map(len, found)):
             notes.append(f"points of dimension {d} are too close to each other")
     answer = _intersection(common, points, superset.counts, notes, rng, run)
-    return _carry_back(answer, answer.components, whole, natural)
+    answer = _carry_back(answer, answer.components, whole, natural)
+    return _knowing_the_unit(answer) if imaginary else answer
 
 
 def _meet_equations(
