@@ -352,3 +352,54 @@ def test_long_pieces_are_refused_in_linear_time(tmp_path: Path, kind: str, text:
     file.write_text(text)
     with pytest.raises(nag.InputError):
         read_case(file)
+
+
+@pytest.mark.parametrize(
+    ("kind", "text", "said"),
+    [
+        ("m2", "R = QQ[x,y]/(x^2-1)\nI = ideal(y-x)", "line 1, column 12: a quotient ring"),
+        ("m2", "R = QQ[x,y]\nI = ideal(x^2^3, y)", "line 2, column 12: a power of a power"),
+        ("m2", "R = QQ[x,y]\nI = ideal(x**2, y)", "line 2, column 12: '**' is a tensor product"),
+        ("sing", "ring r=0,(x,y),dp;\nideal i=x^2^3,y;", "line 2, column 10: a power of a power"),
+    ],
+)
+def test_what_other_programs_read_in_another_way_is_refused(
+    tmp_path: Path, kind: str, text: str, said: str
+) -> None:
+    file = tmp_path / f"other.{kind}"
+    file.write_text(text)
+    with pytest.raises(nag.InputError) as error:
+        read_case(file)
+    assert said in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("short", "written"),
+    [
+        ("3x2y", "3*x^2*y"),
+        ("xy^2", "x^2*y^2"),
+        ("3x^2", "9*x^2"),
+        ("3z4y^4*x4", "81*x^4*y^4*z^16"),
+        ("3x-1", "3*x - 1"),
+        ("2x*3y", "6*x*y"),
+        ("x1-1", "x - 1"),
+    ],
+)
+def test_short_monomials_are_what_singular_takes_them_for(
+    tmp_path: Path, short: str, written: str
+) -> None:
+    file = tmp_path / "short.sing"
+    file.write_text(f"ring r = 0, (x, y, z), dp;\nideal i = {short}, z;")
+    assert read_case(file).system.text()[0] == written
+
+
+def test_names_that_are_defined_come_before_short_monomials(tmp_path: Path) -> None:
+    file = tmp_path / "named.sing"
+    file.write_text("ring r = 0, (x, y), dp;\npoly x1 = x2;\nideal i = x1 - 1, y;")
+    assert read_case(file).system.text() == ["x^2 - 1", "y"]
+
+
+def test_i_is_the_unit_of_singulars_complex_rings(tmp_path: Path) -> None:
+    file = tmp_path / "complex.sing"
+    file.write_text("ring r = (complex,30), (x,y), dp;\nideal j = x2 + i, y - i*x;")
+    assert read_case(file).system.imaginary

@@ -51,6 +51,7 @@ def read(source: SourceFile) -> GivenSystem:
         CaseError: if there is no ring, or not one ideal.
     """
     source = source.without(_COMMENT)
+    source.refuse_towers()
     # The same length, so that columns stay.
     subscripts = _SUBSCRIPT.sub(lambda m: f"{m[1]}_{{{m[2]}}}", source.text)
     source = SourceFile(source.file, subscripts)
@@ -61,6 +62,13 @@ def read(source: SourceFile) -> GivenSystem:
     if ring is None:
         source.fail(0, "there is no ring; write R = QQ[x, y]")
     end = _closing(source, ring.end() - 1)
+    behind = source.text[end + 1 :].lstrip(" \t")
+    if behind.startswith("/"):
+        at = len(source.text) - len(behind)
+        source.fail(at, "a quotient ring; add its polynomials to the ideal")
+    tensor = source.text.find("**", end)
+    if tensor >= 0:
+        source.fail(tensor, "'**' is a tensor product in Macaulay2; write '^' for a power")
     listed = Passage(source.text[ring.end() : end], ring.end())
     names = [n for item in source.statements(listed, ",") for n in _ring_names(source, item)]
     variables = check_names(source, names)

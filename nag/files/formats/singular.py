@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
+from collections.abc import Container
 
 from nag.algebra.tokens import quote
 from nag.files.case_table import MAX_ENTRIES
@@ -33,6 +34,7 @@ def read(source: SourceFile) -> GivenSystem:
         CaseError: if the ring is not of characteristic 0, or there is not one ideal.
     """
     source = source.without(_COMMENT)
+    source.refuse_towers()
     statements = source.statements()
     rings = [(s, m) for s in statements if (m := _RING.match(s.text))]
     if not rings:
@@ -53,7 +55,7 @@ def read(source: SourceFile) -> GivenSystem:
             continue
         right = statement.part(defined.end(), len(statement.text))
         texts = [_names_indexed(t, bases) for t in source.statements(right, ",")]
-        texts = [_write_out(t, names) for t in texts] if letters else texts
+        texts = [_write_out(t, names, definitions) for t in texts] if letters else texts
         if defined[1] == "ideal":
             ideals.append((statement, tuple(texts)))
         elif len(texts) == 1:
@@ -97,7 +99,8 @@ def _read_ring(
                 source.fail(item.offset, f"more than {MAX_ENTRIES} variables; at most that many")
         for index in itertools.product(*(range(low, high + 1) for low, high in bounds)):
             names.append(Passage(match[1] + "".join(f"[{k}]" for k in index), item.offset))
-    units = (field.rstrip(")").split(",")[-1].strip(),) if "," in field else ("i",)
+    parts = [part.strip() for part in field.rstrip(")").split(",")[1:]]
+    units = tuple(part for part in parts if not part.isdigit()) or ("i",)
     is_complex = field.lstrip("(").startswith("complex")
     return check_names(source, names), frozenset(bases), units if is_complex else ()
 
@@ -113,14 +116,22 @@ def _names_indexed(text: Passage, bases: frozenset[str]) -> Passage:
     return Passage(_INDEXED.sub(indexed, text.text), text.offset)
 
 
-def _write_out(text: Passage, names: tuple[str, ...]) -> Passage:
-    """The same with all products and powers written, where all variables are letters."""
+def _write_out(text: Passage, names: tuple[str, ...], defined: Container[str]) -> Passage:
+    """The same with all products and powers written, where all variables are letters.
+
+    A monomial is one name to Singular: xy^2 is (xy)^2, and 3x^2 is (3x)^2. Names that are defined
+    come first.
+    """
 
     def product(match: re.Match[str]) -> str:
         letters = _LETTER.findall(match[2])
-        if match[2] in names or not all(letter in names for letter, _ in letters):
+        if match[2] in defined or not all(letter in names for letter, _ in letters):
+            return match[0]
+        if not match[1] and match[2] in names:
             return match[0]
         factors = [f"{letter}^{power}" if power else letter for letter, power in letters]
-        return "*".join([match[1], *factors] if match[1] else factors)
+        whole = "*".join([match[1], *factors] if match[1] else factors)
+        behind = text.text[match.end() : match.end() + 2].lstrip()
+        return f"({whole})" if behind.startswith("^") else whole
 
     return Passage(_SHORT.sub(product, text.text), text.offset)

@@ -37,6 +37,9 @@ class Passage:
         return Passage(self.text[start:end], self.offset + start).stripped()
 
 
+_TOWER = re.compile(r"\^\s*(?:\w+|\([^()]{1,99}\))\s*\^")
+
+
 @dataclass(frozen=True)
 class SourceFile:
     """A file's path and text."""
@@ -49,6 +52,16 @@ class SourceFile:
         line = self.text.count("\n", 0, offset) + 1
         column = offset - self.text.rfind("\n", 0, offset)
         raise CaseError(line_of(self.file, f"line {line}, column {column}", message))
+
+    def refuse_towers(self) -> None:
+        """Refuse powers of powers, which other programs take for (a^b)^c.
+
+        Raises:
+            CaseError: if there is one.
+        """
+        tower = _TOWER.search(self.text)
+        if tower is not None:
+            self.fail(tower.start(), "a power of a power; write parentheses, (a^b)^c or a^(b^c)")
 
     def without(self, comment: re.Pattern[str]) -> SourceFile:
         """The same with comments blanked out, so that columns stay."""
