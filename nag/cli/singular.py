@@ -77,6 +77,8 @@ def _for_parameters(options: argparse.Namespace) -> CommandAnswer:
             raise UsageError(f"--set {name}: is an unknown by --free; give it no value")
     case = read_case_file(options.case, options.set)
     system = freed_system(options.case, names, dict(options.set))
+    if system.imaginary:
+        raise UsageError(f"{options.case}: --free: is for cases with real coefficients")
     try:
         found = singular_parameters(system, len(names), run=chosen_run(options))
     except ValueError as reason:

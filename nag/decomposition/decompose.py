@@ -89,8 +89,19 @@ def _tell_found(system: PolynomialSystem, run: Run, components: Sequence[Witness
 
 def leave_out_conjugate(answer: Decomposition, system: PolynomialSystem) -> Decomposition:
     """The components on which the imaginary unit is i; those with -i are the conjugate system's."""
-    kept = tuple(c for c in answer.components if has_unit(c.points).any())
-    return replace(answer, system=system, components=kept)
+    kept = [c for c in answer.components if has_unit(c.points).any()]
+    if system.groups and system.groups[-1] == (system.n - 1,):
+        # The unit is a number, and no group of its own.
+        kept = [
+            c if c.multidegree is None else replace(c, multidegree=_without_last(c.multidegree))
+            for c in kept
+        ]
+    return replace(answer, system=system, components=tuple(kept))
+
+
+def _without_last(multidegree: np.ndarray) -> np.ndarray:
+    """A multidegree without the last group."""
+    return multidegree[(slice(None, -1),) * multidegree.ndim]
 
 
 def by_variables(task: Task, others: Others) -> Attempt:

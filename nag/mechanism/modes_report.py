@@ -104,13 +104,17 @@ class OperationMode:
         return all(r < REACHED for r in self.residuals)
 
     @property
+    def pose_reached(self) -> bool:
+        """Whether every leg is known to reach the real pose with real joint coordinates."""
+        return bool(self.real_residuals) and all(r < REACHED for r in self.real_residuals)
+
+    @property
     def really_reached(self) -> bool:
         """Whether every leg is known to reach a real pose with real joint coordinates.
 
         The reference is one.
         """
-        found = bool(self.real_residuals) and all(r < REACHED for r in self.real_residuals)
-        return found or bool(self.through_reference)
+        return self.pose_reached or bool(self.through_reference)
 
     @property
     def equations(self) -> list[str]:
@@ -291,7 +295,8 @@ class OperationModes:
         for i, mode in enumerate(self.moving, 1):
             parts = [_equations_text(mode)]
             if mode.screws is not None and mode.motion is not None and not mode.motion.group:
-                where = "at a real pose"
+                reached = "" if mode.pose_reached else " that no joints were found to reach"
+                where = f"at a real pose{reached}"
                 parts.append(f"screw system {where} of {mode.screws}")
             if mode.limits:
                 names = join_words([self.model.legs[k].leg.name for k in mode.limits])

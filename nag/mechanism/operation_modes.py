@@ -375,7 +375,7 @@ def _describe(
     # The pose that most legs reach, the first of several.
     best = int(np.argmin((residuals >= REACHED).sum(axis=1)))
     point, pose, near = points[best], poses[best], residuals[best]
-    if near.max() >= REACHED and not through:
+    if near.max() >= REACHED:
         found = _reached_point(model, mode, pose, length, run)
         if found is not None:
             point, near = found

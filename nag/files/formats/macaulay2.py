@@ -17,7 +17,8 @@ _FINITE = re.compile(r"\b(?:ZZ\s*/\s*\w+|GF\b[^\[\n]{0,99})\s*\[")
 _OPERATIONS = re.compile(
     r"\b(minors|pfaffians|intersect|saturate|eliminate|radical|quotient|trim|kernel|ker|gens|sum)\b"
 )
-_ASSIGNED = re.compile(r"\s*([A-Za-z]\w*)\s*=(?!=)\s*")
+_ASSIGNED = re.compile(r"\s*([A-Za-z]\w*)\s*:?=(?!=)\s*")
+_OF_LIST = re.compile(r"ideal\b\s*\(?\s*([A-Za-z]\w*)\s*\)?")
 _LISTED = re.compile(r"(?:(?:ideal|polySystem|matrix)\b\s*)?([({])")
 _SUBSCRIPT = re.compile(r"\b([A-Za-z]\w*)_\(([0-9]+(?:,[0-9]+)*)\)")
 _RANGE = re.compile(r"(.+?)\.\.(.+)")
@@ -72,13 +73,17 @@ def read(source: SourceFile) -> GivenSystem:
     listed = Passage(source.text[ring.end() : end], ring.end())
     names = [n for item in source.statements(listed, ",") for n in _ring_names(source, item)]
     variables = check_names(source, names)
-    definitions, ideals = {}, []
+    definitions, ideals, lists = {}, [], set[str]()
     for statement in _statements(source, end + 1):
         assigned = _ASSIGNED.match(statement.text)
         right = statement.part(assigned.end(), len(statement.text)) if assigned else statement
-        polynomials = _polynomials(source, right)
+        polynomials, of_list = _polynomials(source, right), _OF_LIST.fullmatch(right.text)
+        if of_list and of_list[1] in lists:
+            # The list itself is read.
+            continue
         if polynomials is not None:
             ideals.append((statement, polynomials))
+            lists |= {assigned[1]} if assigned else set()
         elif assigned:
             definitions[assigned[1]] = right
     if not ideals:
