@@ -337,3 +337,11 @@ def test_degrees_and_sympys_equations_are_those_without_the_unit() -> None:
     assert given.degrees[:-1] == (2,)
     x, y = sympy.symbols("x y")
     assert given.to_sympy() == [x**2 + sympy.I * y]
+
+
+def test_multidegrees_count_groups_of_the_systems_own_variables(tmp_path: Path) -> None:
+    given = nag.system(["x^2 + I*y^2 - 2"], ["x", "y"], groups=[["x"], ["y"]])
+    found = nag.decompose(given)
+    assert found[0].multidegree.tolist() == [2, 2]
+    nag.write(found, tmp_path / "a.json")
+    assert nag.read(tmp_path / "a.json") == found

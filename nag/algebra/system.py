@@ -107,6 +107,12 @@ class PolynomialSystem:
         """The variables without the imaginary unit."""
         return self.variables[: self.n - self.imaginary]
 
+    @property
+    def own_groups(self) -> tuple[tuple[int, ...], ...]:
+        """The groups without one of the imaginary unit alone."""
+        alone = (self.n - 1,)
+        return tuple(g for g in self.groups if not (self.imaginary and g == alone))
+
     def __call__(self, point: Sequence[Any]) -> list[Any]:
         """Values of all polynomials at ``point``, exact if its entries are."""
         if not hasattr(point, "__len__") or len(point) != self.n:

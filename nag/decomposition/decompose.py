@@ -90,7 +90,7 @@ def _tell_found(system: PolynomialSystem, run: Run, components: Sequence[Witness
 def leave_out_conjugate(answer: Decomposition, system: PolynomialSystem) -> Decomposition:
     """The components on which the imaginary unit is i; those with -i are the conjugate system's."""
     kept = [c for c in answer.components if has_unit(c.points).any()]
-    if system.groups and system.groups[-1] == (system.n - 1,):
+    if len(system.own_groups) < len(system.groups):
         # The unit is a number, and no group of its own.
         kept = [
             c if c.multidegree is None else replace(c, multidegree=_without_last(c.multidegree))

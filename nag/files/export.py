@@ -191,7 +191,7 @@ def _component(
     multidegree = table.get("multidegree")
     if multidegree is not None:
         here = f"{place}.multidegree"
-        multidegree = _multidegree(multidegree, len(system.groups), len(b), here)
+        multidegree = _multidegree(multidegree, len(system.own_groups), len(b), here)
     radii, digits = _errors(table, points, place)
     orbit, cut = table["orbit"], Slice(a, b)
     return WitnessSet(
