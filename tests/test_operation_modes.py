@@ -677,3 +677,29 @@ def test_real_poses_of_modes_are_found_where_most_are_beyond_reach(seed: int) ->
     # The pose is on the mode: it turns over, and is a displacement.
     assert np.abs(over.real_pose[[0, 3]]).max() < 1e-8
     assert abs(over.real_pose[:4] @ over.real_pose[4:]) < 1e-8
+
+
+@pytest.mark.parametrize("name", ["3-rps", "3-upu-tsai", "3-rrr-spherical"])
+def test_a_robot_far_from_the_origin_has_the_modes_that_it_has_near_it(name: str) -> None:
+    at = (10**6, -2 * 10**6, 10**6)
+    near = robot(name)
+    joints = (
+        j if j.point is None else replace(j, point=tuple(map(sum, zip(j.point, at, strict=True))))
+        for j in near.joints
+    )
+    far = nag.modes(replace(near, joints=tuple(joints)))
+    here = found_modes(name)
+    assert far.complete and kinds(far) == kinds(here)
+    assert [t.kinds for t in far.transitions] == [t.kinds for t in here.transitions]
+    for mode, known in zip(far.modes, here.modes, strict=True):
+        assert (mode.motion.group, mode.motion.start) == (known.motion.group, known.motion.start)
+        if mode.screws is not None and known.screws is not None:
+            assert mode.screws.pitches == pytest.approx(known.screws.pitches, rel=1e-6)
+        # Equations and the pose are those in the coordinates that are given.
+        pose = mode.real_pose
+        for form in (*mode.linear, *mode.quadratic):
+            size = sum(abs(form.terms[e]) * 3e6**form.degree for e in form.terms)
+            assert abs(float(form(pose.tolist()))) < 1e-12 * float(size)
+    if name == "3-rrr-spherical":
+        place = far.modes[0].motion.place
+        assert place == "about the point (1e+06, -2e+06, 1e+06)"

@@ -252,7 +252,11 @@ class OperationModes:
             found.append(("aside", f"joints of no leg: {names}"))
         system = self.model.system
         equations = count_text(len(system.polynomials), "equation")
-        found.append(("model", f"{equations} in {system.n} unknowns, the platform alone"))
+        text = f"{equations} in {system.n} unknowns, the platform alone"
+        if any(self.model.about):
+            place = ", ".join(f"{float(c):.6g}" for c in self.model.about)
+            text += f", in coordinates about ({place})"
+        found.append(("model", text))
         found.append(("answer", self.answer))
         if not self.complete:
             found.append(("", "INCOMPLETE, see below"))

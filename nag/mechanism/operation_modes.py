@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from itertools import combinations
 from math import ceil
 from typing import Any
@@ -38,7 +39,13 @@ from nag.interpolation.vanishing import (
     primitive,
 )
 from nag.mechanism import MODES_BUDGET
-from nag.mechanism.inverse_kinematics import REACHED, find_reached_pose, reach_poses
+from nag.mechanism.graph import Mechanism, check_mechanism
+from nag.mechanism.inverse_kinematics import (
+    REACHED,
+    find_reached_pose,
+    reach_poses,
+    shift_origin,
+)
 from nag.mechanism.isotropic_limits import is_isotropic_limit
 from nag.mechanism.leg_image import COORDINATES, MOST_DEGREE, norm_form, study_quadric
 from nag.mechanism.legs import parallel_robot
@@ -53,6 +60,7 @@ from nag.mechanism.motions import motion_of, screw_system, twists_at
 from nag.mechanism.parts import model_parts
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
 from nag.mechanism.platform import LegEquations, PlatformModel, platform_model
+from nag.mechanism.quaternion import dual_conjugate, dual_multiply
 from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.zero_values import NONZERO
@@ -72,6 +80,11 @@ POSES = 3
 # Real poses that are looked at, starting points for each where a mode is not linear, and how much
 # nearer to the reference each is than the one before.
 REAL_POSES, REAL_STARTS, NEARER = 4, 6, 0.3
+# Sizes of a robot beyond which it is far from the origin: its coordinates count from a nearer place
+# then.
+FAR = 8.0
+Place = tuple[Fraction, Fraction, Fraction]
+ORIGIN: Place = (Fraction(0),) * 3
 UNITS = tuple(tuple(int(i == j) for j in range(8)) for i in range(8))
 
 
@@ -106,9 +119,12 @@ def modes(
     [(3, 1, 'translation')]
     """
     given = model_parts(mechanism)
+    check_mechanism(given)
     check_size(budget, "budget")
     run.tell("legs", 0, 4)
-    model = platform_model(parallel_robot(given, platform), run.random(41))
+    about = _far_middle(given)
+    robot = parallel_robot(_move_origin(given, about), platform)
+    model = replace(platform_model(robot, run.random(41)), about=about)
     paths = fewest_estimated_paths(model.system)
     if paths * LEAST_SECONDS > budget:
         note = (
@@ -118,8 +134,65 @@ def modes(
         )
         return OperationModes(model, _no_answer(model, run, note), (), (), (), (note,))
     run.tell("modes", 1, 4)
-    found = decompose(model.system, run=run)
-    return describe_modes(model, found, run)
+    found = describe_modes(model, decompose(model.system, run=run), run)
+    if not any(about):
+        return found
+    return replace(found, modes=tuple(_carry_back(mode, about) for mode in found.modes))
+
+
+def _far_middle(mechanism: Mechanism) -> Place:
+    """A point amidst the joints if they are far from the origin beside their size, else that."""
+    points = np.array(
+        [[float(x) for x in j.point] for j in mechanism.joints if j.of_type.turns_about_point]
+    ).reshape(-1, 3)
+    if not len(points):
+        return ORIGIN
+    middle = points.mean(axis=0)
+    size = float(np.abs(points - middle).max()) or 1.0
+    if np.abs(middle).max() < FAR * size:
+        return ORIGIN
+    unit = 2.0 ** np.floor(np.log2(size))
+    x, y, z = (Fraction(float(k)) for k in np.round(middle / unit) * unit)
+    return x, y, z
+
+
+def _move_origin(mechanism: Mechanism, to: Place) -> Mechanism:
+    """The same mechanism in coordinates that count from a place."""
+    if not any(to):
+        return mechanism
+    joints = (
+        j
+        if j.point is None
+        else replace(j, point=tuple(x - c for x, c in zip(j.point, to, strict=True)))
+        for j in mechanism.joints
+    )
+    return replace(mechanism, joints=tuple(joints))
+
+
+def _carry_back(mode: OperationMode, about: Place) -> OperationMode:
+    """A mode in the coordinates that were given: forms of poses, and the real pose."""
+    images = _shifted_coordinates(about)
+    pose = mode.real_pose
+    if pose is not None:
+        pose = shift_origin(pose[None], -np.array([float(c) for c in about]))[0]
+    return replace(
+        mode,
+        linear=tuple(primitive(f.compose(images)) for f in mode.linear),
+        quadratic=tuple(primitive(f.compose(images)) for f in mode.quadratic),
+        real_pose=pose,
+    )
+
+
+def _shifted_coordinates(about: Place) -> tuple[Polynomial, ...]:
+    """Study coordinates about a place as linear forms of those about the origin."""
+    x = Polynomial.variables(8)
+    zero = Polynomial(8, {})
+    one = Polynomial.constant(8, 1)
+    half = [Polynomial.constant(8, c / 2) for c in about]
+    there = ((one, zero, zero, zero), (zero, *half))
+    pose = (tuple(x[:4]), tuple(x[4:]))
+    moved = dual_multiply(dual_multiply(dual_conjugate(there), pose), there)
+    return tuple(part for each in moved for part in each)
 
 
 def _no_answer(model: PlatformModel, run: Run, note: str) -> Decomposition:
@@ -433,7 +506,9 @@ def _with_equations(
         cloud = _cloud(model, mode.component, run)
         found = cloud.tangents(POSES)
         poses = model.study(np.array([point for point, _ in found]))
-        motion = motion_of(poses, [_twists(model, *each, length) for each in found], length)
+        about = np.array([float(c) for c in model.about])
+        twists = [_twists(model, *each, length) for each in found]
+        motion = motion_of(poses, twists, length, about)
         mode = replace(mode, motion=motion)
         if not all(f.algebraic for f in model.system.polynomials):
             return replace(mode, note="its equations have cosines in them and are not looked for")

@@ -119,6 +119,7 @@ class PlatformModel:
         chart: c1, c2, c3 of the affine chart x0 = 1 + c1 x1 + c2 x2 + c3 x3.
         charts: of the factors that legs keep.
         system: the equations: in x1, x2, x3 and y0 to y3, and in coordinates of kept factors.
+        about: the place, in the coordinates that were given, that the robot's ones count from.
     """
 
     robot: ParallelRobot
@@ -126,6 +127,7 @@ class PlatformModel:
     chart: tuple[Fraction, Fraction, Fraction]
     charts: Charts
     system: PolynomialSystem
+    about: tuple[Fraction, Fraction, Fraction] = (Fraction(0),) * 3
 
     __eq__ = equal_values
 
