@@ -318,7 +318,9 @@ def test_real_samples_are_of_all_sets_that_have_real_points() -> None:
 
 def test_points_that_are_nearly_real_are_not_called_so() -> None:
     for component in nag.decompose("(x - 1)^2 + 1/10^60").components:
-        assert not nag.find_real_points(component).each_piece
+        assert nag.find_real_points(component).reality is Reality.NONE
+    for component in nag.decompose("(x - 1)^2 - 1/10^60").components:
+        assert nag.find_real_points(component).points.tolist() == [[1]]
     kinds = [nag.find_real_points(c) for c in nag.decompose("x^4 - 4").components]
     assert [(len(kind), kind.each_piece) for kind in kinds] == [(1, True)] * 2 + [(0, True)] * 2
 

@@ -107,10 +107,16 @@ def real_points_of(component: WitnessSet) -> tuple[np.ndarray, int]:
 
 
 def _is_real(system: PolynomialSystem, component: WitnessSet, index: int, own: int) -> bool | None:
-    """Whether a point is real to 100 digits; None if it is not known to so many."""
+    """Whether a point is real to 100 digits; None if it is not known to so many.
+
+    It may stand for several zeros that doubles do not tell apart.
+    """
     zeros = exact_zeros(system.polynomials, component, index)
-    known = zeros[0].precise if len(zeros) == 1 else None
-    if known is None:
-        return None
-    off = np.array([float(abs(z.imag.mid())) for z in known.centre[:own]])
-    return bool((off <= SPREAD * np.asarray(known.radii[:own])).all())
+    answers = set[bool]()
+    for zero in zeros:
+        known = zero.precise
+        if known is None:
+            return None
+        off = np.array([float(abs(z.imag.mid())) for z in known.centre[:own]])
+        answers.add(bool((off <= SPREAD * np.asarray(known.radii[:own])).all()))
+    return answers.pop() if len(answers) == 1 else None
