@@ -291,3 +291,13 @@ def test_two_points_of_a_fibre_however_close_are_real_or_conjugate(order: int, r
 def test_points_that_are_not_conjugate_in_pairs_are_not_judged() -> None:
     with pytest.raises(UnclearDigitsError):
         find_own_conjugates(np.array([[1.0, 0.1, 2.0], [1.0, 1.0, 0.1], [0.1, 2.0, 1.0]]))
+
+
+@pytest.mark.parametrize(
+    "equations",
+    ["(x^2 + 2*y^2 - 1)^2 + 1/10^12", ["x^2 + y^2 - z", "(z - 1)^2 + 1/10^12"]],
+)
+def test_curves_that_are_nearly_real_have_no_real_points(equations) -> None:
+    """Where points only seem to come together more digits are taken."""
+    for curve in real_curves(nag.decompose(equations)):
+        assert curve.complete and not curve.vertices and not curve.edges
