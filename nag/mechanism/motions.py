@@ -144,7 +144,10 @@ def _motion_of_group(
     still = np.linalg.norm(np.cross(axis, slides), axis=1) if len(slides) else np.zeros(0)
     moment = _turns(twists, turning)[0][3:]
     if (turning, rank) == (1, 1) and abs(np.sum(axis * moment)) < NO_PITCH:
-        return MotionType(rank, turning, "rotation", f"about a line along {along}")
+        place = (
+            f"about the line through {_point_on_axis(axis, moment, length, origin)} along {along}"
+        )
+        return MotionType(rank, turning, "rotation", place)
     if (turning, rank) == (1, 2) and still.max() < NO_PITCH:
         return MotionType(rank, turning, "rotation and translation", f"about and along {along}")
     if (turning, rank) == (1, 3) and np.abs(slides @ axis).max() < NO_PITCH:
@@ -162,6 +165,15 @@ def _motion_of_group(
         place = f"about the point {_point_text(centre)}"
         return MotionType(rank, turning, "spherical motion", place)
     return MotionType(rank, turning, "all displacements" if rank == 6 else "")
+
+
+def _point_on_axis(axis: np.ndarray, moment: np.ndarray, length: float, origin: np.ndarray) -> str:
+    """The point nearest to the origin of a line that turns are about."""
+    turn = axis / axis[np.argmax(np.abs(axis))]
+    turn, moment = turn.real, (moment / axis[np.argmax(np.abs(axis))]).real
+    size = float(turn @ turn)
+    point = np.cross(turn, moment) / size * length + origin
+    return _point_text(point - (point @ turn) / size * turn)
 
 
 def _cross_rows(axes: np.ndarray) -> np.ndarray:
