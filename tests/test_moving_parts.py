@@ -312,3 +312,10 @@ def test_bodies_far_from_the_origin_move_as_near_it(away: int) -> None:
     wrist = [joint(f"R{i}", "revolute", (f"b{i}", f"b{i + 1}"), at, a) for i, a in enumerate(axes)]
     hand = nag.mobility(Mechanism("b0", tuple(wrist)), of="b3").moving.body
     assert hand.motion.group == "spherical motion" and hand.screws.pitches == (0.0, 0.0, 0.0)
+
+
+def test_a_turn_is_told_with_its_line() -> None:
+    hinge = joint("R", "revolute", ("wall", "door"), (3, 4, 7), (0, 0, 2))
+    moving = nag.mobility(Mechanism("wall", (hinge,)), of="door").moving
+    assert moving is not None and moving.body is not None
+    assert moving.body.motion.place == "about the line through (3, 4, 0) along (0, 0, 1)"
