@@ -485,3 +485,19 @@ def test_a_circuit_may_be_asked_for_by_its_number() -> None:
     assert one.circuits == every.circuits[1:2]
     with pytest.raises(NagError, match="circuit: 3 is none; they are 1, 2"):
         nag.motion("cases/planar/four-bar.toml", circuit=3, samples=24)
+
+
+def test_the_crank_is_in_line_with_the_coupler_at_a_rockers_dead_points() -> None:
+    """Base 4, crank 1, coupler 3, rocker 7/2: the crank's pin is 4 or 2 from the rocker's end."""
+    circuit = nag.motion("cases/planar/four-bar.toml").circuits[0]
+    names = [c.name for c in circuit.values.coordinates]
+    crank, rocker = names.index("A"), names.index("D")
+    found = {}
+    for point in circuit.values.turning:
+        if point.coordinate == "D":
+            found[point.kind] = math.degrees(point.others[crank]) % 360
+            assert point.others[rocker] == pytest.approx(point.value, abs=1e-9)
+    stretched = math.degrees(math.acos((4**2 + 4**2 - 3.5**2) / (2 * 4 * 4)))
+    folded = math.degrees(math.acos((4**2 + 2**2 - 3.5**2) / (2 * 4 * 2)))
+    wanted = {stretched % 360, (folded - 180) % 360}, {-stretched % 360, (180 - folded) % 360}
+    assert any(np.allclose(sorted(found.values()), sorted(each), atol=1e-4) for each in wanted)

@@ -28,7 +28,7 @@ from nag.kinematics.joint_values import joint_coordinates
 from nag.kinematics.path import Curve, Path, sample_path, singular_places
 from nag.kinematics.poses import Poses, pose_distances
 from nag.kinematics.scene import Scene, scene_of
-from nag.kinematics.turning_points import TurningPoint, Values, values_along
+from nag.kinematics.turning_points import Values, values_along
 from nag.kinematics.walks import CurveWalk, points_of, walks_of
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
@@ -152,7 +152,7 @@ class Circuit:
                     "turns_fully": values.turns_fully(i),
                     "still": bool(values.still[i]),
                     "turning_points": [
-                        {"arc": p.arc, "value": p.value, "kind": p.kind}
+                        {"arc": p.arc, "value": p.value, "kind": p.kind, "joints": list(p.others)}
                         for p in values.turning
                         if p.coordinate == each.name
                     ],
@@ -772,9 +772,7 @@ def _part(values: Values, step: slice, end: float) -> Values:
     for point in values.turning:
         if point.arc < end:
             sample = point.sample // (step.step or 1)
-            turning.append(
-                TurningPoint(point.coordinate, sample, point.arc, point.value, point.kind)
-            )
+            turning.append(replace(point, sample=sample))
     ranges = values.ranges
     if np.isfinite(end):
         turns = np.where(angles, np.round((own[-1] - own[0]) / (2 * np.pi)), 0).astype(int)

@@ -64,12 +64,20 @@ def crossing_text(motion: Motion, circuit: Circuit, crossing: Crossing) -> str:
 
 
 def circuit_rows(motion: Motion, circuit: Circuit) -> list[str]:
-    """The table of a circuit: a line for each joint."""
+    """The table of a circuit: a line for each joint, and where another one is at dead points."""
     values = circuit.values
     rows = [["joint", "moves", "stands still at"]]
+    moving = [k for k in range(len(values.coordinates)) if not values.still[k]]
     for i, each in enumerate(values.coordinates):
         own = [p for p in values.turning if p.coordinate == each.name]
-        texts = [value_text(each, p.value) for p in own[:MOST_POINTS]]
+        driver = next((k for k in moving if k != i), None)
+        texts = []
+        for p in own[:MOST_POINTS]:
+            text = value_text(each, p.value)
+            if driver is not None:
+                other = values.coordinates[driver]
+                text += f" ({other.name} {value_text(other, p.others[driver])})"
+            texts.append(text)
         if len(own) > MOST_POINTS:
             texts.append(f"and {len(own) - MOST_POINTS} more")
         rows.append([each.name, range_text(values, i), ", ".join(texts)])

@@ -26,6 +26,7 @@ class TurningPoint:
         arc: how far it is along the motion.
         value: the angle in radians, unwrapped, or slide.
         kind: ``"largest"`` or ``"smallest"`` of the values near it.
+        others: the values of all coordinates there, in their order.
     """
 
     coordinate: str
@@ -33,6 +34,7 @@ class TurningPoint:
     arc: float
     value: float
     kind: str
+    others: tuple[float, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,29 +108,43 @@ def _extremes(
         if before * sign < 0 and i > 0:
             index = i - 1 if path.walk.closed else i
             triple = chart[i - 1 : i + 2]
-            parameter, value = _refine(path, triple, own[i], column, sign > 0)
+            parameter, value, all_values = _refine(path, triple, own[i], column, sign > 0)
             step = path.arc[1] - path.arc[0]
             arc = path.arc[index] + parameter * step
             # What is the first sample to rounding is not the last.
             arc = arc % path.length if path.walk.closed and abs(arc) > STILL else max(arc, 0.0)
             kind = "smallest" if sign > 0 else "largest"
             sample = round(arc / step)
-            found.append(TurningPoint(coordinates[column].name, sample, float(arc), value, kind))
+            there = _nearest_turns(coordinates, all_values, values[index])
+            name = coordinates[column].name
+            found.append(TurningPoint(name, sample, float(arc), value, kind, there))
         before = sign or before
     return found
 
 
+def _nearest_turns(
+    coordinates: tuple[Coordinate, ...], values: np.ndarray, near: np.ndarray
+) -> tuple[float, ...]:
+    """Values whose angles are within half a turn of those of a sample."""
+    angles = np.array([each.kind == "angle" for each in coordinates], dtype=bool)
+    turned = near + (values - near + np.pi) % (2 * np.pi) - np.pi
+    return tuple(np.where(angles, turned, values).tolist())
+
+
 def _refine(
     path: Path, triple: np.ndarray, near: float, column: int, smallest: bool
-) -> tuple[float, float]:
-    """Place, in steps from the middle one of three samples, and value of an extreme one."""
+) -> tuple[float, float, np.ndarray]:
+    """Place, in steps from the middle one of three samples, value of an extreme one, and all."""
     scene, at = path.curve.scene, 0.0
     coordinates = joint_coordinates(scene)
     kind = coordinates[column].kind
 
-    def value_at(t: np.ndarray) -> np.ndarray:
+    def values_at(t: np.ndarray) -> np.ndarray:
         chart = along_three(*triple, t)
-        values = joint_values(scene, path.curve.poses(path.curve.sharpen(chart)))[:, column]
+        return joint_values(scene, path.curve.poses(path.curve.sharpen(chart)))
+
+    def value_at(t: np.ndarray) -> np.ndarray:
+        values = values_at(t)[:, column]
         if kind == "angle":
             values = near + (values - near + np.pi) % (2 * np.pi) - np.pi
         return values
@@ -143,4 +159,4 @@ def _refine(
     last = float(value_at(np.array([at]))[0])
     if np.isfinite(last) and (last <= near if smallest else last >= near):
         best = last
-    return at, float(best)
+    return at, float(best), values_at(np.array([at]))[0]
