@@ -44,8 +44,8 @@ def test_dimensions_at_the_reference_are_those_that_are_known(name: str, seed: i
 @pytest.mark.parametrize(
     ("name", "body", "freedoms", "motion"),
     [
-        ("delta", "platform", 3, "translations"),
-        ("h4", "middle", 4, "translations and turns of one direction"),
+        ("delta", "platform", 3, "translation"),
+        ("h4", "middle", 4, "translation and rotation (Schoenflies)"),
     ],
 )
 def test_a_robot_moves_its_platform_as_is_known(
@@ -53,7 +53,7 @@ def test_a_robot_moves_its_platform_as_is_known(
 ) -> None:
     report = nag.mobility(shipped(f"mobility/{name}"), detail="local", of=body)
     found = report.moving.body
-    assert (found.screws.rank, found.kind) == (freedoms, motion)
+    assert (found.motion.rank, found.motion.group) == (freedoms, motion)
 
 
 @pytest.mark.parametrize("graph", ["k46", "k55"])

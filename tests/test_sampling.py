@@ -125,11 +125,12 @@ def test_real_points_of_other_components_do_not_count() -> None:
 
 def test_real_points_of_a_component_that_is_not_reduced_are_found() -> None:
     # Its points are kept with unknowns that deflation added.
-    of = system("x y z", "x^2 - y", "z^2")
-    found = real_points_near(of, decompose(of).components[0], [0, 1, 1])
-    nearest = [[np.sqrt(0.5), 0.5, 0], [-np.sqrt(0.5), 0.5, 0]]
-    assert len(found) == 2 and found.stationary.all()
-    assert all(np.abs(found.points - x).max(axis=1).min() < 1e-7 for x in nearest)
+    of = system("x y z", "x^2 + y^2 - 1", "z^2 + x*(x^2 + y^2 - 1)")
+    component = decompose(of).components[0]
+    assert component.multiplicity == 2 and component.fibres[0].cut.aux
+    found = real_points_near(of, component, [3, 4, 1])
+    assert len(found) and found.stationary[0]
+    assert np.abs(found.points[0] - [0.6, 0.8, 0]).max() < 1e-7
 
 
 def test_a_mechanism_keeps_its_real_reference_configuration() -> None:

@@ -44,9 +44,10 @@ from nag.witness.witness import WitnessSet
 MOST_PATHS = 3000
 # Random points round which Newton's method looks for real ones, of each size.
 PLACES, SIZES = 3, (0.3, 1.0, 3.0)
-# Decides: Relative distance of real points of several sets that are one, and the error of one that
-# is nearest to another where the set may be singular.
-SAME, ROUGHLY = 1e-9, 1e-6
+# Decides: Relative distance of real points of several sets that are one.
+SAME = 1e-9
+# Decides: Error of a nearest point where the set may be singular.
+ROUGHLY = 1e-6
 
 
 class Reality(StrEnum):
