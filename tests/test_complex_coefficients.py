@@ -205,8 +205,8 @@ def test_complex_parameters_are_freed(tmp_path: Path) -> None:
         ("[parameters]", 'imaginary = "a"\n[parameters]', "c: unknown name 'I'"),
         (
             "[parameters]",
-            '[[point]]\nname = "p"\nat = { x = 1, y = 1 }\n[parameters]',
-            "point: coefficients are complex",
+            '[[point]]\nname = "p"\nat = { x = "I +", y = 1 }\n[parameters]',
+            "at: x: column 4: something is missing after '+'",
         ),
         ('"system"', '"dh"', "belongs to a case of kind 'system'"),
     ],
@@ -347,3 +347,37 @@ def test_multidegrees_count_groups_of_the_systems_own_variables(tmp_path: Path) 
     assert found[0].multidegree.tolist() == [2, 2]
     nag.write(found, tmp_path / "a.json")
     assert nag.read(tmp_path / "a.json") == found
+
+
+@pytest.mark.parametrize(
+    ("equation", "kinds"),
+    [
+        ("x*y + I*x", {1: 1, -1: 1}),
+        ("(x^2 + y^2 - 1)*(y - I)*(x + I*y - 2)", {1: 1, 0: 1, -1: 1}),
+        ("x*(x + I*y - 1)", {1: 1, 0: 1}),
+    ],
+)
+def test_real_points_of_complex_curves_beside_real_ones_are_decided(
+    equation: str, kinds: dict[int, int]
+) -> None:
+    """Real dimensions of the components, -1 for none; each meets the real ones in points."""
+    found = [nag.find_real_points(c) for c in nag.decompose(complex_system(equation)).components]
+    assert all(each.each_piece for each in found)
+    dimensions = [max(each.dimensions, default=-1) for each in found]
+    assert {d: dimensions.count(d) for d in set(dimensions)} == kinds
+    assert {each.reality for each in found if not len(each)} <= {Reality.NONE}
+
+
+def test_named_points_may_be_complex(tmp_path: Path) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(
+        'title = "t"\nkind = "system"\nvariables = ["x", "y"]\nimaginary = "I"\n'
+        'equations = ["(x - I*y)*(x + y - 2)"]\n'
+        '[[point]]\nname = "p"\nat = { x = "2*I - 1", y = "2 + I" }\n'
+        '[[point]]\nname = "q"\nat = { x = 1, y = 1 }\n'
+    )
+    case = nag.read_case(file)
+    assert [point.at for point in case.points] == [(-1 + 2j, 2 + 1j, 1j), (1, 1, 1j)]
+    on = [len(nag.member(file, name).on) for name in ("p", "q")]
+    assert on == [1, 1] and nag.local(file, "p").dimension == 1
+    assert main(["decompose", str(file), "--quiet"]) == 0

@@ -23,12 +23,12 @@ class NamedPoint:
 
     Attributes:
         name: by which it is asked for.
-        at: its coordinates, exact.
+        at: its coordinates, exact where they are real, else in doubles.
         called: what it is called in a sentence, if not by its name.
     """
 
     name: str
-    at: tuple[Number, ...]
+    at: tuple[Number | complex, ...]
     called: str = ""
 
 

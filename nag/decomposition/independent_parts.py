@@ -66,7 +66,8 @@ def decompose_parts(task: Task, others: Others) -> Attempt:
     found.sort(key=lambda c: (-c.dimension, c.degree))
     paths = sum((a.paths for a in answers), PathCounts())
     notes = [note for a in answers for note in a.notes]
-    return Attempt(judge_components(system, found, paths, task.run, notes))
+    answer = judge_components(system, found, paths, task.run, notes)
+    return Attempt(replace(answer, algebraic=all(a.algebraic for a in answers)))
 
 
 def put_in_order(component: WitnessSet, parts: Sequence[Sequence[int]]) -> WitnessSet:

@@ -19,7 +19,7 @@ from nag.algebra.bounded import Budget
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.family import Family
 from nag.algebra.given import check_path
-from nag.algebra.imaginary_unit import adjoin_unit, name_unit, values_with_unit
+from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, values_with_unit
 from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
@@ -549,8 +549,6 @@ def _read_points(
 ) -> tuple[NamedPoint, ...]:
     """The named points, besides those that are known."""
     points: list[NamedPoint] = []
-    if system.imaginary and "point" in top.values:
-        top.fail("point", f"coefficients are complex, and {ONLY_REAL}; leave it out")
     for table in top.tables("point"):
         table.allow(("name", "at"))
         name = table.text("name")
@@ -560,15 +558,26 @@ def _read_points(
         coordinates = CaseTable(
             table.file, f"{table.place}: at", table.get("at", dict, "{ variable = number, ... }")
         )
-        coordinates.allow(system.variables)
-        at = []
-        for variable in system.variables:
+        coordinates.allow(system.own_variables)
+        at: list[Number | complex] = []
+        for variable in system.own_variables:
             if variable not in coordinates.values:
                 coordinates.fail(variable, "is missing; give a number for every variable")
             with coordinates.at(variable):
-                at.append(numbers.number(coordinates.values[variable]))
-        points.append(NamedPoint(name, tuple(at)))
+                at.append(_read_coordinate(coordinates.values[variable], system, numbers))
+        points.append(NamedPoint(name, (*at, *[1j] * system.imaginary)))
     return tuple(points)
+
+
+def _read_coordinate(value: Any, system: PolynomialSystem, numbers: _Numbers) -> Number | complex:
+    """A point's coordinate, in doubles where the imaginary unit occurs in it."""
+    unit = system.variables[-1:] if system.imaginary else ()
+    if isinstance(value, str) and names_in(value) & set(unit):
+        found = parse_parameter(value, unit, {}, Budget())
+        if isinstance(found, ComplexNumber):
+            return complex(float(found.real), float(found.imaginary))
+        return found
+    return numbers.number(value)
 
 
 def _read_symmetries(top: CaseTable, system: PolynomialSystem) -> tuple[SignedPermutation, ...]:

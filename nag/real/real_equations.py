@@ -11,18 +11,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.algebra.imaginary_unit import append_unit, real_and_imaginary_parts
+from nag.algebra.imaginary_unit import (
+    append_unit,
+    in_variables_with_unit,
+    real_and_imaginary_parts,
+)
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.decompose import decompose
-from nag.numerics.coincidence import SPREAD
+from nag.decomposition.intersection import intersect_equations
+from nag.errors import ComponentError
+from nag.numerics.coincidence import SPREAD, coincident
 from nag.numerics.doubles import EPS
 from nag.real.curve import PictureVerdict, PieceKind, RealCurve, RealPiece, RealVertex, VertexKind
 from nag.tracking.run import Run
+from nag.witness.component_equations import component_system
 from nag.witness.exact_points import exact_zeros
 from nag.witness.frame import expand_orbits
 from nag.witness.membership import Membership, membership_in
 from nag.witness.witness import WitnessSet
 
+# Decides: Relative distance of real points of several sets that are one.
+SAME = 1e-9
 NOT_KNOWN_REAL = "whether a point is real is not known"
 
 
@@ -33,12 +42,14 @@ class RealEquations:
     Attributes:
         variables: names, without the imaginary unit.
         inside: components of the parts that lie on the component, the largest first.
-        beside: others, no points, that may meet it.
+        met: points, with the imaginary unit, at which it meets others.
+        beside: others that it may meet in more, or it is not known where.
         doubt: what is not known; empty where all are.
     """
 
     variables: tuple[str, ...]
     inside: tuple[WitnessSet, ...]
+    met: tuple[WitnessSet, ...]
     beside: tuple[WitnessSet, ...]
     doubt: str = ""
 
@@ -49,10 +60,12 @@ def find_real_equations(component: WitnessSet, run: Run) -> RealEquations:
     parts = real_and_imaginary_parts(system)
     found = decompose(parts, run=run)
     doubts = [] if found.complete else [f"real and imaginary parts: {'; '.join(found.notes)}"]
-    inside, beside = [], []
+    inside, beside, met = [], [], list[WitnessSet]()
     for each in sorted(expand_orbits(found).components, key=lambda c: -c.dimension):
         if each.dimension > component.dimension:
-            beside.append(each)
+            points = _meeting_points(component, parts, each, run)
+            met += points or ()
+            beside += [each] if points is None else []
             continue
         point, error = append_unit(each.points[:1])[0], max(float(each.errors[0]), EPS)
         answer = membership_in(system, component, point, error, run)
@@ -61,15 +74,38 @@ def find_real_equations(component: WitnessSet, run: Run) -> RealEquations:
         elif answer is Membership.UNDECIDED:
             doubts.append("not known whether one of their components lies on it")
         elif each.dimension:
-            beside.append(each)
-    return RealEquations(parts.variables, tuple(inside), tuple(beside), "; ".join(doubts))
+            points = _meeting_points(component, parts, each, run)
+            met += points or ()
+            beside += [each] if points is None else []
+    known = tuple(inside), tuple(met), tuple(beside)
+    return RealEquations(parts.variables, *known, "; ".join(doubts))
+
+
+def _meeting_points(
+    component: WitnessSet, parts: PolynomialSystem, other: WitnessSet, run: Run
+) -> tuple[WitnessSet, ...] | None:
+    """The points at which a component meets one of the real parts' equations.
+
+    None where they meet in more, or that is not known.
+    """
+    system = component._known_system()
+    own = in_variables_with_unit(component_system(parts, other), system.variables[-1])
+    try:
+        met = intersect_equations(system, component, own, run=run)
+    except ComponentError:
+        return None
+    points = all(c.dimension == 0 for c in met.components)
+    return met.components if met.complete and points else None
 
 
 def points_of_complex_curve(equations: RealEquations) -> RealCurve:
     """The real points of a curve that is not its own conjugate: finitely many."""
     points = [c for c in equations.inside if c.dimension == 0]
-    known = [real_points_of(c) for c in points]
-    found = [x for own, _ in known for x in own]
+    known = [real_points_of(c) for c in (*points, *equations.met)]
+    found: list[np.ndarray] = []
+    for x in (x for own, _ in known for x in own):
+        if not coincident(np.array(found).reshape(-1, len(x)), x, SAME).any():
+            found.append(x)
     pieces = (RealPiece(PieceKind.POINT, (), (k,)) for k in range(len(found)))
     doubt = equations.doubt
     if any(doubtful for _, doubtful in known):

@@ -28,7 +28,7 @@ from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
 from nag.real.curve import RealCurve
 from nag.real.find_curve import RealCurveError, find_real_curve
-from nag.real.real_equations import NOT_KNOWN_REAL, find_real_equations, real_points_of
+from nag.real.real_equations import NOT_KNOWN_REAL, SAME, find_real_equations, real_points_of
 from nag.solving.solve import solve
 from nag.text.table import lines_of, one_line, point_text
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -44,8 +44,6 @@ from nag.witness.witness import WitnessSet
 MOST_PATHS = 3000
 # Random points round which Newton's method looks for real ones, of each size.
 PLACES, SIZES = 3, (0.3, 1.0, 3.0)
-# Decides: Relative distance of real points of several sets that are one.
-SAME = 1e-9
 # Decides: Error of a nearest point where the set may be singular.
 ROUGHLY = 1e-6
 
@@ -150,7 +148,7 @@ def _of_finite_set(component: WitnessSet) -> RealPieces:
 def _of_complex_equations(component: WitnessSet, run: Run) -> RealPieces:
     """Real points of a set of larger dimension than zero, where coefficients are complex."""
     equations = find_real_equations(component, run)
-    found = [find_real_points(c, run=run) for c in equations.inside]
+    found = [find_real_points(c, run=run) for c in (*equations.inside, *equations.met)]
     beside = [find_real_points(c, run=run).reality for c in equations.beside]
     doubts = [equations.doubt] if equations.doubt else []
     if any(reality is not Reality.NONE for reality in beside):
