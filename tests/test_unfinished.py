@@ -30,7 +30,21 @@ def test_components_are_told_when_they_are_known(equations: list[str]) -> None:
     assert told and answer == nag.decompose(system)
     for early in told:
         assert early.system == system and early.notes == (UNFINISHED,) and not early.complete
-        assert set(kinds(early)) <= set(kinds(answer)) | {(c.dimension, c.degree, 1) for c in early}
+        for component in early:
+            # A branch knows neither the others' components nor all that its own are multiple in.
+            found = nag.member(answer, component.points[0])
+            assert found.complete
+            assert any(
+                c.dimension > component.dimension
+                or (
+                    (c.dimension, c.degree) == (component.dimension, component.degree)
+                    and c.multiplicity >= component.multiplicity
+                )
+                for c in found.on
+            )
+    if equations is ONE_BY_ONE:
+        shapes = [Counter((c.dimension, c.degree) for c in d) for d in [*told, answer]]
+        assert all(early <= shapes[-1] for early in shapes)
 
 
 def test_solutions_are_told_before_missing_ones_are_looked_for() -> None:

@@ -140,7 +140,7 @@ def add_format(parser: argparse.ArgumentParser) -> None:
 MOST_CIRCUITS = 100_000
 
 
-def circuit_asked(text: str) -> str | int:
+def parse_circuit(text: str) -> str | int:
     """Which circuits of a motion are meant: ``"reference"``, ``"all"`` or a number."""
     if text in ("reference", "all"):
         return text

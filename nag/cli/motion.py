@@ -15,7 +15,7 @@ from nag.cli.arguments import (
     add_case,
     add_robot,
     add_running,
-    circuit_asked,
+    parse_circuit,
     problem_of_case,
     read_given_case,
     whole,
@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_running(parser)
     parser.add_argument(
         "--circuit",
-        type=circuit_asked,
+        type=parse_circuit,
         metavar="WHICH",
         help="'reference' for the motions through the reference configuration, 'all' for those of "
         "all components of dimension one, or the number that one of these has (default: "

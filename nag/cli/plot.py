@@ -12,7 +12,7 @@ from nag.cli.arguments import (
     add_parameters,
     add_robot,
     add_tracking,
-    circuit_asked,
+    parse_circuit,
     problem_of_case,
     read_given_case,
 )
@@ -64,7 +64,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--circuit",
-        type=circuit_asked,
+        type=parse_circuit,
         default="reference",
         metavar="WHICH",
         help="as of nag motion (default: reference; all where no configuration is given)",

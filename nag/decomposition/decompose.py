@@ -73,7 +73,7 @@ def decompose(
     task = Task(
         SystemFacts(as_real(system)),
         tuple(symmetries),
-        run.unheard,
+        run.without_found,
         found=None if run.found is None else partial(_tell_found, system, run),
     )
     answer = decompose_by(tuple(METHODS), task)

@@ -152,9 +152,10 @@ def grow_component(
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
     """
     parts = independent_variables(system)
-    dimensions = [_dimension_at(restrict_to_part(system, p), point[list(p)]) for p in parts]
-    if len(parts) > 1 and sum(dimensions) == dimension:
-        return _grow_product(system, parts, dimensions, point, seconds, run)
+    if len(parts) > 1:
+        dimensions = [_dimension_at(restrict_to_part(system, p), point[list(p)]) for p in parts]
+        if sum(dimensions) == dimension:
+            return _grow_product(system, parts, dimensions, point, seconds, run)
     rng = run.random(12)
     reduction = Reduction.of(system, scaled=True)
     allowance = _Allowance(seconds - MADE_READY * _count_factors(system.polynomials))

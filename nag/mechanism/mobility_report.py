@@ -156,7 +156,7 @@ class MobilityReport:
         return self.local.multiplicity if self.local is not None else 0
 
     @property
-    def blocked(self) -> bool:
+    def is_blocked(self) -> bool:
         """Whether no real motion of its loops leaves the configuration, as is proved."""
         return self.unreal > 0 and self.unreal == self.lower - self.free
 
@@ -197,7 +197,7 @@ class MobilityReport:
     def status(self) -> MobilityStatus:
         if self.local_dimension is None or self.tangent_dimension is None or not self.agrees:
             return MobilityStatus.UNDECIDED
-        if self.blocked and self.free == 0:
+        if self.is_blocked and self.free == 0:
             return MobilityStatus.SHAKY
         if self.local_dimension == 0:
             return MobilityStatus.SHAKY if self.tangent_dimension else MobilityStatus.RIGID
@@ -297,7 +297,7 @@ class MobilityReport:
             "upper": self.upper,
             "multiplicity": self.multiplicity,
             "overconstrained": self.overconstrained,
-            "blocked": self.blocked,
+            "blocked": self.is_blocked,
             "unreal": self.unreal,
             "status": str(self.status),
             "meaning": self.sentence,
@@ -378,7 +378,7 @@ def _meaning(report: MobilityReport) -> str:
     mobility, tangent = report.local_dimension, report.tangent_dimension
     if status is MobilityStatus.RIGID:
         return "it does not move, not even infinitesimally"
-    if report.blocked and mobility:
+    if report.is_blocked and mobility:
         moves = f"moves with {count_text(report.free, 'freedom')}, {report.free_of}, and no other"
         return (
             f"it {moves if report.free else 'does not move'}: by terms of second order no real "

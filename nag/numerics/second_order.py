@@ -29,19 +29,6 @@ UNSEEN = 1e-12
 TRIALS = 200
 
 
-def is_blocked(system: PolynomialSystem, point: np.ndarray, corank: int) -> bool:
-    """Whether terms of second order prove that no real curve of zeros leaves a real zero.
-
-    See `count_real_directions`.
-
-    >>> import nag
-    >>> from nag.numerics.second_order import is_blocked
-    >>> [is_blocked(nag.system([f, "z"]), np.zeros(3), 2) for f in ("x^2 + y^2", "x^2 - y^2")]
-    [True, False]
-    """
-    return corank > 0 and count_real_directions(system, point, corank) == 0
-
-
 def count_real_directions(system: PolynomialSystem, point: np.ndarray, corank: int) -> int:
     """The dimension of a space of tangents in which all real curves of zeros leave a real zero.
 
@@ -55,6 +42,8 @@ def count_real_directions(system: PolynomialSystem, point: np.ndarray, corank: i
     >>> from nag.numerics.second_order import count_real_directions
     >>> count_real_directions(nag.system("x^2 + y^2", "x y z"), np.zeros(3), 3)
     1
+    >>> count_real_directions(nag.system("x^2 - y^2", "x y z"), np.zeros(3), 3)
+    3
     """
     evaluator = Evaluator.of(system.polynomials, system.n)
     if not corank or np.any(np.imag(point)):

@@ -45,7 +45,7 @@ from nag.real.fibre_table import (
     fibre_table,
     sample_circle,
 )
-from nag.real.real_equations import find_real_equations, points_of_complex_curve
+from nag.real.real_equations import curve_of_real_points, find_real_equations
 from nag.real.real_fibres import SpecialFibre, infinite_fibre, real_fibre, special_fibre
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
@@ -124,7 +124,7 @@ def _of_complex_equations(component: WitnessSet, run: Run) -> RealCurve:
     equations = find_real_equations(component, run)
     if equations.inside and equations.inside[0].dimension:
         return find_real_curve(equations.inside[0], run=run)
-    return points_of_complex_curve(equations)
+    return curve_of_real_points(equations)
 
 
 def _equations(

@@ -98,7 +98,7 @@ def _meeting_points(
     return met.components if met.complete and points else None
 
 
-def points_of_complex_curve(equations: RealEquations) -> RealCurve:
+def curve_of_real_points(equations: RealEquations) -> RealCurve:
     """The real points of a curve that is not its own conjugate: finitely many."""
     points = [c for c in equations.inside if c.dimension == 0]
     known = [real_points_of(c) for c in (*points, *equations.met)]

@@ -47,7 +47,7 @@ class SolveTask:
 
     def of_part(self, system: PolynomialSystem) -> SolveTask:
         """The same for what a branch leaves of the system."""
-        return replace(self, facts=SystemFacts(system), run=self.run.unheard)
+        return replace(self, facts=SystemFacts(system), run=self.run.without_found)
 
     @cached_property
     def rng(self) -> np.random.Generator:

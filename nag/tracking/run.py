@@ -19,7 +19,10 @@ from nag.tracking.settings import Settings
 # Called with a stage's name, the step reached and the number of steps; 0 if that is not known.
 Progress = Callable[[str, int, int], None]
 # Called with an answer that is not complete yet, of what is known so far; and what it says of that.
-UNFINISHED = "the work was ended early: this is what was known by then, some of it perhaps twice"
+UNFINISHED = (
+    "the work was ended early: this is what was known by then, some of it perhaps twice "
+    "and multiplicities perhaps too low"
+)
 Found = Callable[[Any], None]
 
 
@@ -70,7 +73,7 @@ class Run:
         object.__setattr__(self, "threads", int(self.threads))
 
     @property
-    def unheard(self) -> Run:
+    def without_found(self) -> Run:
         """The same for a part of the work, whose answers are not those that are asked for."""
         return self if self.found is None else replace(self, found=None)
 
