@@ -577,7 +577,9 @@ def test_a_robot_with_cosines_has_the_modes_of_one_with_rational_numbers() -> No
         (m.limits, m.reality) for m in alike.modes
     ]
     assert [str(m.motion) for m in found.modes[:2]] == [str(m.motion) for m in alike.modes[:2]]
-    assert all("cosines" in m.note for m in found.modes)
+    names = [f"{c}{k}" for c in "xy" for k in range(4)]
+    linear = [{f.text(names) for f in m.linear} for m in found.modes[:2]]
+    assert linear == [{"x1", "x2"}, {"x0", "x3"}]
 
 
 def test_the_forms_of_a_leg_with_cosines_vanish_at_its_poses() -> None:

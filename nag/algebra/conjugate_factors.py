@@ -1,4 +1,4 @@
-"""Factors of polynomials whose coefficients are sums of square roots, by their norms.
+"""Factors of polynomials whose coefficients are sums of roots, by their norms.
 
 The norm of a polynomial, the product of its conjugates, has rational coefficients. Where an
 irreducible factor of the norm has the degree of the norm of what it has in common with the
@@ -10,8 +10,7 @@ are, in each of the field's embeddings, and tried on the polynomials themselves.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import reduce
 from math import isqrt, prod
@@ -19,10 +18,11 @@ from typing import Any
 
 import flint
 
-from nag.algebra.exact_ranks import PrimeField, fields_with_roots, residues, roots_of
+from nag.algebra.exact_ranks import NumberField, PrimeField, residues
 from nag.algebra.number import Exact, Surd
 from nag.algebra.polynomial import Exponents, Polynomial
-from nag.algebra.surd import normal_sum, primes_of
+from nag.algebra.root_basis import Root
+from nag.algebra.surd import normal_sum
 
 # Distinct irreducible polynomials with their exponents.
 Factors = tuple[tuple[Polynomial, int], ...]
@@ -35,51 +35,28 @@ MOST_EMBEDDINGS, MOST_DEGREE, MOST_PRODUCTS = 4, 24, 200_000
 SHIFTS, MOST_MODULI = 4, 8
 
 
-@dataclass(frozen=True)
-class RootField:
-    """The field of the rational numbers with square roots.
+def conjugate_polynomial(f: Polynomial, units: Mapping[int, int]) -> Polynomial:
+    """The polynomial with an automorphism's images of the coefficients."""
+    return Polynomial(
+        f.n,
+        {e: c.conjugate(units) if isinstance(c, Surd) else c for e, c in f.terms.items()},
+    )
 
-    Attributes:
-        roots: square-free integers, 1 first, whose roots are a basis: twice as many with each
-            generator, the later half the products of it with the first half.
-    """
 
-    roots: tuple[int, ...]
+def field_of_coefficients(polynomials: Sequence[Polynomial]) -> NumberField:
+    """The least field in which all coefficients are."""
+    return NumberField.of(c for f in polynomials for c in f.terms.values())
 
-    @classmethod
-    def of(cls, polynomials: Sequence[Polynomial]) -> RootField:
-        """The least one in which all coefficients are."""
-        return cls(roots_of(f.terms.values() for f in polynomials))
 
-    def sign(self, embedding: int, k: int) -> int:
-        """The sign of the ``k``-th root where the generators change theirs by the bits."""
-        return -1 if (embedding & k).bit_count() % 2 else 1
-
-    def conjugate(self, f: Polynomial, embedding: int) -> Polynomial:
-        """The polynomial with the roots' signs changed."""
-        signs = {r: self.sign(embedding, k) for k, r in enumerate(self.roots)}
-
-        def image(c: Exact) -> Exact:
-            if not isinstance(c, Surd):
-                return c
-            return normal_sum({r: q if signs[r] > 0 else -q for r, q in c.terms.items()})
-
-        return Polynomial(f.n, {e: image(c) for e, c in f.terms.items()})
-
-    def norm(self, f: Polynomial) -> Polynomial | None:
-        """The product of the conjugates; None if that takes too many products."""
-        generator = 1
-        while generator < len(self.roots):
-            if len(f.terms) ** 2 > MOST_PRODUCTS:
-                return None
-            f = f * self.conjugate(f, generator)
-            generator *= 2
-        return f
-
-    def fields(self) -> tuple[PrimeField, ...]:
-        """Primes modulo which the roots are there."""
-        primes = frozenset(p for r in self.roots for p in primes_of(r))
-        return fields_with_roots(primes, count=MOST_MODULI)
+def find_norm(f: Polynomial, field: NumberField) -> Polynomial | None:
+    """The product of the conjugates; None if that takes too many products."""
+    factors = [conjugate_polynomial(f, units) for units in field.automorphisms()]
+    while len(factors) > 1:
+        if len(factors[0].terms) ** 2 > MOST_PRODUCTS:
+            return None
+        pairs = zip(factors[::2], [*factors[1::2], None], strict=False)
+        factors = [g if h is None else g * h for g, h in pairs]
+    return factors[0]
 
 
 def make_monic(f: Polynomial) -> Polynomial:
@@ -97,13 +74,13 @@ def factor_with_roots(f: Polynomial, factor: RationalFactors) -> Factors | None:
     Returns:
         None for what is too large, or is not taken apart by few shifts.
     """
-    field = RootField.of([f])
-    size = len(field.roots)
+    field = field_of_coefficients([f])
+    size = field.degree
     if size > MOST_EMBEDDINGS or f.degree * size > MOST_DEGREE:
         return None
     for shift in range(SHIFTS):
         moved = _shift(f, field, shift)
-        norm = field.norm(moved)
+        norm = find_norm(moved, field)
         if norm is None:
             return None
         found = _factors_by_norm(moved, factor(norm), field)
@@ -112,7 +89,7 @@ def factor_with_roots(f: Polynomial, factor: RationalFactors) -> Factors | None:
     return None
 
 
-def _shift(f: Polynomial, field: RootField, shift: int) -> Polynomial:
+def _shift(f: Polynomial, field: NumberField, shift: int) -> Polynomial:
     """Each variable with a multiple of the sum of the roots added."""
     if not shift:
         return f
@@ -122,14 +99,14 @@ def _shift(f: Polynomial, field: RootField, shift: int) -> Polynomial:
     return f.compose(images)
 
 
-def _factors_by_norm(f: Polynomial, norm: Factors, field: RootField) -> Factors | None:
+def _factors_by_norm(f: Polynomial, norm: Factors, field: NumberField) -> Factors | None:
     """The factors, if those of the norm tell them apart."""
     found: list[tuple[Polynomial, int]] = []
     for h, k in norm:
         # As large a factor as the degree wants is all of the polynomial.
-        whole = k == 1 and h.degree == f.degree * len(field.roots)
+        whole = k == 1 and h.degree == f.degree * field.degree
         common = f if whole else common_factor_with_roots([f, h], field)
-        if common is None or common.degree * len(field.roots) != h.degree:
+        if common is None or common.degree * field.degree != h.degree:
             return None
         found.append((common, k))
     product = prod((g**k for g, k in found), start=Polynomial.constant(f.n, 1))
@@ -137,7 +114,7 @@ def _factors_by_norm(f: Polynomial, norm: Factors, field: RootField) -> Factors 
 
 
 def common_factor_with_roots(
-    polynomials: Sequence[Polynomial], field: RootField | None = None
+    polynomials: Sequence[Polynomial], field: NumberField | None = None
 ) -> Polynomial | None:
     """The monic greatest common divisor over the field of the coefficients, 1 among them.
 
@@ -148,13 +125,13 @@ def common_factor_with_roots(
     Returns:
         None where it is not found within `MOST_MODULI`.
     """
-    field = field or RootField.of(polynomials)
-    if len(field.roots) > MOST_EMBEDDINGS:
+    field = field or field_of_coefficients(polynomials)
+    if field.degree > MOST_EMBEDDINGS:
         return None
     leading: Exponents | None = None
     known: dict[tuple[Exponents, int], int] = {}
     modulus = 1
-    for prime in field.fields():
+    for prime in field.fields(MOST_MODULI):
         images = _coefficients_modulo(polynomials, field, prime)
         top = max(e for e, _ in images)
         if leading is not None and top > leading:
@@ -172,26 +149,26 @@ def common_factor_with_roots(
 
 
 def _coefficients_modulo(
-    polynomials: Sequence[Polynomial], field: RootField, prime: PrimeField
+    polynomials: Sequence[Polynomial], field: NumberField, prime: PrimeField
 ) -> dict[tuple[Exponents, int], int]:
     """Coordinates of the divisor's coefficients, by monomial and place of the root."""
     p, n = prime.modulus, polynomials[0].n
     context = flint.nmod_mpoly_ctx.get([f"x{i}" for i in range(n)], p, flint.Ordering.lex)
-    divisors = []
-    for embedding in range(len(field.roots)):
-        images = (residues(field.conjugate(f, embedding), prime) for f in polynomials)
+    divisors, conjugates = [], field.conjugates(prime)
+    for image in conjugates:
+        images = (residues(f, image) for f in polynomials)
         own = [context.from_dict({e: c for e, c in terms.items() if c}) for terms in images]
         divisor = reduce(lambda f, g: f.gcd(g), own)
         terms = {tuple(map(int, e)): int(c) for e, c in divisor.to_dict().items()}
         inverse = pow(terms[max(terms)], -1, p)
         divisors.append({e: c * inverse % p for e, c in terms.items()})
+    coordinates = prime.matrix([[image.image(r) for r in field.roots] for image in conjugates])
+    inverse = [list(map(int, row)) for row in coordinates.inv().tolist()]
     found = {}
-    for k, r in enumerate(field.roots):
-        root = prod(map(prime.root, primes_of(r))) % p
-        inverse = pow(len(field.roots) * root, -1, p)
-        for e in dict.fromkeys(e for terms in divisors for e in terms):
-            values = (field.sign(m, k) * terms.get(e, 0) for m, terms in enumerate(divisors))
-            found[e, k] = sum(values) * inverse % p
+    for e in dict.fromkeys(e for terms in divisors for e in terms):
+        values = [terms.get(e, 0) for terms in divisors]
+        for k, row in enumerate(inverse):
+            found[e, k] = sum(a * b for a, b in zip(row, values, strict=True)) % p
     return found
 
 
@@ -208,10 +185,10 @@ def _join(known: dict[Any, int], modulus: int, more: dict[Any, int], prime: int)
 
 
 def _read(
-    n: int, known: dict[tuple[Exponents, int], int], modulus: int, field: RootField
+    n: int, known: dict[tuple[Exponents, int], int], modulus: int, field: NumberField
 ) -> Polynomial | None:
     """The polynomial whose coefficients' coordinates are the simplest of these residues."""
-    sums: dict[Exponents, dict[int, flint.fmpq]] = {}
+    sums: dict[Exponents, dict[Root, flint.fmpq]] = {}
     for (e, k), c in known.items():
         value = _simplest(c, modulus)
         if value is None:

@@ -19,6 +19,7 @@ from nag.algebra.polynomial import (
     multiply_terms,
     occurring_variables,
 )
+from nag.algebra.root_basis import share_a_field
 from nag.algebra.system import PolynomialSystem
 
 
@@ -198,7 +199,7 @@ def substitute(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
         return f
     if f.whole and image.whole:
         return _substitute_in_integers(f, index, image)
-    if f.parts and image.parts:
+    if f.parts and image.parts and share_a_field(f.parts[0], image.parts[0]):
         return _substitute_in_parts(f, index, image)
     by_power = _by_power(f.terms, index)
     top = max(by_power)
@@ -228,7 +229,7 @@ def _substitute_in_integers(f: Polynomial, index: int, image: Polynomial) -> Pol
 
 
 def _substitute_in_parts(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
-    """The same where coefficients are sums of square roots."""
+    """The same where coefficients are sums of roots."""
     assert f.parts
     assert image.parts
     (parts, common), (of_image, b) = f.parts, image.parts

@@ -4,8 +4,8 @@ One of three ways to tell a rank; `nag.numerics.ball_ranks` has that of numbers 
 `nag.numerics.double_ranks` that of doubles. What decides is worked out over the rationals, or over
 the number field of a zero. Where a bound is enough, one prime gives it: a rank is no larger modulo
 a prime than it is, and smaller with a probability of some 1e-18 for random numbers. A matrix of
-sums of square roots is one of rational blocks; modulo a prime roots are residues. Entries with
-other functions, which are zero where they are to many digits, take an elimination of our own.
+sums of roots is one of rational blocks; modulo a prime roots are residues. Entries with other
+functions, which are zero where they are to many digits, take an elimination of our own.
 
 Nothing here has a tolerance.
 """
@@ -16,8 +16,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from itertools import islice
-from math import prod
+from itertools import islice, product
 from typing import TYPE_CHECKING, Any
 
 import flint
@@ -25,7 +24,23 @@ import flint
 from nag.algebra.flint_numbers import to_fraction, to_rational
 from nag.algebra.number import Exact, Irrational, Number, Surd, is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
-from nag.algebra.surd import multiply_roots, normal_sum, primes_of
+from nag.algebra.root_basis import (
+    Root,
+    conjugations,
+    degree_of,
+    generator,
+    generators_of,
+    is_sine,
+    multiply_roots,
+    own_prime,
+    powers_of,
+    primes_of,
+    radicand_of,
+    relation,
+    root_product,
+    spanning_roots,
+)
+from nag.algebra.surd import normal_sum
 from nag.errors import NagError
 
 if TYPE_CHECKING:
@@ -53,11 +68,12 @@ class PrimeField:
 
     Attributes:
         modulus: the prime.
-        flipped: numbers of which the other square root is taken.
+        choices: which of the zeros of its relation a generator has for an image, as far as it is
+            not the first one; generators are those of `nag.algebra.root_basis`.
     """
 
     modulus: int
-    flipped: frozenset[int] = frozenset()
+    choices: tuple[tuple[Root, int], ...] = ()
 
     def of(self, c: Exact | int) -> int:
         """The image of an exact number; conjugate numbers may have each other's.
@@ -67,10 +83,18 @@ class PrimeField:
             ArithmeticError: if a square root in it does not exist, see `fields_with_roots`.
         """
         if isinstance(c, Surd):
-            return c.modulo(self.modulus, self.root)
+            return c.modulo(self.modulus, self.image)
         if c.denominator % self.modulus == 0:
             raise ZeroDivisionError(f"{self.modulus} divides a denominator")
         return c.numerator * pow(c.denominator, -1, self.modulus) % self.modulus
+
+    def image(self, root: Root) -> int:
+        """That of a member of the basis of sums of roots.
+
+        Raises:
+            ArithmeticError: if there is none.
+        """
+        return _image(self, root)
 
     def root(self, a: int) -> int:
         """One of the two square roots, the same each time.
@@ -81,7 +105,21 @@ class PrimeField:
         root = _root_modulo(a % self.modulus, self.modulus)
         if root is None:
             raise ArithmeticError(f"{a} is no square modulo {self.modulus}")
-        return -root % self.modulus if a in self.flipped else root
+        return -root % self.modulus if dict(self.choices).get(a) else root
+
+    def _zero(self, order: int) -> int:
+        """The image of the generator of a prime power: a zero of its relation."""
+        coefficients = [0] * degree_of(order) + [1]
+        for r, c in relation(order).items():
+            powers = dict(powers_of(r))
+            k = powers.pop(order, 0)
+            coefficients[k] -= c * self.image(root_product(radicand_of(r), powers.items()))
+        p = self.modulus
+        factors = flint.nmod_poly([c % p for c in coefficients], p).factor()[1]
+        zeros = sorted(int(-f[0] / f[1]) for f, _ in factors if f.degree() == 1)
+        if len(zeros) < degree_of(order):
+            raise ArithmeticError(f"cosines of {order}ths of a turn are no residues modulo {p}")
+        return zeros[dict(self.choices).get(generator(order), 0)]
 
     def is_zero(self, a: int) -> bool:
         return a % self.modulus == 0
@@ -115,6 +153,17 @@ class PrimeField:
         return [[int(basis[i, j]) for i in range(columns)] for j in range(nullity)]
 
 
+@lru_cache(maxsize=4096)
+def _image(field: PrimeField, root: Root) -> int:
+    found = 1
+    for p in primes_of(radicand_of(root)):
+        found = found * field.root(p) % field.modulus
+    for order, k in powers_of(root):
+        base = field.image(generator(order)) if root != generator(order) else field._zero(order)
+        found = found * pow(base, k, field.modulus) % field.modulus
+    return found
+
+
 @lru_cache(maxsize=1024)
 def _root_modulo(a: int, p: int) -> int | None:
     root = pow(a, (p + 1) // 4, p)
@@ -134,15 +183,80 @@ MOST_ROOTS = 8
 
 @lru_cache(maxsize=64)
 def fields_with_roots(
-    primes: frozenset[int], bound: int = LARGEST_PRIME, count: int = 2
+    generators: frozenset[Root], bound: int = LARGEST_PRIME, count: int = 2
 ) -> tuple[PrimeField, ...]:
-    """So many fields in which prime numbers are squares: `FIELDS` if there are none.
+    """So many fields in which generators of sums of roots have images: `FIELDS` if there are none.
 
     Fewer where they are not found among the `MOST_PRIMES` largest below a bound.
     """
     found = islice(primes_below(bound), MOST_PRIMES)
-    fields = (p for p in found if all(_root_modulo(q, p) is not None for q in primes))
+    fields = (p for p in found if all(_has_image(g, p) for g in generators))
     return tuple(map(PrimeField, islice(fields, count)))
+
+
+def _has_image(g: Root, p: int) -> bool:
+    """Whether the relation of a generator, and those before it, have all their zeros modulo p.
+
+    Real numbers that are made of n-th roots of unity have, modulo primes that leave 1 or -1.
+    """
+    if isinstance(g, int):
+        return _root_modulo(g, p) is not None
+    ((order, _),) = powers_of(g)
+    n = 4 * order if is_sine(order) else order
+    return p % n in (1, n - 1)
+
+
+@dataclass(frozen=True)
+class NumberField:
+    """The field over the rational numbers of sums of roots; it is normal.
+
+    Attributes:
+        generators: roots of integers, each with a prime of its own, and those of prime powers.
+        roots: a basis, 1 first.
+    """
+
+    generators: tuple[Root, ...]
+    roots: tuple[Root, ...]
+
+    @classmethod
+    def of(cls, values: Iterable[Exact | int]) -> NumberField:
+        """The least one that exact numbers are in."""
+        return cls(*spanning_roots({r for c in values if isinstance(c, Surd) for r in c.terms}))
+
+    @property
+    def degree(self) -> int:
+        """Over the rational numbers."""
+        return len(self.roots)
+
+    @property
+    def basis(self) -> tuple[Exact, ...]:
+        """The same as numbers."""
+        return tuple(normal_sum({r: flint.fmpq(1)}) for r in self.roots)
+
+    def fields(self, count: int) -> tuple[PrimeField, ...]:
+        """So many primes modulo which its numbers have images, fewer if they are not found."""
+        every = frozenset(g for r in self.generators for g in generators_of(r))
+        return fields_with_roots(every, count=count)
+
+    def conjugates(self, field: PrimeField) -> tuple[PrimeField, ...]:
+        """Its images modulo one of these primes, as many as its degree."""
+        radicands = [g for g in self.generators if isinstance(g, int)]
+        places = [(own_prime(r, radicands), 2) for r in radicands]
+        for g in self.generators[len(radicands) :]:
+            ((order, _),) = powers_of(g)
+            places.append((g, degree_of(order)))
+        each = product(*(range(count) for _, count in places))
+        return tuple(
+            PrimeField(
+                field.modulus,
+                tuple((g, k) for (g, _), k in zip(places, chosen, strict=True) if k),
+            )
+            for chosen in each
+        )
+
+    def automorphisms(self) -> list[dict[int, int]]:
+        """All of them, the identity first, as `Surd.conjugate` wants them."""
+        return conjugations(self.generators)
 
 
 def residues(f: Polynomial, field: PrimeField) -> dict[Exponents, int]:
@@ -154,7 +268,7 @@ def residues(f: Polynomial, field: PrimeField) -> dict[Exponents, int]:
     assert f.parts
     found: dict[Exponents, int] = {}
     for r, terms in f.parts[0].items():
-        root = prod(map(field.root, primes_of(r)))
+        root = field.image(r)
         for e, c in terms.items():
             found[e] = (found.get(e, 0) + c * root) % field.modulus
     return found
@@ -165,12 +279,12 @@ def field_of(polynomials: Iterable[Polynomial]) -> PrimeField | None:
 
     None where coefficients are not algebraic, or need too many roots.
     """
-    primes: set[int] = set()
+    generators: set[Root] = set()
     for f in polynomials:
         if not f.algebraic:
             return None
-        primes |= f.primes
-    return next(iter(fields_with_roots(frozenset(primes))), None)
+        generators |= f.generators
+    return next(iter(fields_with_roots(frozenset(generators))), None)
 
 
 def rational_matrix(rows: Sequence[Sequence[Fraction | int]]) -> flint.fmpq_mat:
@@ -201,16 +315,12 @@ def row_echelon(rows: Sequence[Sequence[Number]]) -> tuple[list[Row], list[int]]
     return [tuple(map(to_fraction, row)) for row in table], pivots
 
 
-def roots_of(rows: Iterable[Iterable[Exact | int]]) -> tuple[int, ...]:
-    """Square-free integers, 1 first, whose roots span the least field that exact numbers lie in."""
-    group = [1]
-    for r in sorted({r for row in rows for c in row if isinstance(c, Surd) for r in c.terms}):
-        if r not in group:
-            group += [multiply_roots(r, s)[0] for s in group]
-    return tuple(group)
+def roots_of(rows: Iterable[Iterable[Exact | int]]) -> tuple[Root, ...]:
+    """Members of the basis, 1 first, that span the least field that exact numbers lie in."""
+    return NumberField.of(c for row in rows for c in row).roots
 
 
-def _over_the_rationals(rows: Sequence[Sequence[Exact | int]], roots: Sequence[int]) -> Any:
+def _over_the_rationals(rows: Sequence[Sequence[Exact | int]], roots: Sequence[Root]) -> Any:
     """The matrix of the same map over the rationals: a block for each entry.
 
     Rows are multiplied by each root, and the coordinates of entries written side by side.
@@ -222,13 +332,13 @@ def _over_the_rationals(rows: Sequence[Sequence[Exact | int]], roots: Sequence[i
         for j, c in enumerate(row):
             for r, q in c.terms.items() if isinstance(c, Surd) else ((1, to_rational(c)),):
                 for k, s in enumerate(roots) if q else ():
-                    t, factor = multiply_roots(r, s)
-                    found[size * i + k, size * j + place[t]] = q * factor
+                    for t, factor in multiply_roots(r, s):
+                        found[size * i + k, size * j + place[t]] += q * factor
     return found
 
 
 def _echelon_with_roots(
-    rows: Sequence[Sequence[Exact | int]], roots: Sequence[int]
+    rows: Sequence[Sequence[Exact | int]], roots: Sequence[Root]
 ) -> tuple[list[Row], list[int]]:
     # What it spans over the rationals is mapped to itself by multiplication with any root, so that
     # the reduced form of that matrix is made of blocks as well: units are blocks of ones.

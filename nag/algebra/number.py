@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from nag.algebra.surd import Surd, root_of_fraction, root_of_surd
+from nag.algebra.root_basis import cosine_of_turns
+from nag.algebra.surd import Surd, normal_sum, root_of_fraction, root_of_surd
 from nag.errors import NagError
 
 # Two expressions are taken to be equal when they agree to this many digits; an identity between
@@ -33,6 +34,8 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "*": lambda a, b: a * b,
     "/": lambda a, b: a / b,
     "neg": lambda a: -a,
+    # A sum of roots that is multiplied by another.
+    "exact": lambda a: a,
 }
 # Of a larger angle nothing is left when turns are taken off to the working precision.
 LARGEST_ANGLE = 1e15
@@ -43,7 +46,8 @@ _CANCELLING = ("+", "sin", "cos")
 class Irrational:
     """A real number given by an expression in ``sqrt``, ``sin``, ``cos``, ``pi`` and exact numbers.
 
-    Sums of square roots of fractions are no such expressions: `Surd` has them. Exact factors are
+    Sums of square roots of fractions and of cosines of rational turns are no such expressions:
+    `Surd` has them. Exact factors are
     kept in front, and equal radicands are multiplied out. Equality means agreement to
     `EQUALITY_DIGITS` digits, so results that rest on it are marked inexact in the output.
     """
@@ -190,6 +194,15 @@ class Irrational:
         return number_text(self)
 
 
+def _expression_of_sums(operation: str, left: Surd, right: Surd) -> Irrational:
+    """The sum or product of sums of roots that share no field of a small degree."""
+    return Irrational(
+        operation, (left, right if operation == "+" else Irrational("exact", (right,)))
+    )
+
+
+Surd.make_expression = staticmethod(_expression_of_sums)
+
 # Numbers that are known exactly, and numbers.
 Exact = Fraction | Surd
 Number = Fraction | Surd | Irrational
@@ -333,7 +346,7 @@ def _bounded_angle(value: Number) -> Number:
 
 
 def sine(value: Number | int) -> Number:
-    """The sine, in square roots at the multiples of pi/6, pi/4 and pi/12, and at those of pi/10."""
+    """The sine, exact where `cosine` is."""
     value = _number(value)
     turns = pi_multiple(value)
     if turns is None:
@@ -342,26 +355,12 @@ def sine(value: Number | int) -> Number:
     if turns >= 1:
         return -sine(_times_pi(turns - 1))
     acute = min(turns, 1 - turns)
-    # As (a, b, p, q): (a sqrt(p) + b sqrt(q)) / 4.
-    roots = {
-        Fraction(0): (0, 0, 1, 1),
-        Fraction(1, 12): (1, -1, 6, 2),
-        Fraction(1, 10): (1, -1, 5, 1),
-        Fraction(1, 6): (2, 0, 1, 1),
-        Fraction(1, 4): (2, 0, 2, 1),
-        Fraction(3, 10): (1, 1, 5, 1),
-        Fraction(1, 3): (2, 0, 3, 1),
-        Fraction(5, 12): (1, 1, 6, 2),
-        Fraction(1, 2): (4, 0, 1, 1),
-    }
-    if acute in roots:
-        a, b, p, q = roots[acute]
-        return (a * square_root(p) + b * square_root(q)) / 4
-    return Irrational("sin", (_times_pi(acute),))
+    found = cosine_of_turns(Fraction(1, 4) - acute / 2)
+    return Irrational("sin", (_times_pi(acute),)) if found is None else normal_sum(found)
 
 
 def cosine(value: Number | int) -> Number:
-    """The cosine, in square roots where `sine` is."""
+    """The cosine, exact at rational turns whose cosines have small degrees."""
     value = _number(value)
     turns = pi_multiple(value)
     if turns is None:
@@ -384,6 +383,8 @@ def number_text(value: Number | complex) -> str:
     texts = [number_text(a) for a in value.arguments]
     if value.operation == "neg":
         return f"(-{texts[0]})"
+    if value.operation == "exact":
+        return texts[0]
     if value.operation in ("+", "*", "/"):
         left, right = (f"({t})" if "/" in t or t.startswith("-") else t for t in texts)
         return f"({left}{value.operation}{right})"

@@ -15,7 +15,8 @@ import flint
 
 from nag.algebra.flint_numbers import to_rational
 from nag.algebra.number import Exact, Number, Surd, is_zero, number_text
-from nag.algebra.surd import multiply_roots, normal_sum, primes_of
+from nag.algebra.root_basis import Root, generators_of, multiply_roots, share_a_field
+from nag.algebra.surd import normal_sum
 from nag.errors import NagError
 
 Exponents = tuple[int, ...]
@@ -31,8 +32,8 @@ def occurring_variables(monomials: Iterable[Exponents]) -> set[int]:
     return {i for i, powers in enumerate(zip(*monomials, strict=True)) if any(powers)}
 
 
-# Terms with whole coefficients, by the square-free integers whose roots multiply them.
-Parts = dict[int, dict[Exponents, int]]
+# Terms with whole coefficients, by the members of the basis of sums of roots that multiply them.
+Parts = dict[Root, dict[Exponents, int]]
 
 # Products of terms beyond which coefficients are multiplied as integers.
 FEW_PRODUCTS = 8
@@ -70,12 +71,13 @@ def sum_terms(
 
 
 def multiply_parts(first: Parts, second: Parts) -> Parts:
-    """The product of polynomials in square roots; what cancels stays as zero."""
+    """The product of polynomials in roots; what cancels stays as zero."""
     parts: Parts = {}
     for r, f in first.items():
         for s, g in second.items():
-            t, factor = multiply_roots(r, s)
-            add_terms(parts.setdefault(t, {}), multiply_terms(f, g), factor)
+            terms = multiply_terms(f, g)
+            for t, factor in multiply_roots(r, s):
+                add_terms(parts.setdefault(t, {}), terms, factor)
     return parts
 
 
@@ -94,7 +96,7 @@ ROUND_NUMBERS = 6
 class Polynomial:
     """A polynomial in ``n`` variables, as a read-only map from exponents to non-zero coefficients.
 
-    Coefficients are `fractions.Fraction`, `Surd` where the input has square roots, or `Irrational`
+    Coefficients are `fractions.Fraction`, `Surd` where the input has roots, or `Irrational`
     where it has other functions. The variables have no names here; `PolynomialSystem` names them.
     """
 
@@ -133,7 +135,7 @@ class Polynomial:
         """The polynomial whose coefficients are those of its parts over a common denominator."""
         if parts.keys() <= {1}:
             return cls(n, {e: Fraction(c, common) for e, c in parts.get(1, {}).items() if c})
-        sums: dict[Exponents, dict[int, flint.fmpq]] = {}
+        sums: dict[Exponents, dict[Root, flint.fmpq]] = {}
         for r, terms in parts.items():
             for e, c in terms.items():
                 if c:
@@ -205,7 +207,8 @@ class Polynomial:
             return Polynomial(self.n, {e: Fraction(c, a * b) for e, c in sums.items()})
         if len(self.terms) * len(other.terms) > FEW_PRODUCTS and self.parts and other.parts:
             (roots, a), (others, b) = self.parts, other.parts
-            return Polynomial.of_parts(self.n, multiply_parts(roots, others), a * b)
+            if share_a_field(roots, others):
+                return Polynomial.of_parts(self.n, multiply_parts(roots, others), a * b)
         return Polynomial(self.n, multiply_terms(self.terms, other.terms))
 
     __rmul__ = __mul__
@@ -221,9 +224,9 @@ class Polynomial:
 
     @cached_property
     def parts(self) -> tuple[Parts, int] | None:
-        """The polynomial in square roots, and its denominator; None where other numbers are in it.
+        """The polynomial in roots, and its denominator; None where other numbers are in it.
 
-        It is the sum of the parts, each times the root of its integer, over the denominator.
+        It is the sum of the parts, each times its member of the basis, over the denominator.
         """
         if self.whole:
             return {1: self.whole[0]}, self.whole[1]
@@ -300,14 +303,14 @@ class Polynomial:
 
     @cached_property
     def algebraic(self) -> bool:
-        """Whether every coefficient is known exactly: rational, or a sum of square roots."""
+        """Whether every coefficient is known exactly: rational, or a sum of roots."""
         return all(isinstance(c, Exact) for c in self.terms.values())
 
     @cached_property
-    def primes(self) -> frozenset[int]:
-        """The primes of whose square roots coefficients that are known exactly are made."""
+    def generators(self) -> frozenset[Root]:
+        """What coefficients that are known exactly are made of, see `nag.algebra.root_basis`."""
         roots = {r for c in self.terms.values() if isinstance(c, Surd) for r in c.terms}
-        return frozenset(p for r in roots for p in primes_of(r))
+        return frozenset(g for r in roots for g in generators_of(r))
 
     @property
     def doubles(self) -> list[float]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from nag.algebra.flint_numbers import to_fraction
 from nag.algebra.number import Number, Surd, number_text
+from nag.algebra.root_basis import Root, is_sine, powers_of, radicand_of
 from nag.errors import NagError
 
 if TYPE_CHECKING:
@@ -29,9 +30,19 @@ def to_sympy_number(value: Number) -> Any:
         return sympy.Rational(value.numerator, value.denominator)
     if isinstance(value, Surd):
         parts = ((r, to_fraction(q)) for r, q in value.terms.items())
-        return sympy.Add(*(to_sympy_number(q) * sympy.sqrt(r) for r, q in parts))
+        return sympy.Add(*(to_sympy_number(q) * _to_sympy_root(r) for r, q in parts))
     # The text is one that this package wrote: functions, numbers and pi.
     return sympy.sympify(number_text(value).replace("^", "**"))
+
+
+def _to_sympy_root(root: Root) -> Any:
+    """A member of the basis of sums of roots."""
+    sympy = _sympy()
+    found = sympy.sqrt(radicand_of(root))
+    for order, k in powers_of(root):
+        angle = 2 * sympy.pi / order
+        found *= (4 * sympy.sin(angle) if is_sine(order) else 2 * sympy.cos(angle)) ** k
+    return found
 
 
 def to_sympy_polynomials(

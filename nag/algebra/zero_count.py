@@ -86,8 +86,7 @@ def most_zeros(
     if not patient and not _small(given):
         return None
     counts = []
-    roots = frozenset(p for f in given for p in f.primes)
-    fields = fields_with_roots(roots, LARGEST)
+    fields = fields_with_roots(frozenset(g for f in given for g in f.generators), LARGEST)
     if len(fields) < 2:
         return None
     for field in fields:

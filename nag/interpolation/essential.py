@@ -141,7 +141,7 @@ def _of_degree(
             break
         points = cloud.balls(count, digits)
         values = monomial_values([[p[i] for i in coordinates] for p in points], standard, digits)
-        echelon = Echelon(2 * count, digits, cloud.radicands)
+        echelon = Echelon(2 * count, digits, cloud.roots)
         try:
             for e in standard:
                 echelon.add(real_rows(values[e]))
@@ -241,7 +241,7 @@ def _linearly_independent(cloud: Cloud) -> list[int]:
     count = (n + 2) // 2 + MORE_POINTS
     points = cloud.balls(count, digits)
     chosen = []
-    echelon = Echelon(2 * count, digits, cloud.radicands)
+    echelon = Echelon(2 * count, digits, cloud.roots)
     echelon.add(real_rows([flint.acb(1)] * count))
     for i in range(n):
         try:

@@ -7,28 +7,26 @@ degrees are left out: their leading monomials are, by Gauss' elimination. What i
 reduced basis, whose coefficients are recognised from their residues modulo as many primes as that
 takes, and has to vanish at points modulo one prime more.
 
-A map with coefficients in a field that is normal over the rational numbers, as that of square roots
-or of cosines, is taken modulo primes that have these numbers. Where the field is mapped to itself,
+A map with coefficients in a field that is normal over the rational numbers, as those of sums of
+roots are, is taken modulo primes that have these numbers. Where the field is mapped to itself,
 the image's reduced basis goes into its conjugates', so that the bases of all conjugates together
 have the rational parts of each coefficient.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations, pairwise
-from math import isqrt, prod
+from itertools import pairwise
+from math import isqrt
 from typing import Protocol
 
-import flint
 import numpy as np
 
-from nag.algebra.exact_ranks import PrimeField, fields_with_roots
+from nag.algebra.exact_ranks import NumberField, PrimeField
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
-from nag.algebra.surd import normal_sum
 from nag.interpolation.vanishing import InterpolationError, monomials_of_degree, primitive
 from nag.numerics.read_only import equal_values
 
@@ -41,49 +39,6 @@ MOST_PRIMES = 9
 MOST_CONJUGATES = 16
 
 
-class CoefficientField(Protocol):
-    """A number field that is normal over the rational numbers.
-
-    Attributes:
-        basis: numbers whose rational combinations it is, 1 first.
-    """
-
-    @property
-    def basis(self) -> tuple[Number, ...]: ...
-
-    def fields(self, count: int) -> Sequence[PrimeField]:
-        """So many primes modulo which it has images, fewer if they are not found."""
-
-    def conjugates(self, field: PrimeField) -> Sequence[PrimeField]:
-        """Its images modulo one of these primes, as many as the basis has numbers."""
-
-
-@dataclass(frozen=True)
-class SquareRootField:
-    """The field of square roots of prime numbers, a `CoefficientField`.
-
-    Attributes:
-        primes: these numbers.
-    """
-
-    primes: frozenset[int]
-
-    @property
-    def basis(self) -> tuple[Number, ...]:
-        """The products of roots."""
-        return tuple(normal_sum({prod(own): flint.fmpq(1)}) for own in _subsets(self.primes))
-
-    def fields(self, count: int) -> tuple[PrimeField, ...]:
-        """So many primes that have the roots, fewer if they are not found."""
-        return fields_with_roots(self.primes, count=count)
-
-    def conjugates(self, field: PrimeField) -> tuple[PrimeField, ...]:
-        """All choices of signs."""
-        return tuple(
-            PrimeField(field.modulus, frozenset(flipped)) for flipped in _subsets(self.primes)
-        )
-
-
 class ModularMap(Protocol):
     """A map to a projective space of which values modulo primes are known.
 
@@ -92,7 +47,7 @@ class ModularMap(Protocol):
     """
 
     @property
-    def coefficients(self) -> CoefficientField: ...
+    def coefficients(self) -> NumberField: ...
 
     def value(self, field: PrimeField, rng: np.random.Generator) -> Sequence[int]:
         """The image of a random point, in homogeneous coordinates."""
@@ -236,12 +191,6 @@ def _vanishing(
     raise InterpolationError(
         f"forms of degree {degree} have coefficients of more than {31 * MOST_PRIMES} bits"
     )
-
-
-def _subsets(primes: Iterable[int]) -> list[tuple[int, ...]]:
-    """All of them, the empty one first."""
-    own = sorted(primes)
-    return [subset for size in range(len(own) + 1) for subset in combinations(own, size)]
 
 
 def _parts_modulo(

@@ -51,7 +51,7 @@ MORE_DEGREES, ENOUGH_MONOMIALS = 2, 120
 class ImageIdeal:
     """What is known of the closure of the image of a component.
 
-    Coefficients of polynomials are rational, or sums of the square roots in the system's: of a
+    Coefficients of polynomials are rational, or sums of the roots in the system's: of a
     component that is not kept by the conjugation of complex numbers, they are those of the image
     together with its conjugate, and of components that were taken together, of all their images.
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from nag.algebra.exact_ranks import roots_of
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.root_basis import Root
 from nag.algebra.system import PolynomialSystem
 from nag.interpolation.precise_samples import Sample, Source, samples
 from nag.numerics.ball_polynomials import BallPolynomials
@@ -93,8 +94,8 @@ class Cloud:
         self._balls: dict[int, list[list[flint.acb]]] = {}
 
     @cached_property
-    def radicands(self) -> tuple[int, ...]:
-        """Square-free numbers, 1 first, whose roots span the field of the system's coefficients."""
+    def roots(self) -> tuple[Root, ...]:
+        """Members of the basis of sums of roots, 1 first, that span the coefficients' field."""
         return roots_of(f.terms.values() for f in self.ambient.system.polynomials)
 
     def with_further(self, further: Sequence[Source]) -> Cloud:

@@ -35,7 +35,7 @@ from nag.witness.slices import pad_rows, rows_through
 from nag.witness.witness import WitnessSet
 
 # Of which numbers equations and points are made.
-TAKEN = "rational numbers and sums of their square roots"
+TAKEN = "rational numbers and sums of their roots"
 
 
 class SourceError(ComponentError):
@@ -73,7 +73,7 @@ def source_of_component(
         exact: whether coefficients have to be such as can be recognised from values.
 
     Raises:
-        SourceError: if they have to be and are no sums of square roots, or the points are singular
+        SourceError: if they have to be and are no sums of roots, or the points are singular
             in a way that deflation does not mend.
     """
     if exact:
@@ -94,7 +94,7 @@ def source_at(
     """The one component through an exact point where the equations are regular.
 
     Raises:
-        SourceError: if coefficients or coordinates are no sums of square roots, or the point is no
+        SourceError: if coefficients or coordinates are no sums of roots, or the point is no
             zero, is isolated, or is not regular.
     """
     _check_algebraic(system)

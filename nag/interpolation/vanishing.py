@@ -1,6 +1,6 @@
 """Polynomials that vanish on the image of a component, by interpolation.
 
-Their coefficients are rational, or in the field that the square roots in the system's span.
+Their coefficients are rational, or in the field of the system's.
 
 Monomials are taken in ascending order, that of degrees and then the reverse lexicographic one. One
 whose values at random points are a combination of those before it is the leading monomial of an
@@ -23,7 +23,8 @@ from nag.algebra.flint_numbers import to_fraction
 from nag.algebra.multipliers import order
 from nag.algebra.number import Exact
 from nag.algebra.polynomial import Polynomial, divides
-from nag.algebra.surd import Surd
+from nag.algebra.root_basis import Root
+from nag.algebra.surd import Surd, root_text
 from nag.errors import ComponentError
 from nag.interpolation.point_cloud import (
     Cloud,
@@ -152,7 +153,7 @@ def _next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
         except TooFewDigitsError:
             continue
     else:
-        raise _not_rational(degree, cloud.radicands)
+        raise _not_rational(degree, cloud.roots)
     generators = list(known.generators)
     new = []
     for lead, coefficients in relations:
@@ -177,10 +178,10 @@ def _too_many(count: int, degree: int, variables: int, most: int) -> TooManyMono
     )
 
 
-def _not_rational(degree: int, radicands: Sequence[int] = (1,)) -> NotRationalError:
+def _not_rational(degree: int, roots: Sequence[Root] = (1,)) -> NotRationalError:
     numbers = "rational numbers"
-    if len(radicands) > 1:
-        numbers += f" with {join_words([f'sqrt({r})' for r in radicands[1:]])}"
+    if len(roots) > 1:
+        numbers += f" with {join_words([root_text(r) for r in roots[1:]])}"
     return NotRationalError(
         f"the polynomials of degree {degree} have coefficients that are not recognised as "
         f"{numbers} in {DIGITS[-1]} digits: the component is not defined over the {numbers}"
@@ -199,7 +200,7 @@ def _split(
     if clearly_independent(monomials_in_doubles(points, together)):
         return together, []
     columns = columns_at(cloud, known.coordinates, together, digits, 0)
-    echelon = Echelon(len(columns[together[0]]), digits, cloud.radicands)
+    echelon = Echelon(len(columns[together[0]]), digits, cloud.roots)
     standard, relations = [], []
     for e in together:
         relation = echelon.add(columns[e])
@@ -218,7 +219,7 @@ def leading_monomial(f: Polynomial) -> Exponents:
 def primitive(f: Polynomial) -> Polynomial:
     """The multiple with coprime whole coefficients, the leading one positive.
 
-    Of sums of square roots the rational parts are whole numbers, and coprime together. With other
+    Of sums of roots the rational parts are whole numbers, and coprime together. With other
     numbers in it the leading coefficient is made positive.
     """
     if not f.algebraic:
@@ -295,7 +296,7 @@ def forms_of_degree(
             terms = {e: -c for e, c in zip(standard, coefficients, strict=False) if c}
             found.append(primitive(Polynomial(k, {lead: Fraction(1), **terms})))
         return found
-    raise _not_rational(degree, cloud.radicands)
+    raise _not_rational(degree, cloud.roots)
 
 
 def hypersurface_equation(cloud: Cloud, coordinates: Sequence[int], degree: int) -> Interpolated:

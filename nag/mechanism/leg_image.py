@@ -16,17 +16,10 @@ from functools import cached_property
 
 import numpy as np
 
-from nag.algebra.cyclotomic import field_of_cosines
-from nag.algebra.exact_ranks import PrimeField
+from nag.algebra.exact_ranks import NumberField, PrimeField
 from nag.algebra.number import Exact
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.surd import Surd
-from nag.interpolation.image_forms import (
-    CoefficientField,
-    ImageForms,
-    SquareRootField,
-    find_image_forms,
-)
+from nag.interpolation.image_forms import ImageForms, find_image_forms
 from nag.interpolation.vanishing import InterpolationError
 from nag.mechanism.loop_product import Element
 from nag.mechanism.quaternion import DualQuaternion
@@ -62,21 +55,16 @@ class ProductOfFactors:
     elements: tuple[Element, ...]
 
     @cached_property
-    def coefficients(self) -> CoefficientField:
-        """The field that the generators are in: of square roots where they are made of these.
+    def coefficients(self) -> NumberField:
+        """The field that the generators are in.
 
         Raises:
-            InterpolationError: if they are in no such field, and in no small one of cosines.
+            InterpolationError: if one of them is no sum of roots.
         """
         entries = [c for e in self.elements for g in e.generators for part in g for c in part]
-        if all(isinstance(c, Exact) for c in entries):
-            return SquareRootField(
-                frozenset(p for c in entries if isinstance(c, Surd) for p in c.primes())
-            )
-        field = field_of_cosines(entries)
-        if field is None:
-            raise InterpolationError("coordinates are in no small field of cosines")
-        return field
+        if not all(isinstance(c, int | Exact) for c in entries):
+            raise InterpolationError("coordinates are no sums of roots")
+        return NumberField.of(entries)
 
     def value(self, field: PrimeField, rng: np.random.Generator) -> list[int]:
         """A random product modulo a prime."""

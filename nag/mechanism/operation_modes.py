@@ -510,8 +510,6 @@ def _with_equations(
         twists = [_twists(model, *each, length) for each in found]
         motion = motion_of(poses, twists, length, about)
         mode = replace(mode, motion=motion)
-        if not all(f.algebraic for f in model.system.polynomials):
-            return replace(mode, note="its equations have cosines in them and are not looked for")
         linear = tuple(forms_of_degree(cloud, range(8), 1, ()))
         study = _reduce_form(study_quadric(), linear)
         known = (*linear, *([primitive(study)] if study else []))

@@ -18,10 +18,9 @@ from typing import Any
 
 import numpy as np
 
-from nag.algebra.cyclotomic import MOST_DEGREE as MOST_DEGREE_OF_COSINES
-from nag.algebra.cyclotomic import field_of_cosines
 from nag.algebra.number import Irrational, Number
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.root_basis import MOST_DEGREE as MOST_DEGREE_OF_COSINES
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
 from nag.interpolation.image_forms import ImageForms
@@ -195,10 +194,10 @@ def _check_leg(leg: Leg, platform: str) -> None:
     for joint in leg.joints:
         vectors = (joint.point, joint.axis, joint.second_axis)
         entries = [x for v in vectors if v is not None for x in v]
-        if any(isinstance(x, Irrational) for x in entries) and field_of_cosines(entries) is None:
+        if any(isinstance(x, Irrational) for x in entries):
             raise MechanismError(
                 f"joint {joint.name!r} has coordinates other than rational numbers, square roots "
-                "and sines and cosines of rational multiples of pi, in fields of degree "
+                "and sines and cosines of rational multiples of pi, of degree "
                 f"{MOST_DEGREE_OF_COSINES} at most; operation modes are found of these"
             )
 

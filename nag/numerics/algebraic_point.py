@@ -54,9 +54,11 @@ class _Images:
                 raise _OtherPrime(str(error)) from None
         if c.operation == "sqrt":
             return self._root(c.arguments[0])
-        if c.operation not in ("+", "*", "/", "neg"):
+        if c.operation not in ("+", "*", "/", "neg", "exact"):
             raise _NoImage(f"{c.operation} is not algebraic")
         values = [self.of(a) for a in c.arguments]
+        if c.operation == "exact":
+            return values[0]
         if c.operation == "neg":
             return -values[0] % p
         if c.operation == "/":

@@ -1,6 +1,6 @@
 """Linear relations with exact coefficients among columns of numbers of many digits.
 
-Coefficients are rational, or sums of square roots out of a field that is known.
+Coefficients are rational, or sums of roots out of a field that is known.
 
 Columns are reduced one after the other by the independent ones before them. With balls in place of
 numbers a column whose rest contains zero everywhere is a combination of those before it as far as
@@ -18,6 +18,7 @@ import flint
 
 from nag.algebra.flint_numbers import to_rational
 from nag.algebra.number import Exact
+from nag.algebra.root_basis import Root, ball_of
 from nag.algebra.surd import Surd, normal_sum
 from nag.numerics.ball_ranks import known_zero, regular_block
 from nag.numerics.digits import LOG10_2, SPARE, bits_of, in_bits
@@ -52,11 +53,11 @@ class Echelon:
 
     Attributes:
         digits: of the numbers in the columns; bits: that are computed with.
-        radicands: square-free numbers, whose roots coefficients are rational sums of.
+        roots: members of the basis of sums of roots, 1 first, that coefficients are in.
     """
 
-    def __init__(self, rows: int, digits: int, radicands: Sequence[int] = (1,)) -> None:
-        self.radicands = tuple(radicands)
+    def __init__(self, rows: int, digits: int, roots: Sequence[Root] = (1,)) -> None:
+        self.roots = tuple(roots)
         self.digits, self.bits = digits, bits_of(digits + SPARE)
         self._rows = rows
         self._pivots: list[int] = []
@@ -71,7 +72,7 @@ class Echelon:
 
     def copy(self) -> Echelon:
         """The same columns; adding to the copy leaves these as they are."""
-        other = Echelon(self._rows, self.digits, self.radicands)
+        other = Echelon(self._rows, self.digits, self.roots)
         other._pivots = list(self._pivots)
         other._lower, other._inverse = flint.arb_mat(self._lower), flint.arb_mat(self._inverse)
         other._upper = list(self._upper)
@@ -146,7 +147,7 @@ class Echelon:
             values[k] = values[k] / upper[k]
             for i in range(k):
                 values[i] = values[i] - upper[i] * values[k]
-        return [recognise_sum_of_roots(x, self.radicands, self.digits) for x in values]
+        return [recognise_sum_of_roots(x, self.roots, self.digits) for x in values]
 
 
 def recognise_rational(x: flint.arb, digits: float) -> Fraction:
@@ -170,38 +171,38 @@ def recognise_rational(x: flint.arb, digits: float) -> Fraction:
     return found
 
 
-def recognise_sum_of_roots(x: flint.arb, radicands: Sequence[int], digits: float) -> Exact:
-    """The sum of rational multiples of square roots in a ball, if its size shows that it is there.
+def recognise_sum_of_roots(x: flint.arb, roots: Sequence[Root], digits: float) -> Exact:
+    """The sum of rational multiples of roots in a ball, if its size shows that it is there.
 
     The shortest integer relation between the number and the roots, by lattice reduction.
 
     Args:
-        radicands: square-free numbers, 1 first.
+        roots: members of the basis of sums of roots, 1 first.
         digits: those of a ball without a radius.
 
     Raises:
         TooFewDigitsError: if there is none.
     """
-    if len(radicands) == 1 or x.contains(0):
+    if len(roots) == 1 or x.contains(0):
         return recognise_rational(x, digits)
     radius = _fraction(x.rad())
     digits = int(_digits(radius) if radius else digits)
     with in_bits(bits_of(digits + SPARE)):
-        values = [x, *(flint.arb(r).sqrt() for r in radicands)]
+        values = [x, *map(ball_of, roots)]
         scaled = [round(_fraction(v.mid()) * 10 ** max(0, digits)) for v in values]
         rows = [[*(int(i == j) for j in range(len(values))), n] for i, n in enumerate(scaled)]
         shortest = [int(n) for n in flint.fmpz_mat(rows).lll().tolist()[0]]
         own, parts = -shortest[0], shortest[1:-1]
         spent = sum(log10(1 + abs(n)) for n in shortest[:-1])
         if own and spent + EVIDENCE <= digits:
-            terms = {r: flint.fmpq(n, own) for r, n in zip(radicands, parts, strict=True)}
+            terms = {r: flint.fmpq(n, own) for r, n in zip(roots, parts, strict=True)}
             found = normal_sum(terms)
             bits = bits_of(digits + SPARE)
             near = found.ball(bits) if isinstance(found, Surd) else to_rational(found)
             # Digits are whole here: a little more than the radius.
             if abs(near - x).lower() <= flint.arb(10) ** -digits:
                 return found
-    raise TooFewDigitsError(f"no sum of square roots is recognised in {digits:.0f} digits")
+    raise TooFewDigitsError(f"no sum of roots is recognised in {digits:.0f} digits")
 
 
 def _fraction(x: flint.arb) -> Fraction:

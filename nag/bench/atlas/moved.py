@@ -134,6 +134,7 @@ SPARSE: dict[str, tuple[str, ...]] = {
     ),
     "sparse-robots-with-roots": (
         "robots/3-rps-120", "robots/3-upu-snu-120", "robots/3-upu-tsai-120",
+        "robots/3-upu-tsai-sevenths",
     ),
     "sparse-planar": ("planar/eight-bar", "planar/six-bar-placed"),
     "sparse-spatial": ("spatial/sarrus-kinematotropic", "spatial/universal-shaft"),
