@@ -27,7 +27,12 @@ from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.inverse_kinematics import REACHED, multiply_poses, reach_poses
 from nag.mechanism.isotropic_limits import is_isotropic_limit
 from nag.mechanism.joint_factors import factors_of_joint
-from nag.mechanism.leg_image import COORDINATES, image_of_chain, study_quadric
+from nag.mechanism.leg_image import (
+    COORDINATES,
+    forms_about_origin,
+    image_of_chain,
+    study_quadric,
+)
 from nag.mechanism.legs import Leg, parallel_robot
 from nag.mechanism.loop_product import Element, displacement
 from nag.mechanism.modes_report import ModeReality, OperationModes
@@ -207,6 +212,33 @@ def test_the_modes_of_a_robot_do_not_depend_on_where_it_stands(
     assert known[0] == known[1]
 
 
+@pytest.mark.parametrize("name", ["3-upu-tsai-120", "tricept"])
+def test_a_robot_elsewhere_has_the_same_system_and_modes_in_the_same_order(name: str) -> None:
+    here = found_modes(name)
+    far = tuple(map(Fraction, (10**6, -2 * 10**6, "1000000.1")))
+    there = nag.modes(moved(robot(name), (1, 0, 0, 0), far, Fraction(1)))
+    assert there.model.system == here.model.system
+    assert there.model.origin == tuple(a + b for a, b in zip(here.model.origin, far, strict=True))
+    assert there.transitions == here.transitions
+    back = tuple(-c for c in far)
+    for a, b in zip(here.modes, there.modes, strict=True):
+        assert a.component == b.component
+        told = forms_about_origin((*b.linear, *b.quadratic), back)
+        assert set(told) == {*a.linear, *a.quadratic}
+
+
+@pytest.mark.parametrize("name", ["RPS", "RRR", "CS", "PRRR"])
+def test_forms_about_another_origin_are_those_of_the_leg_there(name: str) -> None:
+    leg, place = CHAINS[name], (Fraction(3), Fraction(-1, 2), Fraction(10**6))
+    joints = [
+        replace(j, point=tuple(x + c for x, c in zip(j.point, place, strict=True)))
+        for j in leg.joints
+    ]
+    there = image_of_chain(replace(leg, joints=tuple(joints)).elements(), np.random.default_rng(0))
+    here = image_of_chain(leg.elements(), np.random.default_rng(0))
+    assert forms_about_origin(here.forms, place) == there.forms
+
+
 def test_modes_say_in_words_what_they_are() -> None:
     words = Counter(str(m.motion) for m in found_modes("3-upu-snu").modes)
     assert words == {
@@ -268,10 +300,10 @@ def test_a_leg_reaches_its_poses_and_no_others() -> None:
                 own = np.array([[float(c) for part in g for c in part] for g in e.generators])
                 pose = multiply_poses(pose, weights @ own)
             poses.append(pose)
-        assert (reach_poses([elements], np.array(poses), np.zeros(3), 3.0, rng) < REACHED).all()
+        assert (reach_poses([elements], np.array(poses), 3.0, rng) < REACHED).all()
         other = rng.standard_normal((3, 8))
         other[:, 4] = -(other[:, 1:4] * other[:, 5:]).sum(axis=1) / other[:, 0]
-        assert (reach_poses([elements], other, np.zeros(3), 3.0, rng) > 1e-3).all()
+        assert (reach_poses([elements], other, 3.0, rng) > 1e-3).all()
 
 
 def test_one_real_pose_that_all_legs_reach_is_enough() -> None:
@@ -283,10 +315,10 @@ def test_one_real_pose_that_all_legs_reach_is_enough() -> None:
     poses[0, 5:] = poses[1, 5] = poses[2, 6] = 1
     along = [slide(X), slide((2, 0, 0))]
     rng = np.random.default_rng(6)
-    found = reach_poses(along, poses, np.zeros(3), 1.0, rng, real=True, one=True)
+    found = reach_poses(along, poses, 1.0, rng, real=True, one=True)
     assert (found < REACHED).tolist() == [[False] * 2, [True] * 2, [False] * 2]
     # No pose is reached by both of these, and each reaches its own.
-    found = reach_poses([slide(X), slide(Y)], poses, np.zeros(3), 1.0, rng, real=True, one=True)
+    found = reach_poses([slide(X), slide(Y)], poses, 1.0, rng, real=True, one=True)
     assert (found < REACHED).tolist() == [[False] * 2, [True, False], [False, True]]
 
 
@@ -313,7 +345,7 @@ def isotropic_pose(leg: Leg, by: complex) -> np.ndarray:
 def test_a_leg_whose_outer_axes_differ_by_an_isotropic_vector_comes_near_only(by: float) -> None:
     elements, rng = UPRIGHT.elements(), np.random.default_rng(8)
     pose = isotropic_pose(UPRIGHT, by)
-    residuals = reach_poses([elements], pose[None], np.zeros(3), 4.0, rng)
+    residuals = reach_poses([elements], pose[None], 4.0, rng)
     assert is_isotropic_limit(elements, pose) == (not by)
     assert (residuals[0, 0] < REACHED) == bool(by)
 
@@ -344,7 +376,7 @@ def test_a_pose_across_all_that_a_leg_reaches_is_not_reached(real: bool) -> None
     slides = chain(*[("prismatic", {"axis": axis}) for axis in (X, X, Y)]).elements()
     half_turns = np.eye(8)[1:4]
     rng = np.random.default_rng(7)
-    found = reach_poses([slides], half_turns, np.zeros(3), 1.0, rng, real=real)
+    found = reach_poses([slides], half_turns, 1.0, rng, real=real)
     assert (found >= 1).all()
 
 

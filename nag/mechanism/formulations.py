@@ -89,9 +89,10 @@ def description(alternative: Alternative, space: Space) -> str:
         return "one pair (c, s) for each body" if space == "planar" else "Euler parameters"
     form = alternative.form
     if alternative.formulation == PLATFORM_ALONE:
+        place = ", ".join(f"{float(c):.6g}" for c in form.platform.origin)
         return (
-            f"Study coordinates of {form.platform.robot.platform}, its legs eliminated: components "
-            "of its poses, above each of which the joints may have several"
+            f"Study coordinates of {form.platform.robot.platform} about ({place}), its legs "
+            "eliminated: components of its poses, above each of which the joints may have several"
         )
     if isinstance(form, RodModel):
         free = sum(f.kind == "free" for f in form.charts.plain)

@@ -70,7 +70,6 @@ def shift_origin(x: np.ndarray, origin: np.ndarray) -> np.ndarray:
 def reach_poses(
     chains: Sequence[Sequence[Element]],
     poses: np.ndarray,
-    origin: np.ndarray,
     length: float,
     rng: np.random.Generator,
     real: bool = False,
@@ -81,8 +80,7 @@ def reach_poses(
     Args:
         chains: the factors of each product.
         poses: Study coordinates, shape ``(k, 8)``.
-        origin: a point amidst the chains, shape ``(3,)``, from which displacements are taken.
-        length: by which lengths are measured.
+        length: by which lengths are measured, from an origin amidst the chains.
         real: whether with real joint coordinates only.
         one: whether one pose that all chains reach is enough.
 
@@ -91,10 +89,8 @@ def reach_poses(
         `REACHED` where a pose is reached.
     """
     scale = np.array([1.0] * 4 + [1.0 / length] * 4)
-    generators = [
-        [shift_origin(g, origin) * scale for g in map(_generators, elements)] for elements in chains
-    ]
-    targets = _unit(shift_origin(poses, origin) * scale)
+    generators = [[g * scale for g in map(_generators, elements)] for elements in chains]
+    targets = _unit(poses * scale)
     best = np.full((len(poses), len(chains)), np.inf)
     for _ in range(REAL_ROUNDS if real else ROUNDS):
         reached = best < REACHED
@@ -112,7 +108,6 @@ def find_reached_pose(
     basis: np.ndarray,
     forms: Evaluator,
     pose: np.ndarray,
-    origin: np.ndarray,
     length: float,
     rng: np.random.Generator,
 ) -> tuple[np.ndarray, np.ndarray] | None:
@@ -121,7 +116,7 @@ def find_reached_pose(
     Pose and joint coordinates are sought together: a pose of random size is mostly beyond reach.
 
     Args:
-        chains, origin, length: as for `reach_poses`.
+        chains, length: as for `reach_poses`.
         basis: of the linear space that poses are in, shape ``(m, 8)``.
         forms: of Study coordinates, zero where poses are allowed.
         pose: where poses are looked for from, shape ``(8,)``.
@@ -131,8 +126,8 @@ def find_reached_pose(
         is found.
     """
     scale = np.array([1.0] * 4 + [1.0 / length] * 4)
-    back = shift_origin(conjugate_pose(basis), origin) * scale
-    legs = [[shift_origin(g, origin) * scale for g in map(_generators, own)] for own in chains]
+    back = conjugate_pose(basis) * scale
+    legs = [[g * scale for g in map(_generators, own)] for own in chains]
     one = np.eye(8)[:1]
     first = np.linalg.lstsq(basis.T, pose, rcond=None)[0]
     for _ in range(STARTS):
@@ -195,7 +190,6 @@ def _step_together(
 def find_joints(
     elements: Sequence[Element],
     pose: np.ndarray,
-    origin: np.ndarray,
     length: float,
     rng: np.random.Generator,
     real: bool = False,
@@ -204,11 +198,11 @@ def find_joints(
 
     Args:
         pose: Study coordinates, shape ``(8,)``.
-        origin, length, real: as for `reach_poses`.
+        length, real: as for `reach_poses`.
     """
     scale = np.array([1.0] * 4 + [1.0 / length] * 4)
-    generators = [shift_origin(g, origin) * scale for g in map(_generators, elements)]
-    targets = _unit(shift_origin(pose, origin)[None] * scale)
+    generators = [g * scale for g in map(_generators, elements)]
+    targets = _unit(pose[None] * scale)
     for _ in range(ROUNDS):
         best = np.full(1, np.inf)
         found = _approach(generators, targets, np.zeros(STARTS, dtype=int), best, rng, real)

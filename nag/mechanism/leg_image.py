@@ -6,28 +6,33 @@ leg's image, is irreducible; its forms are interpolated (`nag.interpolation.imag
 of dimension 5 is cut out of the quadric by one form exactly, as the quadric's forms have unique
 factors. Of a smaller one the forms may have other zeros besides; whether a leg reaches a pose is
 tested by its inverse kinematics.
+
+Another origin is a linear change of Study coordinates, which keeps the quadric. Of forms about one
+origin those about another are the reduced basis of what they span there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
-from nag.algebra.exact_ranks import NumberField, PrimeField
+from nag.algebra.exact_ranks import NumberField, PrimeField, coefficient_rows, row_echelon
 from nag.algebra.number import Exact
 from nag.algebra.polynomial import Polynomial
 from nag.interpolation.image_forms import ImageForms, find_image_forms
-from nag.interpolation.vanishing import InterpolationError
+from nag.interpolation.vanishing import InterpolationError, monomials_of_degree, primitive
 from nag.mechanism.loop_product import Element
-from nag.mechanism.quaternion import DualQuaternion
+from nag.mechanism.quaternion import DualQuaternion, dual_conjugate, dual_multiply
 
 # Study coordinates: the real part of the quaternion first, its dual part behind.
 COORDINATES = ("x0", "x1", "x2", "x3", "y0", "y1", "y2", "y3")
 # Forms of higher degrees have too many monomials.
 MOST_DEGREE = 4
+Place = tuple[Fraction, Fraction, Fraction]
 
 
 def study_quadric() -> Polynomial:
@@ -40,6 +45,57 @@ def norm_form(n: int = 8) -> Polynomial:
     """x0^2 + x1^2 + x2^2 + x3^2, which vanishes at no displacement."""
     x = Polynomial.variables(n)
     return sum((x[i] * x[i] for i in range(1, 4)), x[0] * x[0])
+
+
+def forms_about_origin(forms: Sequence[Polynomial], place: Place) -> tuple[Polynomial, ...]:
+    """Forms in Study coordinates about a place as such in those about the origin, reduced.
+
+    Args:
+        forms: by rising degree, those of each degree the reduced basis of what vanishes on a set
+            beside Study's quadric and multiples of those of lower degrees.
+
+    Returns:
+        These bases in those coordinates, primitive, the largest leading monomials first; of forms
+        with other numbers than sums of square roots their images only.
+    """
+    if not any(place):
+        return tuple(forms)
+    images = _coordinates_about(place)
+    moved = [f.compose(images) for f in forms]
+    if not all(f.algebraic for f in moved):
+        return tuple(map(primitive, moved))
+    found: list[Polynomial] = []
+    for degree in sorted({f.degree for f in moved}):
+        lower = [f for f in (study_quadric(), *found) if f.degree <= degree]
+        monomials = monomials_of_degree(8, degree)[::-1]
+        multiples = [
+            f * Polynomial(8, {e: Fraction(1)})
+            for f in lower
+            for e in monomials_of_degree(8, degree - f.degree)
+        ]
+        own = [f for f in moved if f.degree == degree]
+        known = coefficient_rows([f.terms for f in multiples], monomials)
+        rows = known + coefficient_rows([f.terms for f in own], monomials)
+        # Leading monomials of multiples are left out, as where forms are interpolated.
+        left_out = set(row_echelon(known)[1])
+        reduced = zip(*row_echelon(rows), strict=True)
+        found += [
+            primitive(Polynomial(8, {e: c for e, c in zip(monomials, row, strict=True) if c}))
+            for row, pivot in reduced
+            if pivot not in left_out
+        ]
+    return tuple(found)
+
+
+def _coordinates_about(place: Place) -> tuple[Polynomial, ...]:
+    """Study coordinates about a place as linear forms of those about the origin."""
+    x = Polynomial.variables(8)
+    zero, one = Polynomial(8, {}), Polynomial.constant(8, 1)
+    half = [Polynomial.constant(8, c / 2) for c in place]
+    there = ((one, zero, zero, zero), (zero, *half))
+    pose = (tuple(x[:4]), tuple(x[4:]))
+    moved = dual_multiply(dual_multiply(dual_conjugate(there), pose), there)
+    return tuple(part for each in moved for part in each)
 
 
 @dataclass(frozen=True)

@@ -253,9 +253,6 @@ class OperationModes:
         system = self.model.system
         equations = count_text(len(system.polynomials), "equation")
         text = f"{equations} in {system.n} unknowns, the platform alone"
-        if any(self.model.about):
-            place = ", ".join(f"{float(c):.6g}" for c in self.model.about)
-            text += f", in coordinates about ({place})"
         found.append(("model", text))
         found.append(("answer", self.answer))
         if not self.complete:
@@ -358,9 +355,10 @@ class OperationModes:
             "notes": list(self.notes),
             "ground": robot.ground,
             "platform": robot.platform,
-            "legs": [_leg_document(leg) for leg in self.model.legs],
+            "legs": [_leg_document(self.model, leg) for leg in self.model.legs],
             "aside": [j.name for j in robot.aside],
             "chart": [str(c) for c in self.model.chart],
+            "origin": [str(c) for c in self.model.origin],
             "modes": [m.document() for m in self.modes],
             "spurious": [
                 {"dimension": s.dimension, "degree": s.degree, "leg": s.leg} for s in self.spurious
@@ -420,12 +418,12 @@ def _leg_text(leg: LegEquations) -> str:
     return text
 
 
-def _leg_document(leg: LegEquations) -> dict[str, Any]:
+def _leg_document(model: PlatformModel, leg: LegEquations) -> dict[str, Any]:
     return {
         "joints": [j.name for j in leg.leg.joints],
         "type": leg.leg.letters,
         "dimension": leg.dimension,
         "idle": leg.idle,
         "kept": list(dict.fromkeys(e.factor.joint for e in leg.kept if e.factor is not None)),
-        "forms": [f.text(COORDINATES) for f in leg.image.forms],
+        "forms": [f.text(COORDINATES) for f in model.given_forms(leg)],
     }

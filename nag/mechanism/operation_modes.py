@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from itertools import combinations
 from math import ceil
 from typing import Any
@@ -23,6 +22,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import null_space
 from nag.algebra.given import check_size
+from nag.algebra.multipliers import order
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.decompose import decompose
@@ -39,7 +39,7 @@ from nag.interpolation.vanishing import (
     primitive,
 )
 from nag.mechanism import MODES_BUDGET
-from nag.mechanism.graph import Mechanism, check_mechanism
+from nag.mechanism.graph import check_mechanism
 from nag.mechanism.inverse_kinematics import (
     REACHED,
     find_reached_pose,
@@ -47,7 +47,14 @@ from nag.mechanism.inverse_kinematics import (
     shift_origin,
 )
 from nag.mechanism.isotropic_limits import is_isotropic_limit
-from nag.mechanism.leg_image import COORDINATES, MOST_DEGREE, norm_form, study_quadric
+from nag.mechanism.leg_image import (
+    COORDINATES,
+    MOST_DEGREE,
+    Place,
+    forms_about_origin,
+    norm_form,
+    study_quadric,
+)
 from nag.mechanism.legs import parallel_robot
 from nag.mechanism.modes_report import (
     ModeReality,
@@ -60,7 +67,6 @@ from nag.mechanism.motions import motion_of, screw_system, twists_at
 from nag.mechanism.parts import model_parts
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
 from nag.mechanism.platform import LegEquations, PlatformModel, platform_model
-from nag.mechanism.quaternion import dual_conjugate, dual_multiply
 from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.zero_values import NONZERO
@@ -80,11 +86,6 @@ POSES = 3
 # Real poses that are looked at, starting points for each where a mode is not linear, and how much
 # nearer to the reference each is than the one before.
 REAL_POSES, REAL_STARTS, NEARER = 4, 6, 0.3
-# Sizes of a robot beyond which it is far from the origin: its coordinates count from a nearer place
-# then.
-FAR = 8.0
-Place = tuple[Fraction, Fraction, Fraction]
-ORIGIN: Place = (Fraction(0),) * 3
 UNITS = tuple(tuple(int(i == j) for j in range(8)) for i in range(8))
 
 
@@ -122,9 +123,7 @@ def modes(
     check_mechanism(given)
     check_size(budget, "budget")
     run.tell("legs", 0, 4)
-    about = _far_middle(given)
-    robot = parallel_robot(_move_origin(given, about), platform)
-    model = replace(platform_model(robot, run.random(41)), about=about)
+    model = platform_model(parallel_robot(given, platform), run.random(41))
     paths = fewest_estimated_paths(model.system)
     if paths * LEAST_SECONDS > budget:
         note = (
@@ -135,64 +134,22 @@ def modes(
         return OperationModes(model, _no_answer(model, run, note), (), (), (), (note,))
     run.tell("modes", 1, 4)
     found = describe_modes(model, decompose(model.system, run=run), run)
-    if not any(about):
-        return found
-    return replace(found, modes=tuple(_carry_back(mode, about) for mode in found.modes))
+    return replace(found, modes=tuple(_carry_back(mode, model.origin) for mode in found.modes))
 
 
-def _far_middle(mechanism: Mechanism) -> Place:
-    """A point amidst the joints if they are far from the origin beside their size, else that."""
-    points = np.array(
-        [[float(x) for x in j.point] for j in mechanism.joints if j.of_type.turns_about_point]
-    ).reshape(-1, 3)
-    if not len(points):
-        return ORIGIN
-    middle = points.mean(axis=0)
-    size = float(np.abs(points - middle).max()) or 1.0
-    if np.abs(middle).max() < FAR * size:
-        return ORIGIN
-    unit = 2.0 ** np.floor(np.log2(size))
-    x, y, z = (Fraction(float(k)) for k in np.round(middle / unit) * unit)
-    return x, y, z
-
-
-def _move_origin(mechanism: Mechanism, to: Place) -> Mechanism:
-    """The same mechanism in coordinates that count from a place."""
-    if not any(to):
-        return mechanism
-    joints = (
-        j
-        if j.point is None
-        else replace(j, point=tuple(x - c for x, c in zip(j.point, to, strict=True)))
-        for j in mechanism.joints
-    )
-    return replace(mechanism, joints=tuple(joints))
-
-
-def _carry_back(mode: OperationMode, about: Place) -> OperationMode:
+def _carry_back(mode: OperationMode, origin: Place) -> OperationMode:
     """A mode in the coordinates that were given: forms of poses, and the real pose."""
-    images = _shifted_coordinates(about)
+    forms = forms_about_origin((*mode.linear, *mode.quadratic), origin)
+    forms = sorted(forms, key=lambda f: order(leading_monomial(f)))
     pose = mode.real_pose
     if pose is not None:
-        pose = shift_origin(pose[None], -np.array([float(c) for c in about]))[0]
+        pose = shift_origin(pose[None], -np.array([float(c) for c in origin]))[0]
     return replace(
         mode,
-        linear=tuple(primitive(f.compose(images)) for f in mode.linear),
-        quadratic=tuple(primitive(f.compose(images)) for f in mode.quadratic),
+        linear=tuple(f for f in forms if f.degree == 1),
+        quadratic=tuple(f for f in forms if f.degree == 2),
         real_pose=pose,
     )
-
-
-def _shifted_coordinates(about: Place) -> tuple[Polynomial, ...]:
-    """Study coordinates about a place as linear forms of those about the origin."""
-    x = Polynomial.variables(8)
-    zero = Polynomial(8, {})
-    one = Polynomial.constant(8, 1)
-    half = [Polynomial.constant(8, c / 2) for c in about]
-    there = ((one, zero, zero, zero), (zero, *half))
-    pose = (tuple(x[:4]), tuple(x[4:]))
-    moved = dual_multiply(dual_multiply(dual_conjugate(there), pose), there)
-    return tuple(part for each in moved for part in each)
 
 
 def _no_answer(model: PlatformModel, run: Run, note: str) -> Decomposition:
@@ -290,11 +247,17 @@ def describe_modes(model: PlatformModel, found: Decomposition, run: Run) -> Oper
 def _rank(mode: OperationMode) -> tuple[Any, ...]:
     """By falling dimension and rising degree, those through the reference first, then simple ones.
 
-    What is alike in all that is known does not depend on random numbers.
+    Neither random numbers nor where the robot stands have a say in it: kinds of motion come before
+    equations, and these are in coordinates about it.
     """
-    texts = mode.equations
+    motion, texts = mode.motion, mode.equations
+    kind = (
+        (motion.turning, motion.rank, not motion.group, motion.group, motion.start)
+        if motion is not None
+        else ()
+    )
     size = (sum(map(len, texts)), texts)
-    return -mode.dimension, mode.degree, not mode.through_reference, mode.reality, *size
+    return -mode.dimension, mode.degree, not mode.through_reference, mode.reality, kind, *size
 
 
 def _residuals(
@@ -308,7 +271,7 @@ def _residuals(
     """How near each leg comes to each pose, or all to one real pose, shape ``(poses, legs)``."""
     legs = range(len(model.legs)) if legs is None else legs
     chains = [model.legs[i].leg.elements() for i in legs]
-    return reach_poses(chains, poses, model.origin, length, rng, real=real, one=real)
+    return reach_poses(chains, poses, length, rng, real=real, one=real)
 
 
 def _misses(
@@ -476,7 +439,7 @@ def _reached_point(
     basis = np.array([[float(c) for c in v] for v in null_space(rows, 8)])
     forms = Evaluator.of((study_quadric(), *mode.quadratic), 8)
     chains = [leg.leg.elements() for leg in model.legs]
-    found = find_reached_pose(chains, basis, forms, pose, model.origin, length, run.random(46))
+    found = find_reached_pose(chains, basis, forms, pose, length, run.random(46))
     if found is None:
         return None
     study, residuals = found
@@ -506,7 +469,7 @@ def _with_equations(
         cloud = _cloud(model, mode.component, run)
         found = cloud.tangents(POSES)
         poses = model.study(np.array([point for point, _ in found]))
-        about = np.array([float(c) for c in model.about])
+        about = np.array([float(c) for c in model.origin])
         twists = [_twists(model, *each, length) for each in found]
         motion = motion_of(poses, twists, length, about)
         mode = replace(mode, motion=motion)

@@ -5,6 +5,9 @@ are. A leg whose image takes forms of too high a degree keeps some of its joints
 ground or the platform: what is left of it between them has an image of low degree, and the pose
 relative to the kept joints lies on that. One affine chart covers all poses but those of a random
 plane, and none where x0 to x3 vanish, which are no displacements.
+
+Coordinates count from a place amidst the joints, about which the legs' forms have the fewest terms,
+wherever the robot stands: poses and forms are told in the coordinates that were given.
 """
 
 from __future__ import annotations
@@ -24,11 +27,15 @@ from nag.algebra.root_basis import MOST_DEGREE as MOST_DEGREE_OF_COSINES
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
 from nag.interpolation.image_forms import ImageForms
+from nag.mechanism.graph import Vector
 from nag.mechanism.inverse_kinematics import conjugate_pose, multiply_poses
 from nag.mechanism.joint_factors import UNIT, Charts, Factor, primitive
 from nag.mechanism.leg_image import (
     COORDINATES,
     MOST_DEGREE,
+    Place,
+    ProductOfFactors,
+    forms_about_origin,
     image_of_chain,
     norm_form,
     study_quadric,
@@ -36,6 +43,7 @@ from nag.mechanism.leg_image import (
 from nag.mechanism.legs import Leg, ParallelRobot
 from nag.mechanism.loop_product import Element, displacement, factors_in
 from nag.mechanism.quaternion import dual_conjugate, dual_multiply
+from nag.numerics.natural_coordinates import shorten_origin
 from nag.numerics.read_only import equal_values
 
 # Forms of what is left of a leg that keeps joints.
@@ -114,11 +122,11 @@ class PlatformModel:
 
     Attributes:
         robot: the mechanism.
-        legs: what each leg says.
+        legs: what each leg says, its joints and forms in the system's coordinates.
         chart: c1, c2, c3 of the affine chart x0 = 1 + c1 x1 + c2 x2 + c3 x3.
         charts: of the factors that legs keep.
         system: the equations: in x1, x2, x3 and y0 to y3, and in coordinates of kept factors.
-        about: the place, in the coordinates that were given, that the robot's ones count from.
+        origin: the place, in the coordinates that were given, that those of the system count from.
     """
 
     robot: ParallelRobot
@@ -126,7 +134,7 @@ class PlatformModel:
     chart: tuple[Fraction, Fraction, Fraction]
     charts: Charts
     system: PolynomialSystem
-    about: tuple[Fraction, Fraction, Fraction] = (Fraction(0),) * 3
+    origin: Place
 
     __eq__ = equal_values
 
@@ -136,21 +144,9 @@ class PlatformModel:
         return (Fraction(0),) * 7 + self.charts.reference
 
     @cached_property
-    def places(self) -> np.ndarray:
-        """The points of joints that turn about one, shape ``(joints, 3)``."""
-        joints = [j for leg in self.legs for j in leg.leg.joints if j.of_type.turns_about_point]
-        return np.array([[float(x) for x in j.point] for j in joints]).reshape(-1, 3)
-
-    @property
-    def origin(self) -> np.ndarray:
-        """A point amidst the joints, shape ``(3,)``."""
-        return self.places.mean(axis=0) if len(self.places) else np.zeros(3)
-
-    @property
     def length(self) -> float:
         """The largest distance between points of joints, by which lengths are measured."""
-        apart = np.linalg.norm(self.places[:, None] - self.places[None], axis=2)
-        return float(apart.max(initial=0.0)) or 1.0
+        return _extent(_places([leg.leg for leg in self.legs]))
 
     def study(self, points: np.ndarray) -> np.ndarray:
         """Study coordinates at solutions, from shape ``(k, n)`` to ``(k, 8)``."""
@@ -161,10 +157,14 @@ class PlatformModel:
         """The equations of one leg alone, which keeps no joints, in the coordinates of the pose."""
         return _system((leg,), self.chart, Charts.of(()))
 
+    def given_forms(self, leg: LegEquations) -> tuple[Polynomial, ...]:
+        """The forms of a leg, in the coordinates that were given."""
+        return forms_about_origin(leg.image.forms, self.origin)
+
     @property
     def forms(self) -> tuple[Polynomial, ...]:
-        """Study's quadric and the forms of the legs that keep no joints."""
-        own = (f for leg in self.legs if not leg.kept for f in leg.image.forms)
+        """Study's quadric and the forms of the legs that keep no joints, as `given_forms`."""
+        own = (f for leg in self.legs if not leg.kept for f in self.given_forms(leg))
         return tuple(dict.fromkeys((study_quadric(), *own)))
 
 
@@ -178,11 +178,85 @@ def platform_model(robot: ParallelRobot, rng: np.random.Generator) -> PlatformMo
     """
     for leg in robot.legs:
         _check_leg(leg, robot.platform)
-    legs = tuple(_leg_equations(leg, rng) for leg in robot.legs)
+    middle = _middle(robot.legs)
+    legs = tuple(_leg_equations(_shift_leg(leg, middle), rng) for leg in robot.legs)
+    step = _sparsest_place(legs)
+    legs = tuple(_shift_equations(leg, step) for leg in legs)
     steps = rng.integers(-CHART_STEPS, CHART_STEPS + 1, 3).tolist()
     chart = tuple(Fraction(c, CHART_STEPS) for c in steps)
     charts = Charts.of(factors_in([e for leg in legs for e in leg.kept]))
-    return PlatformModel(robot, legs, chart, charts, _system(legs, chart, charts))
+    x, y, z = (c + d for c, d in zip(middle, step, strict=True))
+    return PlatformModel(robot, legs, chart, charts, _system(legs, chart, charts), (x, y, z))
+
+
+def _places(legs: Sequence[Leg]) -> list[Vector]:
+    """The points of joints that turn about one."""
+    return [j.point for leg in legs for j in leg.joints if j.of_type.turns_about_point]
+
+
+def _extent(places: Sequence[Vector]) -> float:
+    """The largest distance between points; 1 of less than two."""
+    offsets = [[float(x - c) for x, c in zip(p, places[0], strict=True)] for p in places]
+    points = np.array(offsets).reshape(-1, 3)
+    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+    return float(apart.max(initial=0.0)) or 1.0
+
+
+def _middle(legs: Sequence[Leg]) -> Place:
+    """The mean of the points of joints, exact where it is a short fraction, else near it."""
+    places = _places(legs)
+    count, power = max(len(places), 1), int(np.frexp(_extent(places))[1])
+    sums = (sum((p[k] for p in places), Fraction(0)) for k in range(3))
+    x, y, z = (shorten_origin(c / count, power) for c in sums)
+    return x, y, z
+
+
+def _sparsest_place(legs: Sequence[LegEquations]) -> Place:
+    """Of the origin, the middle, and rational points of joints that with the fewest terms about it.
+
+    Of several the one nearest to the middle. The middle, where forms have other numbers than sums
+    of square roots: they are not reduced elsewhere.
+    """
+    nothing: Place = (Fraction(0),) * 3
+    if not all(f.algebraic for leg in legs for f in leg.image.forms):
+        return nothing
+    points = _places([leg.leg for leg in legs])
+    rational = [(x, y, z) for x, y, z in points if {type(x), type(y), type(z)} == {Fraction}]
+
+    def badness(place: Place) -> tuple[Any, ...]:
+        # An origin elsewhere is a shift of the forms back.
+        back = tuple(-c for c in place)
+        moved = (f for leg in legs for f in forms_about_origin(leg.image.forms, back))
+        return sum(len(f.terms) for f in moved), sum(c * c for c in place), place
+
+    return min(dict.fromkeys([nothing, *rational]), key=badness)
+
+
+def _shift_leg(leg: Leg, place: Place) -> Leg:
+    """A leg in coordinates that count from a place."""
+    joints = (
+        replace(j, point=tuple(x - c for x, c in zip(j.point, place, strict=True)))
+        for j in leg.joints
+    )
+    return replace(leg, joints=tuple(joints))
+
+
+def _shift_equations(equations: LegEquations, place: Place) -> LegEquations:
+    """What a leg says, in coordinates that count from a place."""
+    if not any(place):
+        return equations
+    leg = _shift_leg(equations.leg, place)
+    elements, image = leg.elements(), equations.image
+    first, last = len(equations.before), len(elements) - len(equations.behind)
+    forms = forms_about_origin(image.forms, tuple(-c for c in place))
+    source = ProductOfFactors(elements[first:last])
+    return replace(
+        equations,
+        leg=leg,
+        before=elements[:first],
+        behind=elements[last:],
+        image=replace(image, source=source, forms=forms),
+    )
 
 
 def _check_leg(leg: Leg, platform: str) -> None:

@@ -109,7 +109,7 @@ class PoseModel:
             ways = [True, False] if np.abs(between.imag).max() < REAL else [False]
             for real in ways:
                 goal = between.real if real else between
-                found = find_joints(middle, goal, model.origin, model.length, rng, real)
+                found = find_joints(middle, goal, model.length, rng, real)
                 if found is not None:
                     break
             else:

@@ -293,7 +293,7 @@ def _accepted_origin(
     if not translated and gain <= there.unevenness(after) - given.unevenness(before):
         return nothing
     accepted = tuple(
-        _simple(b, k) if keep else Fraction(0)
+        shorten_origin(b, k) if keep else Fraction(0)
         for b, k, keep in zip(origin, after.tolist(), kept, strict=True)
     )
     about = [shift_polynomial(f, accepted) for f in polynomials]
@@ -311,12 +311,13 @@ def _is_even(f: Polynomial) -> bool:
     return max(sizes) <= LEAST_SCALE * min(sizes)
 
 
-def _simple(b: Fraction, power: int) -> Fraction:
-    """A number as it is, if it is a short one; else near it, for a radius of ``2^power``."""
-    if b.numerator.bit_length() + b.denominator.bit_length() <= SIMPLE:
+def shorten_origin(b: Number, power: int) -> Fraction:
+    """A number as it is, if it is a short fraction; else one near it, for a radius ``2^power``."""
+    near = b if isinstance(b, Fraction) else Fraction(float(b))
+    if near is b and b.numerator.bit_length() + b.denominator.bit_length() <= SIMPLE:
         return b
     unit = Fraction(2) ** (power - DIGITS)
-    return round(b / unit) * unit
+    return round(near / unit) * unit
 
 
 def _origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
