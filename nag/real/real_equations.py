@@ -7,6 +7,7 @@ else sets of less dimension. Its other real points lie where it meets the others
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -102,10 +103,7 @@ def curve_of_real_points(equations: RealEquations) -> RealCurve:
     """The real points of a curve that is not its own conjugate: finitely many."""
     points = [c for c in equations.inside if c.dimension == 0]
     known = [real_points_of(c) for c in (*points, *equations.met)]
-    found: list[np.ndarray] = []
-    for x in (x for own, _ in known for x in own):
-        if not coincident(np.array(found).reshape(-1, len(x)), x, SAME).any():
-            found.append(x)
+    found, _ = distinct_points([own for own, _ in known])
     pieces = (RealPiece(PieceKind.POINT, (), (k,)) for k in range(len(found)))
     doubt = equations.doubt
     if any(doubtful for _, doubtful in known):
@@ -124,6 +122,26 @@ def curve_of_real_points(equations: RealEquations) -> RealCurve:
         PictureVerdict.UNDECIDED if doubt else PictureVerdict.COMPLETE,
         doubt,
     )
+
+
+def distinct_points(sets: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """The points of real sets that may have some in common, each once, in the order given.
+
+    Args:
+        sets: shapes ``(k, n)``.
+
+    Returns:
+        The points, shape ``(m, n)``, and for each given one, set by set, which of them it is.
+    """
+    found: list[np.ndarray] = []
+    places = []
+    for x in (x for own in sets for x in own):
+        there = np.flatnonzero(coincident(np.array(found).reshape(-1, len(x)), x, SAME))
+        places.append(int(there[0]) if len(there) else len(found))
+        if not len(there):
+            found.append(x)
+    n = sets[0].shape[1] if sets else 0
+    return np.array(found).reshape(-1, n), np.array(places, dtype=int)
 
 
 def real_points_of(component: WitnessSet) -> tuple[np.ndarray, int]:

@@ -28,7 +28,13 @@ from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
 from nag.real.curve import RealCurve
 from nag.real.find_curve import RealCurveError, find_real_curve
-from nag.real.real_equations import NOT_KNOWN_REAL, SAME, find_real_equations, real_points_of
+from nag.real.real_equations import (
+    NOT_KNOWN_REAL,
+    RealEquations,
+    distinct_points,
+    find_real_equations,
+    real_points_of,
+)
 from nag.solving.solve import solve
 from nag.text.table import lines_of, one_line, point_text
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -148,7 +154,17 @@ def _of_finite_set(component: WitnessSet) -> RealPieces:
 def _of_complex_equations(component: WitnessSet, run: Run) -> RealPieces:
     """Real points of a set of larger dimension than zero, where coefficients are complex."""
     equations = find_real_equations(component, run)
-    found = [find_real_points(c, run=run) for c in (*equations.inside, *equations.met)]
+    inside = [find_real_points(c, run=run) for c in equations.inside]
+    return join_pieces(equations, inside, run)
+
+
+def join_pieces(equations: RealEquations, inside: Sequence[RealPieces], run: Run) -> RealPieces:
+    """Real points of a set by those of the parts of its complex equations.
+
+    Args:
+        inside: those of the components that lie on it.
+    """
+    found = [*inside, *(find_real_points(c, run=run) for c in equations.met)]
     beside = [find_real_points(c, run=run).reality for c in equations.beside]
     doubts = [equations.doubt] if equations.doubt else []
     if any(reality is not Reality.NONE for reality in beside):
@@ -157,25 +173,14 @@ def _of_complex_equations(component: WitnessSet, run: Run) -> RealPieces:
     reason = "; ".join(doubts) or "real and imaginary parts of the equations"
     known = [f for f in found if len(f)]
     if known:
-        points, dimensions = _each_once(known)
-        return RealPieces(points, dimensions, Reality.FOUND, not doubts, reason)
+        points, places = distinct_points([f.points for f in known])
+        dimensions = np.full(len(points), -1)
+        np.maximum.at(dimensions, places, [d for f in known for d in f.dimensions])
+        own = tuple(dimensions.tolist())
+        return RealPieces(points, own, Reality.FOUND, not doubts, reason)
     nothing = np.zeros((0, len(equations.variables)))
     reality = Reality.NONE_FOUND if doubts else Reality.NONE
     return RealPieces(nothing, (), reality, not doubts, reason)
-
-
-def _each_once(found: Sequence[RealPieces]) -> tuple[np.ndarray, tuple[int, ...]]:
-    """Points of sets that may have some in common, and the largest dimensions there."""
-    points, dimensions = np.vstack([f.points for f in found[:1]])[:0], list[int]()
-    for own in found:
-        for x, dimension in zip(own.points, own.dimensions, strict=True):
-            there = np.flatnonzero(coincident(points, x, SAME))
-            if len(there):
-                dimensions[there[0]] = max(dimensions[there[0]], dimension)
-            else:
-                points = np.vstack([points, x])
-                dimensions.append(dimension)
-    return points, tuple(dimensions)
 
 
 def _of_curve(component: WitnessSet, run: Run) -> RealPieces:

@@ -11,7 +11,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
 from nag.real.find_curve import find_real_curve
 from nag.real.real_equations import find_real_equations
-from nag.real.real_pieces import Reality, find_real_points
+from nag.real.real_pieces import Reality, find_real_points, join_pieces
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import EPS
 from nag.witness.real_points import real_points_near
@@ -84,11 +84,11 @@ def _of_complex_equations(
 ) -> Samples:
     """Points of the sets of the most real dimensions that lie on a component, all alike often."""
     system = component._known_system()
-    inside = find_real_equations(component, run).inside
-    found = [(each, find_real_points(each, run=run)) for each in inside]
+    equations = find_real_equations(component, run)
+    found = [(each, find_real_points(each, run=run)) for each in equations.inside]
     largest = max((max(f.dimensions) for _, f in found if len(f)), default=-1)
     if largest <= 0:
-        whole = find_real_points(component, run=run)
+        whole = join_pieces(equations, [f for _, f in found], run)
         if whole.reality is not Reality.FOUND:
             raise _why_none(whole.reality, whole.reason)
         return _samples(system, whole.points[rng.integers(len(whole.points), size=count)])
