@@ -114,6 +114,24 @@ def test_a_killed_child_is_said(tmp_path) -> None:
     assert err == "nag: the work was ended by SIGKILL, as when memory is short\n"
 
 
+@pytest.mark.parametrize("ending", ["raise nag.NagError('no more')", "os.kill(os.getpid(), 9)"])
+def test_what_was_found_before_an_error_is_said_and_left_in_its_place(ending, tmp_path) -> None:
+    target = tmp_path / "a.json"
+    kept = "nag.cli.running.unfinished_file(options.json)"
+    stage = f"nag.cli.running.write_document({{'a': 1}}, {kept}); {ending}"
+    script = SCRIPT.format(stage=stage).replace("cli.model", "cli.solve")
+    words = ["nag", "solve", "x", "--json", str(target), "--quiet"]
+    (tmp_path / "run.py").write_text(script.replace('["nag", "model", "x"]', repr(words)))
+    ended = subprocess.run(
+        [sys.executable, str(tmp_path / "run.py")], capture_output=True, text=True, timeout=60
+    )
+    assert ended.returncode == (2 if "raise" in ending else 128 + 9)
+    said = f"nag: {target} has what was found by then, marked incomplete"
+    assert ended.stderr.splitlines()[1:] == [said]
+    assert target.read_text() == '{\n  "a": 1\n}\n'
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.json", "run.py"]
+
+
 def katsura(n: int) -> str:
     """The equations of Katsura in n + 1 variables, a line each."""
     names = [f"u{abs(i)}" if abs(i) <= n else "0" for i in range(-2 * n, 2 * n + 1)]

@@ -136,7 +136,7 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
         nag.NagError: as the command does.
     """
     begin(options)
-    _forget_unfinished(options)
+    forget_unfinished(options)
     told = write
     if getattr(options, "json", None) == STANDARD_OUTPUT:
         # The document is all that is written there.
@@ -150,7 +150,7 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
             told(document_text(answer.document()).splitlines())
         elif answer.document is not None and options.json is not None:
             write_document(answer.document(), options.json)
-        _forget_unfinished(options)
+        forget_unfinished(options)
     finally:
         write(answer.lines)
     if answer.proof is None:
@@ -279,7 +279,8 @@ def take_unfinished(target: str | None) -> bool:
     return False
 
 
-def _forget_unfinished(options: argparse.Namespace) -> None:
+def forget_unfinished(options: argparse.Namespace) -> None:
+    """Remove what was kept, once the document is there, or of a run before this one."""
     target = getattr(options, "json", None)
     if target not in (None, STANDARD_OUTPUT):
         with contextlib.suppress(OSError):

@@ -20,7 +20,7 @@ from types import FrameType
 from typing import TextIO
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import ProgressLine, TellParent, take_unfinished
+from nag.cli.running import ProgressLine, TellParent, forget_unfinished, take_unfinished
 
 # Seconds in which the child may end by itself, its files cleared away; then it is killed. Ctrl-C is
 # to be obeyed within one.
@@ -29,6 +29,7 @@ GRACE = 0.5
 # meanwhile at most.
 LOOK = 0.1
 INCOMPLETE, INTERRUPTED = 1, 130
+_KEPT = "has what was found by then, marked incomplete"
 _GIGABYTE = 10**9
 _ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) if hasattr(signal, "SIGHUP") else ()
 # Of prctl on Linux: the signal that a child gets when its parent has died.
@@ -53,6 +54,7 @@ def work_in_child(options: argparse.Namespace) -> int | None:
         if seconds is not None:
             raise UsageError("--time-limit: this system has no fork")
         return None
+    forget_unfinished(options)
     heard, telling = os.pipe()
     acknowledged, acknowledging = os.pipe()
     sys.stdout.flush()
@@ -159,6 +161,7 @@ class _Watch:
                 os.kill(self._child, signal.SIGKILL)
                 os.waitpid(self._child, 0)
                 self._line.erase()
+                self._say_what_is_kept()
                 signal.signal(number, signal.SIG_DFL)
                 os.kill(os.getpid(), number)
 
@@ -205,13 +208,22 @@ class _Watch:
         self._line.erase()
         killed = status < 0
         if not killed and status != INTERRUPTED:
+            # An answer in full has taken the place of what was kept; an error has not.
+            self._say_what_is_kept()
             return status
         if self._why or not killed:
             _say(sys.stderr, self._last_words(self._why or "interrupted"))
             return self._status
         text = ", as when memory is short" if -status == signal.SIGKILL else ""
         _say(sys.stderr, f"the work was ended by {signal.Signals(-status).name}{text}")
+        self._say_what_is_kept()
         return 128 - status
+
+    def _say_what_is_kept(self) -> None:
+        """Put what was found before another end than asked for where it is looked for."""
+        target = getattr(self._options, "json", None)
+        if take_unfinished(target):
+            _say(sys.stderr, f"{target} {_KEPT}")
 
     def _last_words(self, why: str) -> str:
         """What is known of the work, and how to go on."""
@@ -220,7 +232,7 @@ class _Watch:
         if self._line.stage:
             words.append(f" ({self._line.stage_text()})")
         if take_unfinished(target):
-            kept = f"; {target} has what was found by then, marked incomplete"
+            kept = f"; {target} {_KEPT}"
         else:
             kept = "" if target is None else f"; {target} is as it was"
         folder = getattr(self._options, "resume", None)
