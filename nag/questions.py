@@ -201,16 +201,28 @@ def local(given: Any, point: Any = None, *, seed: int = 0) -> LocalDimension:
 
 def find_components(given: Any, run: Run) -> Decomposition:
     """All components of what is given, none for a whole orbit; those of an export are tested."""
-    from nag.mechanism.problem import problem_of
+    return _find_in(given, open_file(given), run)[0]
+
+
+def _find_in(
+    given: Any, opened: Any, run: Run, check: Callable[[PolynomialSystem], object] | None = None
+) -> tuple[Decomposition, Mapping[str, tuple[Number, ...]]]:
+    """The same of what is given, or was read from it, and the points of a problem by their names.
+
+    Args:
+        check: called with a problem's system before it is decomposed.
+    """
     from nag.witness.frame import expand_orbits
 
-    opened = open_file(given)
     if is_a(opened, "nag.witness.witness", "WitnessSet"):
-        return _of_one_component(opened)
-    if not is_a(opened, "nag.witness.witness", "Decomposition"):
-        return expand_orbits(problem_of(opened).decompose(run=run))
-    found = expand_orbits(opened)
-    return found if opened is given else check_traces(found)
+        return _of_one_component(opened), {}
+    if is_a(opened, "nag.witness.witness", "Decomposition"):
+        found = expand_orbits(opened)
+        return (found if opened is given else check_traces(found)), {}
+    problem, points = _problem_and_points(opened)
+    if check is not None:
+        check(problem.system)
+    return expand_orbits(problem.decompose(run=run)), points
 
 
 def _of_one_component(component: WitnessSet) -> Decomposition:
@@ -299,15 +311,7 @@ def member(given: Any, point: Any = None, *, run: Run = DEFAULT_RUN) -> PointMem
     from nag.algebra.from_python import exact_number
     from nag.witness.membership import locate_point
 
-    opened = open_file(given)
-    points: Mapping[str, tuple[Number, ...]] = {}
-    if is_a(opened, "nag.witness.witness", "Decomposition") or is_a(
-        opened, "nag.witness.witness", "WitnessSet"
-    ):
-        found = find_components(given, run)
-    else:
-        problem, points = _problem_and_points(opened)
-        found = find_components(problem, run)
+    found, points = _find_in(given, open_file(given), run)
     at = _point(point, found.system, points)
     known = [x if isinstance(x, complex) else exact_number(x) for x in at]
     return locate_point(found, known, run=run)
@@ -527,10 +531,8 @@ def plot(
     from nag.pictures.plot import (
         check_kind,
         choose_picture,
-        draw_to_file,
-        plot_curves,
+        plot_components,
         plot_mechanism,
-        plot_tree,
         variables_onto,
     )
 
@@ -545,29 +547,20 @@ def plot(
     opened = open_file(given)
     title = opened.title if is_a(opened, "nag.files.cases", "Case") else ""
     if kind not in ("onto", "tree"):
-        from nag.mechanism.problem import in_real_coordinates, problem_of
+        from nag.mechanism.problem import problem_of
 
-        problem = in_real_coordinates(problem_of(opened, formulation=formulation))
-        if problem.model is None:
-            raise NagError(f"{kind}: is for mechanisms; equations are given")
-        what = asked[kind]
-        return draw_to_file(
-            target,
-            lambda: plot_mechanism(
-                problem, kind, what, title, target, run, onto=onto, circuit=circuit
-            ),
+        problem = problem_of(opened, formulation=formulation)
+        return plot_mechanism(
+            problem, kind, asked[kind], title, target, run, onto=onto, circuit=circuit
         )
-    source = given
-    if not is_a(opened, "nag.witness.witness", "Decomposition"):
-        source, _ = _problem_and_points(opened)
-        if kind == "onto":  # before anything is decomposed
-            variables_onto(onto or (), source.system.own_variables)
-    found = find_components(source, run)
-    if kind == "tree":
-        return draw_to_file(target, lambda: plot_tree(found, title, target))
-    places = variables_onto(onto or (), found.system.own_variables)
+
+    def check(system: PolynomialSystem) -> None:
+        if kind == "onto":
+            variables_onto(onto or (), system.own_variables)
+
+    found, _ = _find_in(given, opened, run, check)
     chosen = None if component is None else {component: component_numbered(found, component)}
-    return draw_to_file(target, lambda: plot_curves(found, places, title, target, run, chosen))
+    return plot_components(found, kind, onto, title, target, run, chosen)
 
 
 def _listed_names(names: Sequence[str] | str | None) -> tuple[str, ...] | None:

@@ -147,7 +147,7 @@ def test_an_export_is_drawn_as_its_case_is(tmp_path, capsys) -> None:
         (["bennett.toml", "--point", "P"], "--point: 'P' is no point or joint; there are J0"),
         (["bennett.toml", "--onto", "x_J1,x_J2", "--component", "2"], "there is one component"),
         (["bennett.toml", "--graph", "--component", "1"], "--component is for --onto"),
-        (["slider-crank.toml", "--graph"], "is a polynomial system; --graph is for mechanisms"),
+        (["slider-crank.toml", "--graph"], "--graph: is for mechanisms; a polynomial system"),
         (["triangle.toml", "--onto", "x,x"], "write two names"),
     ],
 )

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from nag.algebra.system import PolynomialSystem
     from nag.pictures.plot import Picture
     from nag.text.table import Row
+    from nag.witness.witness import WitnessSet
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -131,7 +132,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
 
 def _of_components(options: argparse.Namespace, kind: str) -> CommandAnswer:
-    from nag.pictures.plot import draw_to_file, plot_curves, plot_tree, variables_onto
+    from nag.pictures.plot import plot_components, variables_onto
 
     def check(system: PolynomialSystem, _: Any) -> None:
         if kind == "onto":
@@ -139,43 +140,33 @@ def _of_components(options: argparse.Namespace, kind: str) -> CommandAnswer:
 
     found = read_components(options, check)
     answer = found.decomposition
-    if kind == "tree":
-        picture = draw_to_file(options.out, lambda: plot_tree(answer, found.title, options.out))
-        return _drawn(options, found.case, picture, doubt_rows(found))
-    numbers = [options.component] if options.component else []
-    if not numbers:
-        numbers = [k for k, c in enumerate(answer.components, 1) if c.dimension == 1]
-    chosen = {number: component_of(found, number, "--component") for number in numbers}
-    onto = variables_onto(options.onto, answer.system.own_variables)
-    picture = draw_to_file(
-        options.out,
-        lambda: plot_curves(answer, onto, found.title, options.out, chosen_run(options), chosen),
+    chosen: dict[int, WitnessSet] = {}
+    if kind == "onto":
+        numbers = [options.component] if options.component else []
+        if not numbers:
+            numbers = [k for k, c in enumerate(answer.components, 1) if c.dimension == 1]
+        chosen = {number: component_of(found, number, "--component") for number in numbers}
+    picture = plot_components(
+        answer, kind, options.onto, found.title, options.out, chosen_run(options), chosen
     )
     return _drawn(options, found.case, picture, doubt_rows(found))
 
 
 def _of_mechanism(options: argparse.Namespace, kind: str) -> CommandAnswer:
-    from nag.mechanism.problem import in_real_coordinates
-    from nag.pictures.plot import draw_to_file, plot_mechanism
+    from nag.pictures.plot import plot_mechanism
 
     if is_export(options.case):
         raise UsageError(f"{options.case}: is an export; --{kind} is for cases of mechanisms")
     case = read_given_case(options)
-    if case.kind == "system":
-        raise UsageError(f"{options.case}: is a polynomial system; --{kind} is for mechanisms")
-    problem = in_real_coordinates(problem_of_case(case, options.formulation or "auto"))
-    picture = draw_to_file(
+    picture = plot_mechanism(
+        problem_of_case(case, options.formulation or "auto"),
+        kind,
+        getattr(options, kind),
+        case.title,
         options.out,
-        lambda: plot_mechanism(
-            problem,
-            kind,
-            getattr(options, kind),
-            case.title,
-            options.out,
-            chosen_run(options),
-            onto=options.onto,
-            circuit=options.circuit,
-        ),
+        chosen_run(options),
+        onto=options.onto,
+        circuit=options.circuit,
     )
     return _drawn(options, name_case(case), picture)
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -102,15 +103,41 @@ def variables_onto(onto: Iterable[str], variables: Sequence[str]) -> tuple[int, 
 # --- Components
 
 
-def plot_tree(answer: Decomposition, title: str, path: str) -> Picture:
-    """All components by their dimensions."""
+def plot_components(
+    answer: Decomposition,
+    kind: str,
+    onto: Sequence[str] | None,
+    title: str,
+    path: str,
+    run: Run,
+    chosen: Mapping[int, WitnessSet] | None = None,
+) -> Picture:
+    """All components by their dimensions, or the real points of those of dimension one.
+
+    Args:
+        kind: ``"tree"`` or ``"onto"``.
+        onto: of real points, the names of two or three variables.
+        chosen: components by their numbers, of which real points are drawn; all by default.
+
+    Raises:
+        NagError: if there is no such variable or curve, or the file cannot be written.
+        ComponentError: if no curve was found.
+    """
+    with _writing(path):
+        if kind == "tree":
+            return _plot_tree(answer, title, path)
+        places = variables_onto(onto or (), answer.system.own_variables)
+        return _plot_curves(answer, places, title, path, run, chosen)
+
+
+def _plot_tree(answer: Decomposition, title: str, path: str) -> Picture:
     from nag.pictures.component_tree import draw_component_tree
 
     draw_component_tree(answer, title, path)
     return Picture(path, (("components", str(len(answer.components))),))
 
 
-def plot_curves(
+def _plot_curves(
     answer: Decomposition,
     onto: Sequence[int],
     title: str,
@@ -118,15 +145,7 @@ def plot_curves(
     run: Run,
     chosen: Mapping[int, WitnessSet] | None = None,
 ) -> Picture:
-    """The real points of components of dimension one, in two or three variables.
-
-    Args:
-        chosen: components by their numbers; all of dimension one by default.
-
-    Raises:
-        NagError: if there is no curve, or one has another dimension.
-        ComponentError: if no curve was found.
-    """
+    """The real points of components of dimension one, in two or three variables."""
     from nag.pictures.curve_picture import draw_real_curves
     from nag.real.find_curve import find_real_curve
     from nag.real.shown import answer_text
@@ -181,20 +200,37 @@ def plot_mechanism(
     """Bodies and joints, or what is drawn along a motion.
 
     Args:
-        problem: of a mechanism, in real coordinates.
+        problem: of a mechanism.
         kind: ``"graph"``, ``"mechanism"``, ``"joints"`` or ``"point"``.
         what: names of two joints, or the point's.
         onto: of a point's path, two of x, y and z.
         circuit: as for `nag.motion`.
 
     Raises:
-        NagError: if there is nothing of such a name.
+        NagError: if there is nothing of such a name, or the file cannot be written.
         ComponentError: if there is no motion to draw.
     """
-    from nag.kinematics.scene import scene_of
+    from nag.mechanism.problem import in_real_coordinates
 
     if problem.model is None:
-        raise NagError(f"is a polynomial system; {kind} is for mechanisms")
+        raise NagError(f"{kind}: is for mechanisms; a polynomial system is given")
+    with _writing(path):
+        real = in_real_coordinates(problem)
+        return _plot_mechanism(real, kind, what, title, path, run, onto, circuit)
+
+
+def _plot_mechanism(
+    problem: Problem,
+    kind: str,
+    what: Any,
+    title: str,
+    path: str,
+    run: Run,
+    onto: Sequence[str] | None,
+    circuit: str | int,
+) -> Picture:
+    from nag.kinematics.scene import scene_of
+
     scene = scene_of(problem)
     if kind == "graph":
         from nag.pictures.joint_graph import draw_joint_graph
@@ -270,13 +306,14 @@ def _axes(onto: Sequence[str] | None, normal: Any) -> tuple[int, int]:
     return AXES.index(names[0]), AXES.index(names[1])
 
 
-def draw_to_file(path: str, draw: Callable[[], Picture]) -> Picture:
-    """What is drawn; a file that cannot be written is bad input.
+@contextlib.contextmanager
+def _writing(path: str) -> Iterator[None]:
+    """Say of a file that cannot be written that it is bad input.
 
     Raises:
-        NagError: if the file cannot be written.
+        NagError: if it cannot.
     """
     try:
-        return draw()
+        yield
     except OSError as error:
         raise NagError(f"{path}: {error.strerror or error}") from None
