@@ -13,9 +13,6 @@ from hypothesis import strategies as st
 import nag
 from nag.cli import main
 from nag.files.cases import freed_system
-from nag.files.formats import WRITTEN
-from nag.files.formats.reading import READERS, read_system_text
-from nag.files.formats.writing import write_system
 from nag.real.curve import PieceKind
 from nag.real.real_pieces import Reality
 from nag.real.real_samples import sample_real
@@ -107,16 +104,6 @@ def test_a_variable_called_like_the_unit_is_asked_about() -> None:
     # A variable may be called I where the unit is sympy's: the unit has another name then.
     x, letter = sympy.symbols("x I")
     assert nag.system([x**2 + sympy.I * letter]).variables == ("I", "x", "imaginary_unit")
-
-
-@pytest.mark.parametrize("format", [f for f in READERS if f not in ("m2", "singular")])
-def test_complex_systems_are_read_back(format: str) -> None:
-    system = nag.system(["(3/2 + 2*I)*x^2 - y", "x*y - I"], "x y")
-    text = write_system(system, format)
-    again = read_system_text("file", text, format)[0]
-    assert again.imaginary
-    assert again.polynomials == system.polynomials
-    assert set(WRITTEN) > {format}
 
 
 def test_certificates_count_the_zeros_of_one_side(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from fractions import Fraction
@@ -12,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import nag
+from nag.algebra.imaginary_unit import adjoin_unit
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
@@ -217,6 +219,46 @@ def test_what_is_written_is_read_back(system: PolynomialSystem, format: str) -> 
     assert read.polynomials == system.polynomials
 
 
+@st.composite
+def complex_systems(draw: st.DrawFn) -> PolynomialSystem:
+    """Systems over the Gaussian rationals in which the unit occurs, and what must not vanish."""
+    real = draw(systems())
+    n = real.n + 1
+    unit = Polynomial.variable(n, n - 1)
+
+    def drawn() -> Polynomial:
+        f, g = (draw(st.sampled_from(real.polynomials)) for _ in range(2))
+        return f.with_variables(n, range(n - 1)) + unit * g.with_variables(n, range(n - 1))
+
+    polynomials = [drawn() for _ in real.polynomials]
+    nonzero = [drawn() for _ in range(draw(st.integers(0, 1)))]
+    return adjoin_unit((*real.variables, "I"), polynomials, nonzero)
+
+
+@settings(max_examples=60, deadline=None)
+@given(complex_systems(), st.sampled_from(sorted(READERS)))
+def test_what_is_written_of_complex_systems_is_read_back(
+    system: PolynomialSystem, format: str
+) -> None:
+    text = write_system(system, format, "a system")
+    assert recognise_format(text) == format
+    read = read_text(text)
+    assert read.imaginary
+    assert read.n == system.n
+    assert read.polynomials == system.polynomials
+    assert read.nonzero == system.nonzero
+
+
+@settings(max_examples=20, deadline=None)
+@given(complex_systems())
+def test_sympy_takes_what_is_written_of_complex_systems(system: PolynomialSystem) -> None:
+    lines: dict[str, object] = {}
+    exec(write_system(system, "sympy"), lines)
+    again = nag.system(lines["equations"], system.variables[:-1])
+    assert again.imaginary
+    assert again.polynomials == system.polynomials
+
+
 CASES = sorted(str(path) for path in Path("cases").rglob("*.toml"))
 
 
@@ -308,6 +350,89 @@ def test_the_program_reads_what_is_written(format: str, tmp_path: Path) -> None:
         [part.format(path) for part in command], capture_output=True, text=True, timeout=60
     )
     assert done.stdout.split()[-1] == "6", done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("format", sorted(PEERS))
+def test_the_program_takes_i_for_the_unit(format: str, tmp_path: Path) -> None:
+    program, command, question = PEERS[format]
+    if shutil.which(program) is None:
+        pytest.skip(f"{program} is not installed")
+    # Four points; eight, were the unit a variable whose square is -1. A zero polynomial besides.
+    system = nag.system(
+        ["(1 + 2*I)*x[1]^2 - R", "R^2 - I*x[1]", "(2 - I) - (2 - I)*1 + 0*R"],
+        ["x[1]", "R"],
+        imaginary="I",
+    )
+    path = tmp_path / "system"
+    path.write_text(write_system(system, format, "two parabolas") + question)
+    done = subprocess.run(
+        [part.format(path) for part in command], capture_output=True, text=True, timeout=60
+    )
+    assert done.stdout.split()[-1] == "4", done.stdout + done.stderr
+    # A constant is an element of the ring.
+    empty = nag.system(["I + 2", "3"], "x", imaginary="I")
+    path.write_text(write_system(empty, format, "nothing") + question)
+    done = subprocess.run(
+        [part.format(path) for part in command], capture_output=True, text=True, timeout=60
+    )
+    assert done.stdout.split()[-1] in ("0", "-1"), done.stdout + done.stderr
+
+
+def test_phcpack_reads_complex_coefficients(tmp_path: Path) -> None:
+    if shutil.which("phc") is None:
+        pytest.skip("phc is not installed")
+    equations = ["(1 + 2*I)*x^2 - y", "y^2 - I*x - (1/3 + 3/5*I)"]
+    system = nag.system(equations, "x y", imaginary="I")
+    path, out = tmp_path / "system", tmp_path / "out"
+    path.write_text(write_system(system, "phc", "two parabolas"))
+    subprocess.run(["phc", "-b", str(path), str(out)], check=True, timeout=60)
+    text = out.read_text().rpartition("THE SOLUTIONS :")[2]
+    values = {
+        name: [
+            complex(float(a), float(b)) for a, b in re.findall(rf"\n {name} : *(\S+) *(\S+)", text)
+        ]
+        for name in "xy"
+    }
+    assert len(values["x"]) == 4
+    for x, y in zip(values["x"], values["y"], strict=True):
+        assert abs((1 + 2j) * x**2 - y) < 1e-12
+        assert abs(y**2 - 1j * x - 1 / 3 - 0.6j) < 1e-12
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "K = QQ[i]/(i^2+1);\nR = K[x,y]\nI = ideal((2*i+1)*x^2+y, i*x*y-(1/2)*i)",
+        "kk = toField(QQ[a] / ideal(1 + a^2))\nR = kk[x, y]\nI = ideal(x^2+2*a*x^2+y, a*x*y-a/2)",
+        "R = (QQ[i]/(i^2+1))[x,y]; {(2*i+1)*x^2+y, i*x*y-(1/2)*i}",
+        "R = CC[x,y]; {(2*ii+1)*x^2+y, ii*x*y-(1/2)*ii}",
+        "ring r = (0,i),(x,y),dp; minpoly=i2+1; ideal j = (2i+1)*x2+y, (i)*xy+(-1/2i);",
+        "ring r = (0, w), (x, y), dp;\nminpoly = (w^2+1);\nideal j = (1+2w)*x2+y, wxy-1/2*w;",
+    ],
+)
+def test_fields_with_the_unit_are_read_as_other_programs_write_them(text: str) -> None:
+    system = nag.system(["(1 + 2*I)*x^2 + y", "I*x*y - I/2"], "x y", imaginary="I")
+    assert read_text(text) == system
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "reason"),
+    [
+        ("ring r = (0, a), (x), dp;\nideal j = a*x;", "line 1, column 10", "without parameters"),
+        (
+            "ring r = (0, a), (x), dp; minpoly = a^2 - 2;\nideal j = a*x;",
+            "line 1, column 27",
+            "with a root that with the imaginary unit is read",
+        ),
+        ("K = QQ[x]/(x^2+2)\nR = K[y]\nI = ideal(x + y)", "line 1, column 10", "a quotient ring"),
+        ("R = QQ[x, y]/(x^2+1)\nI = ideal(x + y)", "line 1, column 13", "a quotient ring"),
+    ],
+)
+def test_other_fields_are_refused(text: str, place: str, reason: str) -> None:
+    with pytest.raises(CaseError) as error:
+        read_text(text)
+    assert place in str(error.value)
+    assert reason in str(error.value)
 
 
 def test_phcpack_reads_what_is_written(tmp_path: Path) -> None:

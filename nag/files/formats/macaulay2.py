@@ -13,6 +13,13 @@ _COMMENT = re.compile(r"--[^\n]*|-\*.*?(?:\*-|\Z)", re.DOTALL)
 # A field may have a name of its own: k = QQ; R = k[x, y].
 _NAMED = re.compile(r"\b([A-Za-z]\w*)\s*=\s*(?:QQ|ZZ|RR|CC)(?:_\w+)?\s*[;\n]")
 _RING = re.compile(r"\b(QQ|ZZ|RR|CC)(?:_\w+)?[ \t]*\[")
+# The field with the imaginary unit, by whatever name: (QQ[i]/(i^2+1))[x, y], or with toField.
+_UNIT = re.compile(
+    r"(?:\b(?:toField|frac)\b[ \t]*)?(?P<open>\([ \t]*)?"
+    r"\bQQ[ \t]*\[[ \t]*(?P<unit>[A-Za-z]\w{0,99})[ \t]*\][ \t]*/[ \t]*(?:ideal\b[ \t]*)?"
+    r"\((?P<least>[^()\n]{1,120})\)"
+    r"(?(open)[ \t]*\))"
+)
 _FINITE = re.compile(r"\b(?:ZZ\s*/\s*\w+|GF\b[^\[\n]{0,99})\s*\[")
 _OPERATIONS = re.compile(
     r"\b(minors|pfaffians|intersect|saturate|eliminate|radical|quotient|trim|kernel|ker|gens|sum)\b"
@@ -55,7 +62,9 @@ def read(source: SourceFile) -> GivenSystem:
     source.refuse_towers()
     # The same length, so that columns stay.
     subscripts = _SUBSCRIPT.sub(lambda m: f"{m[1]}_{{{m[2]}}}", source.text)
-    source = SourceFile(source.file, subscripts)
+    units = [m["unit"] for m in _UNIT.finditer(subscripts) if _is_of_unit(m)]
+    plain = _UNIT.sub(lambda m: "QQ".ljust(len(m[0])) if _is_of_unit(m) else m[0], subscripts)
+    source = SourceFile(source.file, plain)
     ring = _find_ring(source.text)
     finite = _FINITE.search(source.text)
     if finite:
@@ -91,7 +100,15 @@ def read(source: SourceFile) -> GivenSystem:
         source.fail(len(source.text.rstrip()), "there is no ideal; write ideal(..., ...)")
     if len(ideals) > 1:
         source.fail(ideals[1][0].offset, "a second ideal or list; leave one in the file")
-    return GivenSystem(variables, ideals[0][1], {}, definitions, imaginary=("ii",))
+    return GivenSystem(
+        variables, ideals[0][1], {}, definitions, imaginary=(*dict.fromkeys(units), "ii")
+    )
+
+
+def _is_of_unit(field: re.Match[str]) -> bool:
+    """Whether a field's generator is a square root of -1."""
+    square = f"{field['unit']}^2"
+    return re.sub(r"\s", "", field["least"]) in (f"{square}+1", f"1+{square}")
 
 
 def _refuse_operations(source: SourceFile, start: int) -> None:

@@ -15,6 +15,8 @@ _RING = re.compile(r"\s*ring\s+\w+\s*=\s*")
 _RECOGNISED = re.compile(r"^[ \t]*ring\s+\w+\s*=", re.MULTILINE)
 _DEFINED = re.compile(r"\s*(poly|number|ideal)\s+(\w+)\s*=\s*")
 _ASSIGNMENT = re.compile(r"[^=<>!]=[^=]")
+_PARAMETER = re.compile(r"\(\s*0\s*,\s*([A-Za-z]\w*)\s*\)")
+_MINPOLY = re.compile(r"minpoly\s*=\s*(.*)", re.DOTALL)
 _INDEXED = re.compile(r"\b(\w+)((?:\([0-9]{1,6}(?:\.\.[0-9]{1,6})?\))+)")
 _BOUNDS = re.compile(r"\(([0-9]+)(?:\.\.([0-9]+))?\)")
 # 3x2y stands for 3*x^2*y where all variables are single letters.
@@ -41,21 +43,24 @@ def read(source: SourceFile) -> GivenSystem:
         source.fail(0, "there is no ring; write ring r = 0, (x, y), dp;")
     if len(rings) > 1:
         source.fail(rings[1][0].offset, "a second ring; leave one in the file")
+    minpolys = [s for s in statements if _MINPOLY.match(s.text)]
     names, bases, units = _read_ring(
-        source, rings[0][0].part(rings[0][1].end(), len(rings[0][0].text))
+        source, rings[0][0].part(rings[0][1].end(), len(rings[0][0].text)), minpolys
     )
     definitions, ideals = {}, []
-    letters = all(len(name) == 1 for name in names)
+    single = (*names, *units)
+    letters = all(len(name) == 1 for name in single)
     for statement in statements:
         defined = _DEFINED.match(statement.text)
         if defined is None:
-            if _ASSIGNMENT.search(statement.text) and not _RING.match(statement.text):
+            known = _RING.match(statement.text) or statement in minpolys
+            if _ASSIGNMENT.search(statement.text) and not known:
                 message = f"{quote(statement.text)} is not read; write 'ideal i = ..., ...;'"
                 source.fail(statement.offset, message)
             continue
         right = statement.part(defined.end(), len(statement.text))
         texts = [_names_indexed(t, bases) for t in source.statements(right, ",")]
-        texts = [_write_out(t, names, definitions) for t in texts] if letters else texts
+        texts = [_write_out(t, single, definitions) for t in texts] if letters else texts
         if defined[1] == "ideal":
             ideals.append((statement, tuple(texts)))
         elif len(texts) == 1:
@@ -71,15 +76,20 @@ def read(source: SourceFile) -> GivenSystem:
 
 
 def _read_ring(
-    source: SourceFile, ring: Passage
+    source: SourceFile, ring: Passage, minpolys: list[Passage]
 ) -> tuple[tuple[str, ...], frozenset[str], tuple[str, ...]]:
     """The variables of a ring, the names before their indices, and the imaginary unit."""
     parts = source.statements(ring, ",")
     if len(parts) < 2:
         source.fail(ring.offset, "a ring has a characteristic and variables; write 0, (x, y), dp")
     field = parts[0].text
-    if field not in ("0", "QQ", "real", "complex") and not field.startswith(("(real", "(complex")):
-        message = f"a ring over {quote(field)}; characteristic 0 without parameters is read"
+    unit = _read_unit(source, parts[0], minpolys)
+    plain = field in ("0", "QQ", "real", "complex") or field.startswith(("(real", "(complex"))
+    if unit is None and not plain:
+        message = (
+            f"a ring over {quote(field)}; characteristic 0 without parameters is read, and with "
+            "the imaginary unit: (0, i), minpoly = i^2 + 1;"
+        )
         source.fail(parts[0].offset, message)
     listed = parts[1]
     if listed.text.startswith("(") and listed.text.endswith(")"):
@@ -99,10 +109,30 @@ def _read_ring(
                 source.fail(item.offset, f"more than {MAX_ENTRIES} variables; at most that many")
         for index in itertools.product(*(range(low, high + 1) for low, high in bounds)):
             names.append(Passage(match[1] + "".join(f"[{k}]" for k in index), item.offset))
+    if unit is not None:
+        return check_names(source, names), frozenset(bases), (unit,)
     parts = [part.strip() for part in field.rstrip(")").split(",")[1:]]
     units = tuple(part for part in parts if not part.isdigit()) or ("i",)
     is_complex = field.lstrip("(").startswith("complex")
     return check_names(source, names), frozenset(bases), units if is_complex else ()
+
+
+def _read_unit(source: SourceFile, field: Passage, minpolys: list[Passage]) -> str | None:
+    """The imaginary unit of a field (0, i) with its minimal polynomial; None of another field."""
+    if not minpolys:
+        return None
+    if len(minpolys) > 1:
+        source.fail(minpolys[1].offset, "a second minpoly; leave one in the file")
+    name = _PARAMETER.fullmatch(field.text)
+    match = _MINPOLY.match(minpolys[0].text)
+    least = re.sub(r"[\s()^]", "", match[1]) if match else ""
+    if name is None or least not in (f"{name[1]}2+1", f"1+{name[1]}2"):
+        source.fail(
+            minpolys[0].offset,
+            f"{quote(minpolys[0].text)}; of fields with a root that with the imaginary unit is "
+            "read: (0, i), minpoly = i^2 + 1;",
+        )
+    return name[1]
 
 
 def _names_indexed(text: Passage, bases: frozenset[str]) -> Passage:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 
-from nag.algebra.imaginary_unit import as_real
 from nag.algebra.number import Number, binary, number_text
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import names_in
 from nag.errors import NagError
 from nag.files.formats import plain
 
@@ -22,9 +22,12 @@ _GREEK = (
 )
 _LATIN = {chr(0x3B1 + k): name for k, name in enumerate(_GREEK.split())}
 _NUMBER = re.compile(r"(?<![\w.])[0-9]+")
+_INNERMOST = re.compile(r"\([^()]*\)|\{[^{}]*\}")
+# A sign that is neither the first nor an exponent's.
+_OUTER_SUM = re.compile(r"(?<=.)(?<!e)[+-]")
 # What the names of variables must not be in a program besides.
 _TAKEN = frozenset(
-    "I i ii E D O S N Q C e pi Pi sin cos exp sqrt tan log lambda".split()  # noqa: SIM905
+    "I i ii im E D O S N Q C e pi Pi sin cos exp sqrt tan log lambda".split()  # noqa: SIM905
 )
 
 
@@ -59,8 +62,8 @@ def _remarks(
     lines = [f"names: {', '.join(changed)}"] if changed else []
     if rounded and not system.exact:
         lines.append(f"irrational numbers are rounded to {DECIMALS} digits")
-    written = [*names.values(), unit]
-    texts = [_polynomial_text(f, written[: f.n], number_text, "^") for f in system.nonzero]
+    written = list(names.values())
+    texts = [_polynomial_text(f, written, number_text, "^", unit) for f in system.nonzero]
     return [*lines, *(f"{plain.NONZERO}{text}" for text in texts)]
 
 
@@ -93,24 +96,61 @@ def _texts(
     unit: str,
 ) -> list[str]:
     """The polynomials with other names, numbers, powers and imaginary unit."""
-    names = [*names, unit]
-    return [_polynomial_text(f, names[: f.n], number, power) for f in _polynomials(system)]
+    return [_polynomial_text(f, names, number, power, unit) for f in _polynomials(system)]
 
 
 def _polynomial_text(
-    f: Polynomial, names: Sequence[str], number: Callable[[Number], str], power: str
+    f: Polynomial, names: Sequence[str], number: Callable[[Number], str], power: str, unit: str
 ) -> str:
     parts = []
-    for e in sorted(f.terms, key=lambda e: (-sum(e), tuple(-k for k in e))):
+    for e, coefficient in _terms(f, len(names)):
         factors = [n if k == 1 else f"{n}{power}{k}" for n, k in zip(names, e, strict=True) if k]
-        sign, size = _sign_and_size(number(f.terms[e]))
-        if " " in size or "+" in size[1:] or "-" in size[1:].replace("e-", ""):
-            size = f"({size})"
+        sign, size = _coefficient(coefficient, number, f"*{unit}")
         if size != "1" or not factors:
             factors.insert(0, size)
         parts.append(f" {sign} {'*'.join(factors)}")
-    text = "".join(parts).removeprefix(" + ") or "0"
+    return _joined(parts)
+
+
+def _joined(terms: Sequence[str]) -> str:
+    """Terms, each with its sign before it, as one text."""
+    text = "".join(terms).removeprefix(" + ") or "0"
     return f"-{text[3:]}" if text.startswith(" - ") else text
+
+
+def _terms(f: Polynomial, n: int) -> list[tuple[Exponents, Mapping[int, Number]]]:
+    """Exponents of the first ``n`` variables, with the coefficient of each power of the unit.
+
+    Programs that know the unit as a number (PHCpack) take it in coefficients only.
+    """
+    terms: dict[Exponents, dict[int, Number]] = {}
+    for e, c in f.terms.items():
+        terms.setdefault(e[:n], {})[sum(e[n:])] = c
+    return sorted(terms.items(), key=lambda term: (-sum(term[0]), tuple(-k for k in term[0])))
+
+
+def _coefficient(
+    parts: Mapping[int, Number], number: Callable[[Number], str], times_unit: str
+) -> tuple[str, str]:
+    """A coefficient as its sign and what follows it, in parentheses where it has two parts."""
+    texts = []
+    for power in sorted(parts):
+        sign, size = _sign_and_size(number(parts[power]))
+        if _OUTER_SUM.search(_drop_parentheses(size)):
+            size = f"({size})"
+        if power:
+            size = times_unit.lstrip("* ") if size == "1" else f"{size}{times_unit}"
+        texts.append((sign, size))
+    if len(texts) == 1:
+        return texts[0]
+    return "+", f"({_joined([f' {sign} {size}' for sign, size in texts])})"
+
+
+def _drop_parentheses(text: str) -> str:
+    """The text without what is in parentheses or braces."""
+    while text != (shorter := _INNERMOST.sub("", text)):
+        text = shorter
+    return text
 
 
 def _sign_and_size(text: str) -> tuple[str, str]:
@@ -159,30 +199,39 @@ def write_bertini(system: PolynomialSystem, title: str) -> str:
 
 
 def write_macaulay2(system: PolynomialSystem, title: str) -> str:
-    """A ring over QQ and an ideal in it, for Macaulay2; the imaginary unit is a variable of it."""
+    """A ring over QQ, or over QQ with the unit i, and an ideal in it, for Macaulay2."""
     _only_rational(system, "Macaulay2")
-    names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9]*(?:_[0-9]+)?")
-    lines = [f"-- {line}" for line in (title, *_remarks(system, names, ""))]
+    names = _plain_names(_variables(system), r"[A-Za-z][A-Za-z0-9]*(?:_[0-9]+)?")
+    lines = [f"-- {line}" for line in (title, *_remarks(system, names, "i"))]
     written = list(names.values())
-    texts = [_wide(t) for t in _texts(as_real(system), written, number_text, "^", "")]
-    lines.append(f"R = QQ[{', '.join(written)}]")
+    ring, field = (_free_name(letter, written) for letter in "RK")
+    texts = _texts(system, written, number_text, "^", "i")
+    # A constant as an element of the ring.
+    texts = [t if names_in(t) & {*written} else f"{t} + 0*{written[0]}" for t in texts]
+    if system.imaginary:
+        lines.append(f"{field} = toField(QQ[i]/(i^2+1))")
+    lines.append(f"{ring} = {field if system.imaginary else 'QQ'}[{', '.join(written)}]")
     return "\n".join([*lines, "I = ideal(\n  " + ",\n  ".join(texts) + ")"]) + "\n"
 
 
-def _wide(text: str) -> str:
-    """A constant as an element of the ring."""
-    return f"{text}_R" if re.fullmatch(r"-?[0-9/]+", text) else text
+def _free_name(name: str, taken: Sequence[str]) -> str:
+    """The name, or a longer one that is not taken."""
+    while name in taken:
+        name = f"nag{name}"
+    return name
 
 
 def write_singular(system: PolynomialSystem, title: str) -> str:
-    """A ring over QQ and an ideal in it, for Singular; the imaginary unit is a variable of it."""
+    """A ring over QQ, or over QQ with the unit i, and an ideal in it, for Singular."""
     _only_rational(system, "Singular")
-    names = _plain_names(system.variables, r"[A-Za-z][A-Za-z0-9]*")
-    lines = [f"// {line}" for line in (title, *_remarks(system, names, ""))]
+    names = _plain_names(_variables(system), r"[A-Za-z][A-Za-z0-9]*")
+    lines = [f"// {line}" for line in (title, *_remarks(system, names, "i"))]
     written = list(names.values())
-    texts = _texts(as_real(system), written, number_text, "^", "")
+    texts = _texts(system, written, number_text, "^", "i")
     ring, ideal = "nagring", "nagideal"
-    lines.append(f"ring {ring} = 0, ({', '.join(written)}), dp;")
+    field = "(0, i)" if system.imaginary else "0"
+    lines.append(f"ring {ring} = {field}, ({', '.join(written)}), dp;")
+    lines += ["minpoly = i^2 + 1;"] if system.imaginary else []
     return "\n".join([*lines, f"ideal {ideal} =\n  " + ",\n  ".join(texts) + ";"]) + "\n"
 
 
@@ -212,33 +261,32 @@ def write_julia(system: PolynomialSystem, title: str) -> str:
 
 def write_latex(system: PolynomialSystem, title: str) -> str:
     """The equations in an ``align*`` of LaTeX."""
-    names = [*(_latex_name(name) for name in _variables(system)), r"\mathrm{i}"]
+    variables = _variables(system)
+    names = [_latex_name(name) for name in variables]
     lines = []
     for f in _polynomials(system):
-        text = "".join(_latex_term(e, f.terms[e], names[: f.n]) for e in _ordered(f)) or " + 0"
-        text = text.removeprefix(" + ")
-        lines.append(f"  {'-' + text[3:] if text.startswith(' - ') else text} &= 0")
-    head = "".join(
-        f"% {line}\n" for line in (title, *_remarks(system, {n: n for n in system.variables}, ""))
-    )
+        terms = [_latex_term(e, c, names) for e, c in _terms(f, len(names))]
+        lines.append(f"  {_joined(terms)} &= 0")
+    remarks = _remarks(system, {n: n for n in variables}, "i")
+    head = "".join(f"% {line}\n" for line in (title, *remarks))
     return f"{head}\\begin{{align*}}\n" + " \\\\\n".join(lines) + "\n\\end{align*}\n"
 
 
-def _ordered(f: Polynomial) -> list[tuple[int, ...]]:
-    return sorted(f.terms, key=lambda e: (-sum(e), tuple(-k for k in e)))
+def _latex_term(e: Sequence[int], parts: Mapping[int, Number], names: Sequence[str]) -> str:
+    sign, size = _coefficient(parts, _latex_number, r" \mathrm{i}")
+    powers = [n if k == 1 else f"{n}^{{{k}}}" for n, k in zip(names, e, strict=True) if k]
+    body = [*([size] if size != "1" or not powers else []), *powers]
+    return f" {sign} {' '.join(body)}"
 
 
-def _latex_term(e: Sequence[int], c: Number, names: Sequence[str]) -> str:
+def _latex_number(c: Number) -> str:
     sign, size = _sign_and_size(number_text(c))
     if match := re.fullmatch(r"([0-9]+)/([0-9]+)", size):
         size = rf"\tfrac{{{match[1]}}}{{{match[2]}}}"
     else:
         size = re.sub(r"sqrt\(([^()]*)\)", r"\\sqrt{\1}", size).replace("*", " ")
         size = re.sub(r"\b(pi|sin|cos)\b", r"\\\1", size)
-        size = f"({size})" if "+" in size or " - " in size else size
-    powers = [n if k == 1 else f"{n}^{{{k}}}" for n, k in zip(names, e, strict=True) if k]
-    body = [*([size] if size != "1" or not powers else []), *powers]
-    return f" {sign} {' '.join(body)}"
+    return f"-{size}" if sign == "-" else size
 
 
 def _latex_name(name: str) -> str:
