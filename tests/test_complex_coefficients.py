@@ -368,3 +368,95 @@ def test_named_points_may_be_complex(tmp_path: Path) -> None:
     on = [len(nag.member(file, name).on) for name in ("p", "q")]
     assert on == [1, 1] and nag.local(file, "p").dimension == 1
     assert main(["decompose", str(file), "--quiet"]) == 0
+
+
+COMPLEX_FAMILY = """
+title = "Two parabolas"
+kind = "system"
+variables = ["x", "y"]
+imaginary = "i"
+equations = ["x^2 - i*a*y", "y^2 - a*x + b"]
+[parameters]
+a = "3 + 4*i"
+b = "1 + 2*i"
+[family]
+parameters = ["a"]
+"""
+
+
+def residuals(points: np.ndarray, a: complex) -> np.ndarray:
+    """Of the members of that family."""
+    x, y = points.T
+    return np.abs([x**2 - 1j * a * y, y**2 - a * x + 1 + 2j]).max(axis=0)
+
+
+def test_families_may_have_complex_coefficients_and_values() -> None:
+    equations = ["x^2 - I*a*y", "y^2 - a*x + (1 + 2*I)"]
+    values = [1, 1 + 1j, 2.5, 0]
+    found = nag.solve_family(equations, ["a"], np.array(values)[:, None], "x y")
+    # Where a = 0 both are squares, and there are two double zeros.
+    assert found.complete.all()
+    assert found.counts.tolist() == [4, 4, 4, 2]
+    assert found.variables == ("x", "y") and found.points.shape == (4, 4, 2)
+    for a, points in zip(values, found, strict=True):
+        assert residuals(points, a).max() < 1e-12
+    known = nag.solve_family(equations, ["a"], [[2]], "x y", known=([1], found.at(0)), count=4)
+    assert residuals(known.at(0), 2).max() < 1e-12 and known.complete.all()
+    named = nag.solve_family(["x^2 = j*a"], ["a"], [[4]], imaginary="j")
+    assert np.abs(named.at(0) ** 2 - 4j).max() < 1e-12
+
+
+def test_complex_members_of_real_families_are_solved_by_themselves() -> None:
+    found = nag.solve_family(["x^2 - a", "x*y - b"], ["a", "b"], [[1j, 1], [0, 1j], [0, 0]])
+    assert found.complete.all()
+    # Two; none; and a line, on which none is isolated.
+    assert found.counts.tolist() == [2, 0, 0]
+
+
+def test_members_of_complex_families_in_files_are_solved(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, values, out = (tmp_path / name for name in ("case.toml", "values.csv", "points.npz"))
+    case.write_text(COMPLEX_FAMILY)
+    values.write_text("a\n1\n(1+2j)\n2*I\n-0.5 + 2i\n0\n")
+    said = ["family", str(case), "--values", str(values), "--points", str(out), "--quiet"]
+    assert main(said) == 0
+    assert "5 of 5 members" in capsys.readouterr().out
+    with np.load(out) as arrays:
+        assert arrays["variables"].tolist() == ["x", "y"]
+        assert arrays["values"].ravel().tolist() == [1, 1 + 2j, 2j, -0.5 + 2j, 0]
+        for a, points, status in zip(
+            arrays["values"].ravel(), arrays["points"], arrays["status"], strict=True
+        ):
+            assert residuals(points[status <= 1], a).max() < 1e-12
+    assert main(["solve", str(case), "--set", "a=1+i", "--quiet"]) == 0
+    assert "4 isolated solutions, 0 real" in capsys.readouterr().out
+    by_loops = nag.solve(case, start="parameter")
+    assert by_loops.solutions
+    points = np.array([s.point for s in by_loops.solutions])
+    assert residuals(points[:, :2], 3 + 4j).max() < 1e-9 and (points[:, 2] == 1j).all()
+
+
+def test_symmetries_of_complex_families_are_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text(COMPLEX_FAMILY + '[[family.map]]\nimage = { x = "-x" }\n')
+    assert main(["solve", str(case)]) == 2
+    said = capsys.readouterr().err
+    assert "[family]: map: is not for a family with complex coefficients; leave it out" in said
+
+
+def test_components_are_followed_along_a_parameter_of_complex_equations(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text(COMPLEX_FAMILY.partition("[family]")[0].replace(', "y^2 - a*x + b"', ""))
+    text = case.read_text().replace("i*a*y", "i*a*y + b")
+    case.write_text(text)
+    assert main(["decompose", str(case), "--sweep", "a=0:2:3", "--quiet"]) == 0
+    said = capsys.readouterr().out
+    # A parabola, which is two lines where a = 0.
+    assert "2 components of dimension 1, degree 1" in said
+    assert said.count("1 component of dimension 1, degree 2") == 2
+    assert "followed  3 of 3 values" in said

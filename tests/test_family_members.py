@@ -129,7 +129,7 @@ def test_parameters_may_be_complex_and_of_very_different_sizes() -> None:
         ({"values": "ab"}, "values: are no numbers"),
         ({"equations": ["x^2 - s", "x"]}, "2 equations for 1 unknowns"),
         ({"parameters": ["t"]}, "parameters: 't' does not occur"),
-        ({"equations": ["x^2 - I*s"], "variables": ["x"]}, "complex coefficients"),
+        ({"equations": ["x^2 - I*s", "x"], "variables": ["x"]}, "2 equations for 1 unknowns"),
     ],
 )
 def test_what_does_not_fit_is_said(change: dict, message: str) -> None:

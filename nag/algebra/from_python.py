@@ -377,7 +377,7 @@ def _coordinate(value: Any, place: str) -> Number | complex:
         exact = exact_complex(value, place)
         if not isinstance(exact, ComplexNumber):
             return exact
-        return complex(float(exact.real), float(exact.imaginary))
+        return complex(exact)
     if not isfinite(complex(value)):
         raise ExpressionError(f"{place}: {value} is no number; give a finite number")
     return value

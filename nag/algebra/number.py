@@ -214,6 +214,10 @@ class ComplexNumber(NamedTuple):
     real: Number
     imaginary: Number
 
+    def __complex__(self) -> complex:
+        """The nearest complex double."""
+        return complex(float(self.real), float(self.imaginary))
+
     def __str__(self) -> str:
         """The number in the grammar of `nag.algebra.expression`; ``I`` is the imaginary unit."""
         size = number_text(self.imaginary)

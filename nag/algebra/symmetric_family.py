@@ -18,7 +18,7 @@ from functools import cached_property
 import numpy as np
 
 from nag.algebra.family import Family
-from nag.algebra.number import Number
+from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapError, MapGroup
 
@@ -152,5 +152,5 @@ class FamilyMember:
     """
 
     symmetric: SymmetricFamily
-    values: tuple[Number, ...]
+    values: tuple[Number | ComplexNumber, ...]
     solutions: int | None

@@ -70,7 +70,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.text.table import count_text
 
     family = member.symmetric.original
-    given = [float(v) for v in member.values]
+    given = [complex(v) for v in member.values]
     values = read_member_values(options.values, family.parameters, given)
     values = check_values(family, values)
     start, count = options.start, member.solutions
@@ -83,9 +83,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError(f"{options.case}: {error}") from None
     found = solve_members(solved, values, run=how)
     if options.points is not None:
-        write_document(
-            _arrays(found, family.variables, family.parameters), options.points, "points"
-        )
+        write_document(_arrays(found, found.variables, family.parameters), options.points, "points")
     real = found.real_counts.tolist()
     general = len(solved.points)
     rows = [
@@ -113,7 +111,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         rows.append(("open", f"members {', '.join(str(k + 1) for k in incomplete[:5])}{more}"))
     fields = {
         "format": FORMAT,
-        "variables": list(family.variables),
+        "variables": list(found.variables),
         "parameters": list(family.parameters),
         "solutions": general,
         "members": [

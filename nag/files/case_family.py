@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from nag.algebra.family import Family
-from nag.algebra.number import Number
+from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapError, MapGroup, RationalMap
 from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
@@ -16,7 +16,9 @@ from nag.files.case_table import CaseTable, key_text, kind_of
 Parse = Callable[[str, Sequence[str]], Polynomial]
 
 
-def family_parameters(table: CaseTable, parameters: Mapping[str, Number]) -> list[str]:
+def family_parameters(
+    table: CaseTable, parameters: Mapping[str, Number | ComplexNumber]
+) -> list[str]:
     """Names of the parameters that may have any values."""
     table.allow(("parameters", "plane", "solutions", "map"))
     names = table.texts("parameters", "names of parameters")
@@ -33,9 +35,12 @@ def family_parameters(table: CaseTable, parameters: Mapping[str, Number]) -> lis
 
 
 def read_family(
-    table: CaseTable, family: Family, values: Sequence[Number], parse: Parse
+    table: CaseTable, family: Family, values: Sequence[Number | ComplexNumber], parse: Parse
 ) -> FamilyMember:
     """The family with what its table says of it; ``parse`` reads polynomials in given names."""
+    for key in ("plane", "map") if family.imaginary else ():
+        if key in table.values:
+            table.fail(key, "is not for a family with complex coefficients; leave it out")
     names = [*family.variables, *family.parameters]
     plane = table.table("plane")
     pairs = _pairs(plane, names)

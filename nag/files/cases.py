@@ -457,11 +457,6 @@ def _read_system(top: CaseTable, numbers: _Numbers) -> tuple[PolynomialSystem, F
             top.fail(f"variables {i}", f"{quote(name)} is there twice; name each variable once")
         if name in numbers.parameters:
             top.fail(f"variables {i}", f"{quote(name)} is a parameter as well; rename one of them")
-    if "family" in top.values:
-        family = _read_family(top, numbers, variables)
-        polynomials = family.symmetric.original.at(family.values).polynomials
-        groups = _read_groups(top, variables)
-        return PolynomialSystem(tuple(variables), polynomials, groups=groups), family
     groups = _read_groups(top, variables)
     unit, taken = _unit_name(top), [*variables, *numbers.parameters]
     complex_ = {k for k, v in numbers.parameters.items() if isinstance(v, ComplexNumber)}
@@ -472,7 +467,14 @@ def _read_system(top: CaseTable, numbers: _Numbers) -> tuple[PolynomialSystem, F
     else:
         unit = name_unit(taken)
     texts = top.texts("equations", "equations")
-    if not any(names_in(text) & complex_ for text in texts):
+    is_complex = any(names_in(text) & complex_ for text in texts)
+    if "family" in top.values:
+        family = _read_family(top, numbers, variables, unit, complex_)
+        system = family.symmetric.original.at(family.values)
+        if system.imaginary:
+            return adjoin_unit(system.variables, system.polynomials[:-1], groups=groups), family
+        return PolynomialSystem(tuple(variables), system.polynomials, groups=groups), family
+    if not is_complex:
         equations = _read_equations(top, numbers, variables)
         return PolynomialSystem(tuple(variables), equations, groups=groups), None
     names = [*variables, unit]
@@ -499,14 +501,20 @@ def _read_equations(
     return tuple(equations)
 
 
-def _read_family(top: CaseTable, numbers: _Numbers, variables: list[str]) -> FamilyMember:
+def _read_family(
+    top: CaseTable, numbers: _Numbers, variables: list[str], unit: str, complex_: set[str]
+) -> FamilyMember:
+    """The family of a system; ``complex_`` are names of what is complex, one of them ``unit``."""
     from nag.files.case_family import family_parameters, read_family
 
     table = top.table("family")
-    if any(isinstance(v, ComplexNumber) for v in numbers.parameters.values()):
-        table.fail(None, "has complex numbers; write rational ones, or leave it out")
     free = family_parameters(table, numbers.parameters)
-    equations = _read_equations(top, numbers, [*variables, *free])
+    names = [*variables, *free]
+    texts = top.texts("equations", "equations")
+    is_complex = any(names_in(text) & complex_ - {*free} for text in texts)
+    if is_complex:
+        names.append(unit)
+    equations = _read_equations(top, numbers, names, unit if is_complex else None)
     if len(equations) != len(variables):
         table.fail(
             None,
@@ -514,9 +522,13 @@ def _read_family(top: CaseTable, numbers: _Numbers, variables: list[str]) -> Fam
             "them, so leave it out",
         )
     values = [numbers.parameters[name] for name in free]
-    if not all(isinstance(v, Fraction) for v in values) or not all(f.exact for f in equations):
+    parts = [part for v in values for part in (v if isinstance(v, ComplexNumber) else (v,))]
+    if not all(isinstance(v, Fraction) for v in parts) or not all(f.exact for f in equations):
         table.fail(None, "has irrational numbers; write rational ones, or leave it out")
-    family = Family(tuple(variables), tuple(free), equations)
+    if is_complex:
+        family = Family.of_system(adjoin_unit(names, equations), len(free))
+    else:
+        family = Family(tuple(variables), tuple(free), equations)
     return read_family(table, family, values, numbers.polynomial)
 
 
@@ -575,7 +587,7 @@ def _read_coordinate(value: Any, system: PolynomialSystem, numbers: _Numbers) ->
     if isinstance(value, str) and names_in(value) & set(unit):
         found = parse_parameter(value, unit, {}, Budget())
         if isinstance(found, ComplexNumber):
-            return complex(float(found.real), float(found.imaginary))
+            return complex(found)
         return found
     return numbers.number(value)
 

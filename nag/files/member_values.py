@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import os
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NoReturn
@@ -13,12 +14,14 @@ import numpy as np
 from nag.algebra.tokens import nearest, quote
 from nag.errors import InputError
 
+# The imaginary unit, with the digit before it where there is one.
+_UNIT = re.compile(r"(?:(?<=([0-9.]))\*?|(?<![0-9.*]))[iIjJ]")
 # Bytes of a file that is read.
 MOST_BYTES = 1 << 30
 
 
 def read_member_values(
-    path: str | os.PathLike[str], parameters: Sequence[str], given: Sequence[float]
+    path: str | os.PathLike[str], parameters: Sequence[str], given: Sequence[complex]
 ) -> np.ndarray:
     """The parameters' values of each member, real or complex, shape ``(M, k)``.
 
@@ -64,7 +67,7 @@ def _read_array(file: Path, k: int) -> np.ndarray:
 
 
 def _read_table(
-    file: Path, lines: csv.Reader, parameters: Sequence[str], given: Sequence[float]
+    file: Path, lines: csv.Reader, parameters: Sequence[str], given: Sequence[complex]
 ) -> np.ndarray:
     names = [name.strip() for name in next(lines, [])]
     if not names:
@@ -86,20 +89,33 @@ def _read_table(
         if len(line) != len(names):
             _fail(file, f"line {lines.line_num}: {len(line)} values, not {len(names)}")
         try:
-            rows.append([float(text) for text in line])
+            rows.append([_number(text) for text in line])
         except ValueError:
             wrong = next(text for text in line if not _is_number(text))
             _fail(file, f"line {lines.line_num}: {quote(wrong)} is no number")
     if not rows:
         _fail(file, "has no values below its first line")
-    found = np.tile(np.array(given, dtype=float), (len(rows), 1))
+    found = np.tile(np.array(given, dtype=complex), (len(rows), 1))
     found[:, [list(parameters).index(name) for name in names]] = rows
     return found
 
 
+def _number(text: str) -> complex:
+    """A number as programs write it: 1.5, (1+2j), 1 + 2*I.
+
+    Raises:
+        ValueError: if it is none.
+    """
+    try:
+        return float(text)
+    except ValueError:
+        plain = re.sub(r"\s*([+-])\s*", r"\1", text.strip())
+        return complex(_UNIT.sub(lambda m: "j" if m[1] else "1j", plain))
+
+
 def _is_number(text: str) -> bool:
     try:
-        float(text)
+        _number(text)
     except ValueError:
         return False
     return True

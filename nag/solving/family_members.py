@@ -11,14 +11,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import partial
 from typing import Any, NamedTuple, overload
 
 import numpy as np
 
 from nag.algebra.family import Family
-from nag.algebra.from_python import system
+from nag.algebra.from_python import exact_complex, system
+from nag.algebra.imaginary_unit import append_unit
 from nag.errors import NagError, StartError
 from nag.numerics.coincidence import radii_of_balls
 from nag.numerics.read_only import equal_values
@@ -70,7 +70,7 @@ class FamilySolutions:
     @property
     def variables(self) -> tuple[str, ...]:
         """Names of the unknowns."""
-        return self.start.family.variables
+        return self.start.family.own_variables
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -157,6 +157,7 @@ def solve_family(
     values: Any,
     variables: Any = None,
     *,
+    imaginary: str | None = None,
     start: str = "auto",
     count: int | None = None,
     known: tuple[Any, Any] | None = None,
@@ -170,6 +171,7 @@ def solve_family(
         values: those of each member, real or complex: an array, shape ``(M, k)``, in the order of
             ``parameters``, or columns by their names: a DataFrame or a mapping.
         variables: names of the unknowns, in order; by default all other names that occur.
+        imaginary: what the imaginary unit is called in equations as text, as for `nag.system`.
         start: how the family is solved for random parameters, as for
             `nag.solving.parameter.solve_generic`: a start system, or ``"parameter"``, by loops.
         count: the number of solutions of a general member, if it is known; with loops and with
@@ -191,7 +193,7 @@ def solve_family(
     >>> sorted(circles.real(0).round(9).tolist())
     [[-1.0, -1.0], [1.0, 1.0]]
     """
-    family = family_of(equations, parameters, variables)
+    family = family_of(equations, parameters, variables, imaginary)
     wanted = check_values(family, values)
     if known is None:
         solved = solve_generic(family, start=start, count=count, run=run)
@@ -200,7 +202,12 @@ def solve_family(
     return solve_members(solved, wanted, run=run)
 
 
-def family_of(equations: Any, parameters: Sequence[Any], variables: Any = None) -> Family:
+def family_of(
+    equations: Any,
+    parameters: Sequence[Any],
+    variables: Any = None,
+    imaginary: str | None = None,
+) -> Family:
     """The family that equations and the names of parameters define.
 
     Raises:
@@ -208,17 +215,15 @@ def family_of(equations: Any, parameters: Sequence[Any], variables: Any = None) 
     """
     names = [str(name) for name in parameters]
     if variables is None:
-        found = system(equations).variables
+        found = system(equations, imaginary=imaginary).own_variables
         unknowns = [name for name in found if name not in names]
         missing = [name for name in names if name not in found]
         if missing:
             raise NagError(f"parameters: {missing[0]!r} does not occur in the equations")
     else:
         unknowns = list(system("0", variables).variables)
-    made = system(equations, [*unknowns, *names])
-    if len(made.variables) > len(unknowns) + len(names):
-        raise NagError("equations: a family with complex coefficients is not supported")
-    return Family(tuple(unknowns), tuple(names), made.polynomials)
+    made = system(equations, [*unknowns, *names], imaginary=imaginary)
+    return Family.of_system(made, len(names))
 
 
 def check_values(family: Family, values: Any) -> np.ndarray:
@@ -272,8 +277,10 @@ def _solve_from_known(
     """The family at random parameters, by paths from a member whose solutions are known."""
     here = check_values(family, [known[0]])[0]
     points = np.asarray(known[1], dtype=np.complex128)
-    if points.ndim != 2 or points.shape[1] != family.n or not np.isfinite(points).all():
-        raise NagError(f"known: solutions have shape {points.shape}, not (S, {family.n}), or holes")
+    n = len(family.own_variables)
+    if points.ndim != 2 or points.shape[1] != n or not np.isfinite(points).all():
+        raise NagError(f"known: solutions have shape {points.shape}, not (S, {n}), or holes")
+    points = append_unit(points) if family.imaginary else points
     from nag.solving.parameter_line import parameter_line
 
     there = random_values(family, run.random())
@@ -328,6 +335,7 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
         run.tell("members one by one", number, len(alone))
         own = _solve_alone(solved, values[member], run)
         points[member], status[member], errors[member], complete[member] = own
+    points = points[..., : len(family.own_variables)]
     return FamilySolutions(solved, values, points, status, errors, ~proved, complete)
 
 
@@ -419,15 +427,12 @@ def _solve_alone(
     points = np.full((S, n), np.nan, dtype=np.complex128)
     status = np.full(S, PathStatus.FAILED, dtype=np.int8)
     errors = np.full(S, np.inf)
-    if values.imag.any():
-        # Of complex parameters there is no exact system to reason about.
-        return points, status, errors, False
-    exact = [Fraction(v) for v in values.real.tolist()]
+    exact = [exact_complex(v, "values") for v in values.tolist()]
     alone = replace(run, progress=None)
     (result,) = solve_targets(replace(solved, classes=None), [exact], run=alone)
     found = result.solutions[:S]
     for i, each in enumerate(found):
-        points[i], errors[i] = each.point, each.accuracy
+        points[i], errors[i] = each.point[:n], each.accuracy
         status[i] = PathStatus.REGULAR if each.multiplicity == 1 else PathStatus.SINGULAR
     whole = result.complete and len(result.solutions) <= S
     if whole:

@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.algebra.family import Family
-from nag.algebra.number import Number
+from nag.algebra.imaginary_unit import append_unit, as_real, has_unit
+from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.rational_map import MapError
 from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.system import PolynomialSystem
@@ -24,7 +25,7 @@ from nag.solving.certificate import bound_of_zeros
 from nag.solving.parameter_line import parameter_line
 from nag.solving.path_search import PathSearch, SolveTask
 from nag.solving.solutions import SolveResult
-from nag.solving.solve import solve_without_paths
+from nag.solving.solve import leave_out_conjugate, solve_without_paths
 from nag.solving.solve_classes import (
     SolvedClasses,
     line_of_classes,
@@ -109,6 +110,7 @@ def solve_generic(
     begin, _ = choose(target, start, (), rng, run.threads)
     paths = track(begin.homotopy, begin.points, run.settings, run.threads)
     points = begin.affine(paths.points[paths.where(PathStatus.REGULAR)])
+    points = points[has_unit(points)] if family.imaginary else points
     doubtful = paths.where(PathStatus.FAILED, PathStatus.SINGULAR)
     return Solved(family, values, points, begin.complete and len(doubtful) == 0)
 
@@ -116,7 +118,7 @@ def solve_generic(
 @takes_run
 def solve_targets(
     solved: Solved,
-    targets: Sequence[Sequence[Number]],
+    targets: Sequence[Sequence[Number | ComplexNumber]],
     *,
     run: Run = DEFAULT_RUN,
 ) -> list[SolveResult]:
@@ -125,26 +127,36 @@ def solve_targets(
     Raises:
         StartError: if a target has a wrong number of parameters.
     """
-    family = solved.family
     results = []
     for number, values in enumerate(targets):
-        if len(values) != len(family.parameters):
-            raise StartError(
-                f"target {number + 1}: {len(values)} values for {len(family.parameters)} parameters"
-            )
-        if solved.classes is not None:
+        k = len(solved.family.parameters)
+        if len(values) != k:
+            raise StartError(f"target {number + 1}: {len(values)} values for {k} parameters")
+        is_complex = any(isinstance(v, ComplexNumber) for v in values)
+        if solved.classes is not None and not solved.family.imaginary and not is_complex:
             rng = run.random(number)
             given = (solved.classes, values, rng, run)
             results.append(solve_classes(*given))
             continue
-        begin = _start(solved, values)
+        whole = _with_unit(solved) if is_complex else solved
+        begin = _start(whole, values)
         paths = track(begin.homotopy, begin.points, run.settings, run.threads)
         reason = f"parameter homotopy: {len(begin.points)} solutions for random parameters"
-        task = SolveTask(SystemFacts(family.at(values)), "auto", run)
+        system = whole.family.at(values)
+        task = SolveTask(SystemFacts(system), "auto", run)
         problem = SquareProblem.as_given(task.system)
         search = PathSearch.of(task, problem, begin, reason, paths, run.random(number))
-        results.append(search.result())
+        result = search.result()
+        results.append(leave_out_conjugate(result, system) if system.imaginary else result)
     return [replace(result, method="by_family") for result in results]
+
+
+def _with_unit(solved: Solved) -> Solved:
+    """The same with the imaginary unit as an unknown, in which complex parameters are exact."""
+    if solved.family.imaginary:
+        return solved
+    points = append_unit(solved.points)
+    return replace(solved, family=solved.family.with_unit(), points=points)
 
 
 @takes_run
@@ -170,10 +182,10 @@ def solve_member(
         StartError: if loops have nothing to begin with, there would be too many paths, or the
             symmetries do not fit the family.
     """
-    task = SolveTask(SystemFacts(system), "auto", run)
+    task = SolveTask(SystemFacts(as_real(system)), "auto", run)
     exact = solve_without_paths(task) if exact_first else None
     if exact is not None:
-        return exact
+        return leave_out_conjugate(exact, system) if system.imaginary else exact
     try:
         generic = solve_generic(
             member.symmetric,
@@ -199,12 +211,15 @@ def _compare_with_count(result: SolveResult, given: int, facts: SystemFacts) -> 
     found, source = len(result.solutions), f"`solutions = {given}` of [family]"
     if bound_of_zeros(result.system)[0] == found:
         return replace(result, reason=f"{result.reason}, and Bezout's bound agrees")
-    count = facts.count_zeros(found, False)
-    seen = judge_number(found, count)
+    # Those of the conjugate system are counted with them.
+    sides = 1 + result.system.imaginary
+    count = facts.count_zeros(sides * found, False)
+    seen = judge_number(sides * found, count)
     if seen is Completeness.ALL:
         return replace(result, reason=f"{result.reason}, and a count modulo two primes agrees")
     if count is not None and seen is not Completeness.UNKNOWN:
-        note = f"{source} is wrong, or zeros are multiple: {count.bound} are counted modulo primes"
+        counted = count.bound // sides
+        note = f"{source} is wrong, or zeros are multiple: {counted} are counted modulo primes"
         return replace(result, complete=False, notes=(*result.notes, note))
     note = f"that these are all rests on {source}, which is given, not checked"
     return replace(result, notes=(*result.notes, note))
@@ -225,7 +240,7 @@ def begin_of_family(
     return homotopy, time.perf_counter() - started, int(paths.steps.sum())
 
 
-def _start(solved: Solved, values: Sequence[Number]) -> StartSystem:
+def _start(solved: Solved, values: Sequence[Number | ComplexNumber]) -> StartSystem:
     line = parameter_line(solved.family, solved.values, values)
     groups = (tuple(range(solved.family.n)),)
     return StartSystem(

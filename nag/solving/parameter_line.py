@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.family import Family
-from nag.algebra.number import Number
+from nag.algebra.number import ComplexNumber, Number
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
 
@@ -44,7 +44,7 @@ class ParameterLine:
 def parameter_line(
     family: Family,
     first: Sequence[Number | complex] | np.ndarray,
-    second: Sequence[Number | complex] | np.ndarray,
+    second: Sequence[Number | ComplexNumber | complex] | np.ndarray,
 ) -> ParameterLine:
     """The homotopy whose parameters are ``t first + (1 - t) second``.
 

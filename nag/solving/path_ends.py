@@ -350,7 +350,10 @@ def _solutions(
     accuracy = np.array([s.accuracy for s in isolated])
     multiplicity = np.array([s.multiplicity for s in isolated], dtype=np.int64)
     real = which_are_real(isolated)
-    paired = bool(conjugates_present(points, accuracy, multiplicity, real))
+    # Where the unit is known for i, conjugates solve another system.
+    paired = problem.system.imaginary or bool(
+        conjugates_present(points, accuracy, multiplicity, real)
+    )
     answers: list[bool | None] = [False] * len(isolated)
     if problem.nonzero:
         answers = [problem.is_excluded(s) for s in isolated]

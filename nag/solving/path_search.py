@@ -101,7 +101,9 @@ class PathSearch:
         rng: np.random.Generator,
     ) -> PathSearch:
         """What the ends of paths say."""
-        paths = restore_conjugate_ends(begin, tracked)
+        # Where the unit is known for i, conjugates solve another system.
+        is_real = not task.system.imaginary
+        paths = restore_conjugate_ends(begin, tracked) if is_real else tracked
         ends = sort_ends(problem, begin, paths, rng, task.finite)
         return cls(task, problem, begin, reason, rng, tracked, paths, ends)
 

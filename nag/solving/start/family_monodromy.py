@@ -93,6 +93,9 @@ def first_solution(family: Family, rng: np.random.Generator) -> tuple[np.ndarray
                 break
         if not np.isfinite(z).all() or evaluator.residuals(z[None]).max() > VANISHING:
             continue
+        if family.imaginary and z[n - 1].imag < 0:
+            # The equations are real: the conjugate has i for the unit.
+            z = z.conj()
         if is_regular(evaluator.jacobian(z)[:, :n]):
             return z[n:], z[:n]
     raise StartError("parameter: no regular solution was found by Newton's method")
