@@ -460,3 +460,85 @@ def test_components_are_followed_along_a_parameter_of_complex_equations(
     assert "2 components of dimension 1, degree 1" in said
     assert said.count("1 component of dimension 1, degree 2") == 2
     assert "followed  3 of 3 values" in said
+
+
+NAMED = """
+title = "A line and a point"
+kind = "system"
+variables = ["x", "y"]
+imaginary = "i"
+equations = ["(x - i*y)*(x^2 + y - a)", "(x - i*y)*(x - b)"]
+[parameters]
+a = "3 + i"
+b = 2
+[[point]]
+name = "on the line"
+at = { x = "i*b", y = "b" }
+[[point]]
+name = "q"
+at = { x = "b", y = "a - 4" }
+"""
+
+
+def test_points_are_made_of_parameters_and_the_unit(tmp_path: Path) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(NAMED)
+    points = {point.name: point.at for point in nag.read_case(file).points}
+    assert points == {"on the line": (2j, 2, 1j), "q": (2, -1 + 1j, 1j)}
+    # Of real equations as well.
+    file.write_text(
+        'title = "t"\nkind = "system"\nvariables = ["x", "y"]\nequations = ["x^2 + y^2 + b"]\n'
+        '[parameters]\nb = 1\n[[point]]\nname = "p"\nat = { x = "I*b", y = 0 }\n'
+    )
+    assert nag.read_case(file).points[0].at == (1j, 0)
+    assert nag.local(file).dimension == 1
+
+
+def test_a_unit_has_the_cases_own_name_in_points(tmp_path: Path) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(NAMED)
+    given = [{"x": "i", "y": 1}, {"x": "I", "y": 1}, ("i", 1), (1j, 1), (1j, 1, 1j)]
+    assert {nag.local(file, point).dimension for point in given} == {1}
+
+
+@pytest.mark.parametrize(
+    ("command", "point", "said"),
+    [
+        ("local", ["q"], "isolated, of multiplicity 1"),
+        ("local", ["--at", "q"], "isolated, of multiplicity 1"),
+        ("local", ["--at", "on the line"], "local dimension 1"),
+        ("local", ["--at", "x = i, y = 1"], "local dimension 1"),
+        ("member", ["--at", "q"], "on 1 of 2 components; local dimension 0"),
+        ("member", ["--at", "x = i, y = 1"], "on 1 of 2 components; local dimension 1"),
+        ("eliminate", ["--at", "on the line", "--onto", "x,y"], "x^2 + y^2 = 0"),
+        ("eliminate", ["--at", "x = -2, y = 2*i", "--onto", "x,y,i"], "y*i - x = 0"),
+    ],
+)
+def test_commands_take_complex_points(
+    command: str,
+    point: list[str],
+    said: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(NAMED)
+    assert main([command, str(file), *point, "--quiet"]) == 0
+    assert said in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("point", "said"),
+    [
+        ("q", "the component is a point; there is nothing to eliminate from"),
+        ("x = 1, y = i", "--at: the point lies on no component; name a --component"),
+        ("r", "has no point 'r'; it has 'on the line', 'q'"),
+    ],
+)
+def test_what_cannot_be_eliminated_from_is_said(
+    point: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(NAMED)
+    assert main(["eliminate", str(file), "--at", point, "--quiet"]) == 2
+    assert said in capsys.readouterr().err

@@ -218,7 +218,7 @@ def test_other_values_of_parameters_are_taken(capsys) -> None:
         (["member", "{case}"], "which point? give either the name of one of the case"),
         (["member", "{case}", "right", "--at", "x=1,y=0"], "not both"),
         (["member", "{case}", "rigth"], "has no point 'rigth' (did you mean 'right'?)"),
-        (["member", "{export}", "right"], "has no named points; use --at"),
+        (["member", "{export}", "right"], "has no named points; write coordinates, --at"),
         (["member", "{case}", "--at", "x=1"], "--at: no value for y"),
         (["member", "{case}", "--at", "x=1,y"], "write 'variable = number'"),
         (["member", "{case}", "--at", ""], "write 'variable = number'"),

@@ -158,15 +158,15 @@ def system(
     return adjoin_unit(read.names, *parts) if is_complex else PolynomialSystem(names, *parts)
 
 
-def exact_complex(value: Any, place: str) -> Number | ComplexNumber:
-    """The exact number that is given, real or complex; ``I`` in a text is the unit.
+def exact_complex(value: Any, place: str, units: Sequence[str] = ("I",)) -> Number | ComplexNumber:
+    """The exact number that is given, real or complex; ``units`` name the unit in a text.
 
     Raises:
         ExpressionError: if it is none.
     """
-    if isinstance(value, str) and "I" in names_in(value):
+    if isinstance(value, str) and names_in(value) & {*units}:
         try:
-            return parse_parameter(value, ["I"], {}, Budget())
+            return parse_parameter(value, units, {}, Budget())
         except ExpressionError as error:
             raise ExpressionError(f"{place}: {error}") from None
     if is_sympy(value) and value.is_number and value.has(sys.modules["sympy"].I):
@@ -350,9 +350,9 @@ def coordinates(
         ValueError: if there are more or fewer than variables, or one is no finite number.
     """
     n, is_text = len(variables), isinstance(point, str)
+    units = ("I", *variables[-1:]) if imaginary else ("I",)
     if imaginary and hasattr(point, "__len__") and len(point) == n - 1 and not is_text:
-        given = coordinates(point, variables[:-1])
-        return (*given, 1j)
+        n, variables = n - 1, variables[:-1]
     if isinstance(point, Mapping):
         places = variable_indices(point, variables, "point")
         missing = [name for i, name in enumerate(variables) if i not in places]
@@ -369,12 +369,13 @@ def coordinates(
             f"point: {len(values)} coordinates are given; there are {n} variables: "
             f"{', '.join(variables)}"
         )
-    return tuple(_coordinate(value, f"point[{i}]") for i, value in enumerate(values))
+    given = [_coordinate(value, f"point[{i}]", units) for i, value in enumerate(values)]
+    return (*given, 1j) if imaginary and units[-1] not in variables else tuple(given)
 
 
-def _coordinate(value: Any, place: str) -> Number | complex:
+def _coordinate(value: Any, place: str, units: Sequence[str]) -> Number | complex:
     if not isinstance(value, Complex) or isinstance(value, Rational):
-        exact = exact_complex(value, place)
+        exact = exact_complex(value, place, units)
         if not isinstance(exact, ComplexNumber):
             return exact
         return complex(exact)

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 from nag.cli.arguments import UsageError, read_case_file, read_problem, whole
 from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
 from nag.cli.witness_input import (
+    ReadComponents,
     add_component,
     add_input,
+    asked_point,
     component_of,
     doubt_rows,
     is_export,
@@ -22,10 +24,12 @@ from nag.cli.witness_input import (
 if TYPE_CHECKING:
     import numpy as np
 
+    from nag.algebra.number import Number
     from nag.algebra.system import PolynomialSystem
     from nag.files.cases import Case
     from nag.interpolation.point_cloud import AmbientVariables, Cloud
     from nag.mechanism.problem import Problem
+    from nag.tracking.run import Run
     from nag.witness.witness import WitnessSet
 
 MOST_DEGREE = 100
@@ -51,8 +55,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--at",
         metavar="POINT",
-        help='the component through an exact regular point instead: "x = 0, y = 1/2", the name '
-        "of a point of the case, or `reference`",
+        help='the component through a point instead, exact and regular, or complex: "x = 0, '
+        'y = 1/2", the name of a point of the case, or `reference`',
     )
     parser.add_argument(
         "--degree",
@@ -122,19 +126,24 @@ def _begin(options: argparse.Namespace) -> Begun:
 
     rng = np.random.default_rng([options.seed, 4])
     run = chosen_run(options)
-    problem, top = None, []
+    problem, top, complex_point = None, [], None
     if not is_export(options.case):
         if options.component is None and options.formulation is None:
             options.formulation = _default_formulation(options)
         case, problem = read_problem(options)
         top = body_rows(problem)
         assembled = problem.mechanism is not None
-        if options.at is not None or (assembled and options.component is None):
+        if options.at is not None and not assembled:
+            complex_point = _complex_point(options, problem)
+        through = options.at is not None and complex_point is None
+        if through or (assembled and options.component is None):
             return _through_point(options, case, problem, rng, run, top)
     elif options.at is not None:
         raise UsageError("--at: is for cases; of an export name a --component")
     found = read_components(options)
     number = options.component or 1
+    if complex_point is not None:
+        number = _number_through(found, complex_point, run)
     component = component_of(found, number, "--component")
     system = found.decomposition.system
     ambient = AmbientVariables.itself(system) if problem is None else _ambient(problem)
@@ -144,6 +153,36 @@ def _begin(options: argparse.Namespace) -> Begun:
     tail = [*doubt_rows(found), *([("open", component.note)] if component.note else [])]
     cloud = Cloud(source_of_component(system, component), ambient, rng, run)
     return found.case, cloud, top, tail, list_alike(found.decomposition, number)
+
+
+def _complex_point(
+    options: argparse.Namespace, problem: Problem
+) -> tuple[Number | complex, ...] | None:
+    """The point of ``--at``, if a coordinate is complex: None of an exact one."""
+    points = {point.name: point.at for point in problem.points}
+    at = asked_point(options.case, options.at, problem.system, points)
+    return at if any(isinstance(x, complex) for x in at) else None
+
+
+def _number_through(found: ReadComponents, point: tuple[Number | complex, ...], run: Run) -> int:
+    """The number of the one component through a point that is known in doubles.
+
+    Raises:
+        UsageError: if there is not one.
+    """
+    from nag.witness.membership import Membership, locate_point
+
+    located = locate_point(found.decomposition, point, run=run)
+    numbers = [i for i, a in enumerate(located.answers, 1) if a is Membership.MEMBER]
+    if located.open or len(numbers) != 1:
+        on = f"on components {', '.join(map(str, numbers))}" if numbers else "on no component"
+        said = (
+            "it is not known on which components the point lies"
+            if located.open
+            else (f"the point lies {on}")
+        )
+        raise UsageError(f"--at: {said}; name a --component")
+    return numbers[0]
 
 
 def _default_formulation(options: argparse.Namespace) -> str | None:

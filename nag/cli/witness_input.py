@@ -169,7 +169,9 @@ def add_point(parser: argparse.ArgumentParser, otherwise: str = "") -> None:
         help=f"name of a point of the case; of a mechanism, 'reference'{otherwise}",
     )
     parser.add_argument(
-        "--at", metavar="VALUES", help="the point itself: 'x = 1/2, y = sqrt(3)/2', all variables"
+        "--at",
+        metavar="VALUES",
+        help="the point itself: 'x = 1/2, y = sqrt(3)/2', all variables; or its name",
     )
 
 
@@ -185,7 +187,23 @@ def chosen_point(
         return named_point(options.case, options.point, points)
     if options.point is not None:
         raise UsageError(ONE_POINT)
-    return point_at(options.at, system)
+    return asked_point(options.case, options.at, system, points)
+
+
+def asked_point(
+    file: str, text: str, system: PolynomialSystem, points: Points
+) -> tuple[Number | complex, ...]:
+    """The point that the text of ``--at`` names or spells.
+
+    Raises:
+        UsageError: if there is none.
+    """
+    from nag.algebra.tokens import is_name
+
+    name = text.strip()
+    if name in points or is_name(name):
+        return named_point(file, name, points)
+    return point_at(text, system)
 
 
 def named_point(file: str, name: str, points: Points) -> tuple[Number, ...]:
@@ -197,7 +215,7 @@ def named_point(file: str, name: str, points: Points) -> tuple[Number, ...]:
     from nag.algebra.tokens import nearest, quote
 
     if not points:
-        raise UsageError(f"{file}: has no named points; use --at")
+        raise UsageError(f"{file}: has no named points; write coordinates, --at 'x = 1, y = 2'")
     if name not in points:
         raise UsageError(
             f"{file}: has no point {quote(name)}{nearest(name, points)}; it has "
@@ -230,6 +248,7 @@ def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...
     from nag.algebra.tokens import nearest, quote
 
     variables = system.own_variables
+    units = ("I", *system.variables[len(variables) :])
     values: dict[str, str] = {}
     for part in text.split(","):
         name, equals, value = part.partition("=")
@@ -243,7 +262,7 @@ def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...
         if name in values:
             raise UsageError(f"--at: {name} is given twice")
         try:
-            exact_complex(value.strip(), name)
+            exact_complex(value.strip(), name, units)
         except NagError as error:
             raise UsageError(f"--at: {error}") from None
         values[name] = value.strip()

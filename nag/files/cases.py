@@ -582,13 +582,13 @@ def _read_points(
 
 
 def _read_coordinate(value: Any, system: PolynomialSystem, numbers: _Numbers) -> Number | complex:
-    """A point's coordinate, in doubles where the imaginary unit occurs in it."""
-    unit = system.variables[-1:] if system.imaginary else ()
-    if isinstance(value, str) and names_in(value) & set(unit):
-        found = parse_parameter(value, unit, {}, Budget())
-        if isinstance(found, ComplexNumber):
-            return complex(found)
-        return found
+    """A point's coordinate, in doubles where it is complex."""
+    taken = {*system.own_variables, *numbers.parameters}
+    units = [unit for unit in (*system.variables[-1:], "I") if unit not in taken]
+    complex_ = {k for k, v in numbers.parameters.items() if isinstance(v, ComplexNumber)}
+    if isinstance(value, str) and names_in(value) & {*units, *complex_}:
+        found = parse_parameter(value, units or ["I"], numbers.parameters, numbers.budget)
+        return complex(found) if isinstance(found, ComplexNumber) else found
     return numbers.number(value)
 
 
