@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any, Literal, Protocol, TypeAlias, TypedDict, Unpack
+from typing import Any, Literal, Protocol, TypeAlias, TypedDict, Unpack, overload
 
 import networkx
 import numpy as np
@@ -162,12 +162,22 @@ def mobility(
     tolerance: float | None = None,
     **running: Unpack[RunOptions],
 ) -> MobilityReport: ...
+@overload
 def model(
-    mechanism: File | Case | Mechanism,
+    mechanism: Mechanism,
     formulation: Formulation = "auto",
     modes: Iterable[tuple[str, int]] = (),
     space: Literal["planar", "spherical", "spatial"] | None = None,
 ) -> Model: ...
+@overload
+def model(mechanism: Parts, formulation: Formulation = "auto") -> AssemblyModel: ...
+@overload
+def model(
+    mechanism: File | Case,
+    formulation: Formulation = "auto",
+    modes: Iterable[tuple[str, int]] = (),
+    space: Literal["planar", "spherical", "spatial"] | None = None,
+) -> Model | AssemblyModel: ...
 def modes(
     mechanism: File | Case | Mechanism,
     platform: str | None = None,
@@ -235,6 +245,7 @@ def solve_family(
     values: Sequence[Sequence[complex]] | np.ndarray,
     variables: Names | None = None,
     *,
+    imaginary: str | None = None,
     start: str = "auto",
     count: int | None = None,
     known: tuple[Sequence[complex] | np.ndarray, np.ndarray] | None = None,

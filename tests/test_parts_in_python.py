@@ -124,3 +124,45 @@ def test_a_picture_says_what_is_in_it(tmp_path: Path) -> None:
     assert str(drawn).endswith(f"picture      {path}")
     with pytest.raises(nag.NagError, match=r"ends in \.svg"):
         nag.plot("x^2 + y^2 - 1", tmp_path / "curve.gif", onto="x, y")
+
+
+PARTS = {
+    "linkage": nag.read_case("cases/planar/four-bar.toml").assembly.linkage,
+    "framework": nag.Framework.of({"A": (0, 0), "B": (1, 0), "C": (0, 1)}, ["AB", "BC"]),
+    "table": nag.DHLoop.of([TWIST, OTHER] * 2),
+}
+
+
+@pytest.mark.parametrize("kind", PARTS)
+def test_parts_have_a_model(kind: str) -> None:
+    made = nag.model(PARTS[kind])
+    assert len(repr(made).splitlines()) == 1 and len(str(made).splitlines()) <= 6
+    assert nag.decompose(made) == nag.decompose(PARTS[kind])
+
+
+def test_files_of_parts_have_their_model() -> None:
+    assert nag.model("cases/planar/four-bar.toml") == nag.model(PARTS["linkage"])
+    assert [nag.model(PARTS["table"], f).system.n for f in "HE"] == [2, 8]
+
+
+@pytest.mark.parametrize(
+    ("kind", "options", "said"),
+    [
+        ("framework", {"formulation": "E"}, "formulation E: is for mechanisms and tables"),
+        ("table", {"formulation": "Q"}, "formulation Q: a table has formulations H and E"),
+        ("linkage", {"space": "planar"}, "space: is for a nag.Mechanism, not for parts"),
+        ("linkage", {"modes": [("A", 1)]}, "modes: is for a nag.Mechanism, not for parts"),
+    ],
+)
+def test_what_parts_have_no_model_in_is_said(kind: str, options: dict[str, Any], said: str) -> None:
+    with pytest.raises(nag.NagError, match=said):
+        nag.model(PARTS[kind], **options)
+
+
+def test_answers_are_sequences() -> None:
+    solutions = nag.solve("x^2 - 2")
+    assert [solutions.index(s) for s in solutions] == [0, 1]
+    assert solutions.count(solutions[1]) == 1 and solutions[0] in solutions
+    components = nag.decompose("(x^2 + y^2 - 1)*(x - y)")
+    assert [components.index(c) for c in components] == [0, 1]
+    assert list(reversed(components)) == [components[1], components[0]]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
@@ -61,7 +61,7 @@ class Continuation:
 
 
 @dataclass(frozen=True, eq=False)
-class DrivenMotion:
+class DrivenMotion(Sequence[Motion]):
     """A mechanism with a joint at one value after another.
 
     Attributes:
@@ -89,7 +89,13 @@ class DrivenMotion:
     def __iter__(self) -> Iterator[Motion]:
         return iter(self.motions)
 
-    def __getitem__(self, index: int) -> Motion:
+    @overload
+    def __getitem__(self, index: int) -> Motion: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Motion, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> Motion | tuple[Motion, ...]:
         return self.motions[index]
 
     __repr__ = one_line

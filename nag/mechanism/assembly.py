@@ -11,6 +11,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.mechanism.axes import Space
 from nag.mechanism.path_estimates import Alternative
 from nag.numerics.doubles import ROUGH
+from nag.text.table import one_line
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,13 @@ class AssemblyModel:
     alternatives: tuple[Alternative, ...]
     joint_types: tuple[str, ...] = ()
     sides: tuple[Side, ...] = ()
+
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        from nag.mechanism.shown import parts_text
+
+        return parts_text(self)
 
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real assembly, to within rounding.

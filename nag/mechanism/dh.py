@@ -229,7 +229,7 @@ class TableModel(AssemblyModel):
         return tuple(Alternative(name, table_model(self.loop, name)) for name in FORMULATIONS)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class DHModel(TableModel):
     """All ways to close a table, by the half-angles of its open joints.
 
@@ -379,7 +379,7 @@ def _choose_closure(loop: DHLoop) -> Closure:
     raise DHError("all axes are one line: every joint turns freely")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class DHEulerModel(TableModel):
     """All ways to close a table, by the Euler parameters of the bodies between its open joints.
 

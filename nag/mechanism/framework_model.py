@@ -32,7 +32,7 @@ from nag.mechanism.path_estimates import Alternative, fewest_estimated_paths
 from nag.numerics.doubles import ROUGH
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FrameworkModel(AssemblyModel):
     """The realisations of a framework up to motions, as a system.
 

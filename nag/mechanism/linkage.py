@@ -187,7 +187,7 @@ def hold_pin(linkage: Linkage, pin: str, first: str, second: str, angle: Number)
     return Linkage(first if linkage.ground == second else linkage.ground, left)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class LinkageModel(AssemblyModel):
     """All assemblies of a linkage as a system.
 

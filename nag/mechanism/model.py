@@ -13,6 +13,7 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
+from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space, same_line, space_of, zero_length
 from nag.mechanism.configuration import Configuration
@@ -28,7 +29,7 @@ from nag.mechanism.formulations import (
 from nag.mechanism.graph import Joint, Mechanism, check_mechanism
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
-from nag.mechanism.parts import model_parts
+from nag.mechanism.parts import model_parts, parts_in_formulation
 from nag.mechanism.path_estimates import Alternative, ModelError, path_bound
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.rods import RodModel
@@ -181,14 +182,16 @@ def model(
     formulation: str = "auto",
     modes: Modes = REFERENCE,
     space: Space | None = None,
-) -> Model:
+) -> Model | AssemblyModel:
     """The smallest faithful model of a mechanism, or the one that is asked for.
+
+    Parts that may be assembled in any way have one as well, an `AssemblyModel`.
 
     The smallest is the one with the fewest estimated paths.
 
     Args:
         mechanism: a `nag.Mechanism`, or a `nag.Case` of one; at least one of its joints must belong
-            to a loop.
+            to a loop. Or parts: a `nag.Linkage`, a `nag.Framework`, a `nag.DHLoop`.
         formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
             components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
             for half-angles and other joint coordinates, ``"S"`` for rods as distances, ``"auto"``;
@@ -199,7 +202,8 @@ def model(
 
     Raises:
         ModelError: if the mechanism has no loop, or ``formulation`` does not cover it.
-        ValueError: if another argument makes no sense; the message says which, and what would.
+        NagError: if parts have no model, or not in that formulation, or another argument makes no
+            sense; the message says which, and what would.
 
     >>> import nag
     >>> model = nag.model(nag.read_case("cases/bennett.toml").mechanism)
@@ -209,7 +213,12 @@ def model(
     True
     """
     mechanism = model_parts(mechanism)
-    check_mechanism(mechanism)
+    if isinstance(mechanism, AssemblyModel):
+        for name, given in (("modes", bool(modes)), ("space", space is not None)):
+            if given:
+                raise NagError(f"{name}: is for a nag.Mechanism, not for parts; leave it out")
+        return parts_in_formulation(mechanism, formulation)
+    check_mechanism(mechanism, "parts (a nag.Linkage, a nag.Framework, a nag.DHLoop)")
     check_listed(modes, "modes", "pairs of a joint's name and its mode")
     if space is not None:
         check_choice(space, "space", get_args(Space))

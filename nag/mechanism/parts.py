@@ -5,9 +5,43 @@ Which of them something is can be told before what models them is loaded.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nag.algebra.given import is_a
+from nag.errors import NagError
+
+if TYPE_CHECKING:
+    from nag.mechanism.assembly import AssemblyModel
+
+
+class FormulationError(NagError):
+    """A formulation is asked for of what has none."""
+
+
+def check_formulation(formulation: str) -> None:
+    """Make sure that no formulation is asked for of what has none.
+
+    Raises:
+        FormulationError: if one is.
+    """
+    if formulation != "auto":
+        raise FormulationError(f"formulation {formulation}: is for mechanisms and tables")
+
+
+def parts_in_formulation(parts: AssemblyModel, formulation: str) -> AssemblyModel:
+    """The model of parts in a formulation, the one that it has if that is ``"auto"``.
+
+    Raises:
+        FormulationError: if these parts have coordinates only.
+        nag.mechanism.dh.DHError: if a table has no such formulation.
+    """
+    if formulation in ("auto", parts.formulation):
+        return parts
+    if parts.formulation is None:
+        check_formulation(formulation)
+    from nag.mechanism.dh import table_model
+
+    return table_model(parts.loop, formulation)  # type: ignore[attr-defined]
 
 
 def model_parts(given: Any) -> Any:

@@ -20,8 +20,15 @@ from nag.algebra.system import NamedPoint, PolynomialSystem
 from nag.errors import NagError, StartError
 from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.assembly import AssemblyModel
-from nag.mechanism.parts import model_parts
+from nag.mechanism.parts import (
+    FormulationError,
+    check_formulation,
+    model_parts,
+    parts_in_formulation,
+)
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+
+__all__ = ["FormulationError", "Problem", "decompose", "problem_of", "solve"]
 
 if TYPE_CHECKING:
     from nag.algebra.symmetric_family import FamilyMember
@@ -30,10 +37,6 @@ if TYPE_CHECKING:
     from nag.mechanism.model import Model
     from nag.solving.solutions import SolveResult
     from nag.witness.witness import Decomposition
-
-
-class FormulationError(NagError):
-    """A formulation is asked for of what has none."""
 
 
 @dataclass(frozen=True)
@@ -247,16 +250,6 @@ def _describe_problem(given: Any, formulation: str) -> Problem | None:
     return None
 
 
-def check_formulation(formulation: str) -> None:
-    """Make sure that no formulation is asked for of what has none.
-
-    Raises:
-        FormulationError: if one is.
-    """
-    if formulation != "auto":
-        raise FormulationError(f"formulation {formulation}: is for mechanisms and tables")
-
-
 def _of_model(made: Model) -> Problem:
     # Other assembly modes have no reference configuration.
     reference = NamedPoint("reference", tuple(made.reference), "the reference configuration")
@@ -265,12 +258,7 @@ def _of_model(made: Model) -> Problem:
 
 
 def _of_parts(parts: AssemblyModel, formulation: str) -> Problem:
-    if formulation not in ("auto", parts.formulation):
-        if parts.formulation is None:
-            check_formulation(formulation)
-        from nag.mechanism.dh import table_model
-
-        parts = table_model(parts.loop, formulation)  # type: ignore[attr-defined]
+    parts = parts_in_formulation(parts, formulation)
     known = () if parts.reference is None else (NamedPoint("placement", parts.reference),)
     return Problem(parts.system, tuple(parts.symmetries), known, model=parts)
 

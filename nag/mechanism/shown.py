@@ -23,6 +23,7 @@ from nag.text.table import (
 from nag.text.table import number_text as rounded_text
 
 if TYPE_CHECKING:
+    from nag.mechanism.assembly import AssemblyModel
     from nag.mechanism.configuration import Configuration
     from nag.mechanism.graph import Mechanism
     from nag.mechanism.mode_decomposition import ModesAnswer
@@ -117,6 +118,23 @@ def model_text(model: Model) -> str:
             ("system", system_line(model.system)),
             ("reference", at),
             ("symmetries", signs),
+            ("counted", f"mobility {model.gruebler_kutzbach} by Gruebler-Kutzbach"),
+        ],
+    )
+
+
+def parts_text(model: AssemblyModel) -> str:
+    """A model of parts in five lines."""
+    known = model.reference
+    at = [] if known is None else [("placement", values_text(model.system.variables, known))]
+    symmetries = count_text(len(model.symmetries), "generator") if model.symmetries else "none"
+    return lines_of(
+        f"{type(model).__name__}: {model.reason}",
+        [
+            ("equations", model.formulation_text),
+            ("system", system_line(model.system)),
+            *at,
+            ("symmetries", symmetries),
             ("counted", f"mobility {model.gruebler_kutzbach} by Gruebler-Kutzbach"),
         ],
     )

@@ -157,7 +157,7 @@ class PathStatistics:
 
 
 @dataclass(frozen=True, eq=False)
-class SolveResult:
+class SolveResult(Sequence[Solution]):
     """All isolated solutions of a system that were found.
 
     Attributes:

@@ -452,7 +452,7 @@ class PathCounts:
 
 
 @dataclass(frozen=True)
-class Decomposition:
+class Decomposition(Sequence[WitnessSet]):
     """The irreducible components of the zero set of ``system``.
 
     Attributes:
