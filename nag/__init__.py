@@ -54,6 +54,7 @@ _HOME = {
     "MechanismError": "nag.errors",
     "NagError": "nag.errors",
     "StartError": "nag.errors",
+    "TimeLimitError": "nag.errors",
     "MobilityReport": "nag.mechanism.mobility_report",
     "Polynomial": "nag.algebra.polynomial",
     "PolynomialSystem": "nag.algebra.system",

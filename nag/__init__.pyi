@@ -24,6 +24,7 @@ from nag.errors import InputError as InputError
 from nag.errors import MechanismError as MechanismError
 from nag.errors import NagError as NagError
 from nag.errors import StartError as StartError
+from nag.errors import TimeLimitError as TimeLimitError
 from nag.files.case_table import CaseError as CaseError
 from nag.files.cases import Case as Case
 from nag.files.export import Origin
@@ -81,6 +82,7 @@ class RunOptions(TypedDict, total=False):
     progress: Progress | None
     resume: File | None
     executor: Executor | str | None
+    time_limit: float | None
 
 File: TypeAlias = str | os.PathLike[str]
 # Exact: text as "5/6" or "sqrt(2)", floats as their shortest decimals.

@@ -1,6 +1,6 @@
 """Errors for users: one line each that names what is wrong, where, and what to give instead.
 
-All are `NagError`, which is a ``ValueError``; the five below it say what the line is about.
+All are `NagError`, which is a ``ValueError``; the six below it say what the line is about.
 """
 
 from __future__ import annotations
@@ -54,3 +54,19 @@ class StartError(NagError):
 
 class ComponentError(NagError):
     """What was asked of a component was not found, or could not be decided."""
+
+
+class TimeLimitError(NagError):
+    """A time limit was reached before there was an answer.
+
+    Attributes:
+        found: what was found by then, an incomplete answer of a part of the work; None if nothing.
+    """
+
+    def __init__(self, message: str, found: object = None) -> None:
+        super().__init__(message)
+        self.message = message
+        self.found = found
+
+    def __str__(self) -> str:
+        return self.message

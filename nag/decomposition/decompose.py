@@ -23,12 +23,12 @@ from nag.decomposition.method import Attempt, Method, Others, Task, decompose_by
 from nag.decomposition.one_equation import decompose_one_equation
 from nag.decomposition.rational_curve import decompose_rational_curve
 from nag.numerics.system_facts import SystemFacts
-from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, answers_early
 from nag.witness.given_component import check_system
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 
-@takes_run
+@answers_early
 @np.errstate(over="ignore", invalid="ignore")
 def decompose(
     system: PolynomialSystem,

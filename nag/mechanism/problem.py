@@ -26,7 +26,7 @@ from nag.mechanism.parts import (
     model_parts,
     parts_in_formulation,
 )
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, answers_early
 
 __all__ = ["FormulationError", "Problem", "decompose", "problem_of", "solve"]
 
@@ -139,7 +139,7 @@ class Problem:
             raise NagError("lift: only mechanisms at a reference configuration have bodies")
         return self.mechanism.lift(point)
 
-    @takes_run
+    @answers_early
     def decompose(
         self,
         *,
@@ -165,7 +165,7 @@ class Problem:
 
         return decompose(self.system, run=run, symmetries=used)
 
-    @takes_run
+    @answers_early
     def solve(self, *, start: str = "auto", run: Run = DEFAULT_RUN) -> SolveResult:
         """The isolated solutions of the system, as `nag.solve` gives them.
 
@@ -272,7 +272,7 @@ def in_real_coordinates(problem: Problem) -> Problem:
     return problem_of(cartesian_model(problem.model.framework))  # type: ignore[union-attr]
 
 
-@takes_run
+@answers_early
 def decompose(
     system: Any,
     variables: Any = None,
@@ -344,7 +344,7 @@ def read_symmetries(given: Iterable[Any] | None, problem: Problem) -> tuple[Sign
     return tuple(found)
 
 
-@takes_run
+@answers_early
 def solve(
     system: Any,
     variables: Any = None,

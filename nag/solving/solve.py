@@ -29,7 +29,7 @@ from nag.solving.start.choice import check_kind, choose, mixed_volume
 from nag.solving.start.isotropic import isotropic
 from nag.solving.start.target import StartSystem
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, answers_early
 from nag.tracking.settings import Settings, find_settings, tighten
 from nag.tracking.track import track
 
@@ -42,7 +42,7 @@ Method = Callable[[SolveTask, Others], SolveResult | None]
 Finder = Callable[[PathSearch], PathSearch]
 
 
-@takes_run
+@answers_early
 @np.errstate(over="ignore", invalid="ignore")
 def solve(
     system: PolynomialSystem,

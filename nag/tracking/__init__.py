@@ -8,6 +8,7 @@ ends judged, by `newton`) with `jumps` and `known` (what a start system says of 
 endgame: the doubtful ones, followed in more digits, by `numbers`); `paths` (what is known in the
 end) and `evaluations` (what it took). `close_paths` starts where doubles would lose them;
 `certified_paths` on `moving_discs` proves. `blocks` (work found again in a `ledger`, or done by an
-`executor`) is asked by `track` and `ends`. `nag.thresholds` lists the numbers that decide something
-about an end; each is set in the file that uses it.
+`executor`) is asked by `track` and `ends`; `timed_call` ends what takes too long.
+`nag.thresholds` lists the numbers that decide something about an end; each is set in the file that
+uses it.
 """

@@ -11,7 +11,7 @@ from warnings import warn
 
 import numpy as np
 
-from nag.algebra.given import check_running
+from nag.algebra.given import check_running, check_size
 from nag.errors import NagError
 from nag.numerics.linear_algebra_threads import one_thread
 from nag.tracking.settings import Settings
@@ -41,6 +41,10 @@ class Run:
             the same; answers do not depend on it.
         executor: who works blocks out: an executor of `concurrent.futures`, or ``"processes:4"``,
             ``"dask://ADDRESS"``, ``"mpi"``; answers do not depend on it.
+        time_limit: seconds after which the work is ended. `nag.decompose` and `nag.solve` return
+            what they have told by ``found`` then, an incomplete answer; where there is nothing, and
+            elsewhere, `nag.TimeLimitError` is raised. The work is done in a process of its own,
+            which takes a second or two to start.
 
     Raises:
         nag.NagError: if one makes no sense; the message says which, and what would.
@@ -58,6 +62,7 @@ class Run:
     found: Found | None = None
     resume: str | PathLike[str] | None = None
     executor: Any = None
+    time_limit: float | None = None
 
     def __post_init__(self) -> None:
         check_running(self.seed, self.threads, self.settings, self.progress)
@@ -69,6 +74,8 @@ class Run:
             from nag.tracking.executor import check_executor
 
             check_executor(self.executor)
+        if self.time_limit is not None:
+            check_size(self.time_limit, "time_limit")
         object.__setattr__(self, "seed", int(self.seed))
         object.__setattr__(self, "threads", int(self.threads))
 
@@ -102,8 +109,15 @@ Answer = TypeVar("Answer")
 DEFAULT_RUN = Run()
 
 
-def takes_run(function: Callable[..., Answer]) -> Callable[..., Answer]:
-    """Let ``seed=1, threads=2, ...`` stand for ``run=Run(seed=1, threads=2, ...)`` in calls."""
+def takes_run(
+    function: Callable[..., Answer], *, answers_early: bool = False
+) -> Callable[..., Answer]:
+    """Let ``seed=1, threads=2, ...`` stand for ``run=Run(seed=1, threads=2, ...)`` in calls.
+
+    Args:
+        answers_early: whether what the function tells by ``run.found`` is what it returns, only
+            incomplete.
+    """
     names = frozenset(each.name for each in fields(Run))
 
     @wraps(function)
@@ -114,6 +128,11 @@ def takes_run(function: Callable[..., Answer]) -> Callable[..., Answer]:
                 raise NagError(f"{min(short)}: is given beside run; give one of them")
             named["run"] = Run(**short)
         run = named.get("run")
+        if run is not None and run.time_limit is not None:
+            from nag.tracking.timed_call import call_within
+
+            others = {name: value for name, value in named.items() if name != "run"}
+            return call_within(function, given, others, run, answers_early)
         if run is None or (run.resume is None and run.executor is None):
             with one_thread():
                 return function(*given, **named)
@@ -126,3 +145,8 @@ def takes_run(function: Callable[..., Answer]) -> Callable[..., Answer]:
         return result
 
     return call
+
+
+def answers_early(function: Callable[..., Answer]) -> Callable[..., Answer]:
+    """`takes_run` of a function that tells incomplete answers, one of which may be its last."""
+    return takes_run(function, answers_early=True)
