@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import prod
 
 import flint
 import numpy as np
 import pytest
 
 from nag.algebra.expression import parse_polynomial
+from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import bits_of
 
@@ -78,6 +80,31 @@ def test_sizes_of_terms_are_right_to_the_last_digits(digits: int) -> None:
         terms = f([abs(x) for x in point], abs)
         assert size.contains(to_many_digits(terms))
         assert size.rad() <= float(1 + terms) * flint.arb(10) ** -digits
+
+
+def test_rows_of_many_terms_hold_exact_values_and_slopes_and_sizes() -> None:
+    # (1 + 2 x - y/3 ..)(.. ) in six variables: 3^6 terms, two more rows beside it.
+    n = 6
+    x = Polynomial.variables(n)
+    many = prod(
+        (a * a * (i + 1) - a * Fraction(2, 7) + 3 for i, a in enumerate(x)), start=1 + 0 * x[0]
+    )
+    few, rng = x[0] * x[5] - 1, np.random.default_rng(3)
+    system = BallPolynomials.of([few, many, few + many])
+    point = [Fraction(int(k), 13) for k in rng.integers(-40, 40, n)]
+    for bits in (64, 300):
+        with flint.ctx.workprec(bits):
+            at = [flint.acb(flint.arb(c.numerator) / c.denominator) for c in point]
+            slopes, sizes = system.jacobian(at, bits).tolist(), system.sizes(at, bits)
+            values = system.values(at, bits).entries()
+            assert str(system.rows_of([1]).values(at, bits)[0, 0]) == str(values[1])
+        for f, value, row, size in zip((few, many, few + many), values, slopes, sizes, strict=True):
+            assert value.real.contains(to_many_digits(f(point)))
+            assert value.real.rad() < flint.arb(2) ** (60 - bits)
+            assert size.contains(to_many_digits(f([abs(c) for c in point], abs)))
+            for i, slope in enumerate(row):
+                assert slope.real.contains(to_many_digits(f.derivative(i)(point)))
+                assert slope.real.rad() < flint.arb(2) ** (60 - bits)
 
 
 def test_a_row_more_leaves_those_above_as_they_are() -> None:

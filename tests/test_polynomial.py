@@ -133,3 +133,13 @@ def test_jacobian_of_a_system():
     assert system.jacobian == ((2 * x, 2 * y), (y, x))
     assert system.degrees == (2, 2)
     assert system([Fraction(3, 5), Fraction(4, 5)]) == [0, Fraction(12, 25)]
+
+
+def test_values_at_fractions_are_those_of_the_terms_one_by_one() -> None:
+    f = parse_polynomial("3/7*x^3*y - 5*y^2*z + 1/11*z^4 - 2/3", ("x", "y", "z"))
+    x, y, z = Fraction(-2, 5), Fraction(0), Fraction(7, 3)
+    at = Fraction(3, 7) * x**3 * y - 5 * y**2 * z + Fraction(1, 11) * z**4 - Fraction(2, 3)
+    assert f((x, y, z)) == at
+    assert type(f((x, y, z))) is Fraction
+    assert Polynomial(3, {})((x, y, z)) == 0
+    assert Polynomial.constant(0, Fraction(3, 4))(()) == Fraction(3, 4)

@@ -341,10 +341,29 @@ class Polynomial:
         they are when the entries are exact, and as floats otherwise.
         """
         if convert is None:
+            if self.exact and all(type(x) is Fraction for x in point):
+                return self._at_fractions(point)
             exact = all(isinstance(x, int | Number) for x in point)
             convert = (lambda c: c) if exact else float
         converted = ((e, convert(c)) for e, c in self.terms.items())
         return sum_terms(converted, point, convert(Fraction(0)))
+
+    def _at_fractions(self, point: Sequence[Fraction]) -> Fraction:
+        """The value at a rational point: one of integers over one common denominator."""
+        assert self.whole
+        terms, below = self.whole
+        degrees = [max(powers) for powers in zip(*terms, strict=True)]
+        tables = []
+        for x, degree in zip(point, degrees, strict=bool(terms)):
+            p, q = x.as_integer_ratio()
+            tables.append([p**k * q ** (degree - k) for k in range(degree + 1)])
+            below *= q**degree
+        total = 0
+        for e, c in terms.items():
+            for table, k in zip(tables, e, strict=True):
+                c *= table[k]
+            total += c
+        return Fraction(total, below)
 
     def compose(self, images: Sequence[Polynomial]) -> Polynomial:
         """The polynomial in the images' variables, variable ``i`` replaced by ``images[i]``."""

@@ -301,7 +301,7 @@ def dh_model(loop: DHLoop) -> DHModel:
         )
     closure = _choose_closure(loop)
     charts = Charts.of([e.factor for e in closure.kept if e.factor is not None])
-    equations = independent_polynomials(closure.polynomials(charts.values.__getitem__))
+    equations = independent_polynomials(closure.polynomials(charts))
     return DHModel(loop, closure, charts, replace(charts.system(()), polynomials=tuple(equations)))
 
 

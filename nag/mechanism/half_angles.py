@@ -266,9 +266,7 @@ def half_angle_model(structure: LoopStructure, modes: Modes = REFERENCE) -> Half
 
 def _equations(closure: Closure, charts: Charts) -> Sequence[Polynomial]:
     """The equations of a loop; six and more say together what one of two joints says alone."""
-    # Of a loop in which all that moves is held or eliminated they are numbers.
-    zero = Polynomial(charts.n, {})
-    found = [zero + f for f in closure.polynomials(charts.values.__getitem__)]
+    found = closure.polynomials(charts)
     return found if len(closure.basis) == WIDE else of_fewest_variables(found)
 
 

@@ -26,6 +26,8 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.exact_ranks import left_inverse, null_space, rank
+from nag.algebra.factoring import ring
+from nag.algebra.flint_numbers import to_rational
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.errors import NagError
@@ -33,6 +35,7 @@ from nag.mechanism.axes import dot
 from nag.mechanism.graph import Joint
 from nag.mechanism.joint_factors import (
     UNIT,
+    Charts,
     Factor,
     factors_of_joint,
     mode_constant,
@@ -44,6 +47,10 @@ from nag.mechanism.quaternion import (
     dual_multiply,
     translation,
 )
+
+
+def _as_given(c: Number) -> Number:
+    return c
 
 
 @dataclass(frozen=True)
@@ -95,10 +102,29 @@ class Closure:
         """Number of equations, before dependent ones are left out."""
         return 8 - len(self.basis) + int(self.quadric)
 
-    def polynomials(self, coordinates: Callable[[Factor], Sequence[Any]]) -> list[Polynomial]:
-        """The loop's equations; ``coordinates`` gives a factor's homogeneous coordinates."""
-        flat = conjugate_product(self.kept, coordinates)
-        return closing_equations(flat, self.annihilator, self.coordinates if self.quadric else ())
+    def polynomials(self, charts: Charts) -> list[Polynomial]:
+        """The loop's equations in the charts' variables."""
+        values, convert = charts.values, _as_given
+        rows, inverse = self.annihilator, self.coordinates if self.quadric else ()
+        field = None
+        if self._is_rational:
+            # FLINT multiplies polynomials in a twentieth of the time.
+            field, convert = ring(charts.n), to_rational
+            values = {f: tuple(map(field.of, values[f])) for f in factors_in(self.kept)}
+            rows, inverse = ([list(map(convert, r)) for r in some] for some in (rows, inverse))
+        flat = conjugate_product(self.kept, values.__getitem__, convert)
+        equations = closing_equations(flat, rows, inverse, convert(Fraction(0)))
+        # Of a loop in which all that moves is held or eliminated they are numbers.
+        if field is None:
+            return [Polynomial(charts.n, {}) + f for f in equations]
+        return [field.polynomial(field.context.constant(0) + f) for f in equations]
+
+    @property
+    def _is_rational(self) -> bool:
+        """Whether no constant of the loop is a square root or another such number."""
+        constants = (x for e in self.kept for g in e.generators for part in g for x in part)
+        rows = (x for row in (*self.annihilator, *self.coordinates) for x in row)
+        return all(isinstance(x, int | Fraction) for x in (*constants, *rows))
 
     def recover(
         self, coordinates: Callable[[Factor], Sequence[Any]], convert: Callable[[Number], Any]
@@ -116,20 +142,22 @@ class Closure:
 
 
 def closing_equations(
-    flat: Sequence[Polynomial],
-    annihilator: Sequence[Sequence[Number]],
-    coordinates: Sequence[Sequence[Number]] = (),
-) -> list[Polynomial]:
+    flat: Sequence[Any],
+    annihilator: Sequence[Sequence[Any]],
+    coordinates: Sequence[Sequence[Any]] = (),
+    zero: Any = Fraction(0),
+) -> list[Any]:
     """What vanishes when a loop closes.
 
     Args:
         flat: the entries of conj(A).
         annihilator: rows whose products with these vanish.
         coordinates: rows that give them in the basis of W, where w00 w11 = w10 w01 is needed.
+        zero: of the rows' arithmetic.
     """
-    equations = [_combine(row, flat) for row in annihilator]
+    equations = [_combine(row, flat, zero) for row in annihilator]
     if coordinates:
-        w00, w10, w01, w11 = (_combine(row, flat) for row in coordinates)
+        w00, w10, w01, w11 = (_combine(row, flat, zero) for row in coordinates)
         equations.append(w00 * w11 - w10 * w01)
     return equations
 
@@ -158,7 +186,7 @@ def _split_products(w: np.ndarray) -> tuple[Any, Any]:
 def conjugate_product(
     elements: Sequence[Element],
     coordinates: Callable[[Factor], Sequence[Any]],
-    convert: Callable[[Number], Any] = lambda c: c,
+    convert: Callable[[Number], Any] = _as_given,
 ) -> list[Any]:
     """conj(A) as 8 entries, for the product A of the elements."""
     product: DualQuaternion | None = None
@@ -251,8 +279,8 @@ def dot4(p: Sequence[Any], q: Sequence[Any]) -> Any:
     return p[0] * q[0] + dot(p[1:], q[1:])
 
 
-def _combine(row: Sequence[Number], flat: Sequence[Any]) -> Any:
-    return sum((f * c for c, f in zip(row, flat, strict=True)), Fraction(0))
+def _combine(row: Sequence[Any], flat: Sequence[Any], zero: Any) -> Any:
+    return sum((f * c for c, f in zip(row, flat, strict=True)), zero)
 
 
 def joint_elements(joint: Joint, mode: int, forward: bool) -> tuple[Element, ...]:

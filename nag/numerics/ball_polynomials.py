@@ -1,12 +1,13 @@
 """Systems of polynomials and linear rows in balls: values, Jacobians, sizes of the terms.
 
 In as many bits as each call asks for, whatever precision was worked in before. Every monomial is
-made once for all rows, of two earlier ones.
+made once for all rows, of two earlier ones. A row of many terms is a matrix between monomials in
+its first variables and in its last ones.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -24,6 +25,8 @@ from nag.numerics.digits import in_bits, to_ball
 GUARD = 4
 # Systems that are kept ready to be evaluated.
 KEPT = 128
+# Terms from which on a row is a matrix, of which this part at least are terms.
+MANY_TERMS, FILLED = 200, 0.25
 
 # The variables of a monomial, in their order, each with its exponent.
 Factors = tuple[tuple[int, int], ...]
@@ -95,6 +98,97 @@ class Slopes:
 
 
 @dataclass(frozen=True, eq=False)
+class DenseRow:
+    """A row of many terms: u C v, with monomials u in its first variables and v in its last ones.
+
+    C v and u C, two products in compiled code, give the derivatives by all variables as well.
+
+    Attributes:
+        monomials: those of u and v, and of their derivatives.
+        sides: places of the entries of u and of v.
+        lowered: for u and v, their derivatives by each variable: its index, and for each entry that
+            changes its index, its exponent and the place of what it becomes.
+        entries: of C that are not zero: row, column, coefficient.
+    """
+
+    monomials: MonomialProducts
+    sides: tuple[tuple[int, ...], tuple[int, ...]]
+    lowered: tuple[tuple[tuple[int, tuple[tuple[int, int, int], ...]], ...], ...]
+    entries: tuple[tuple[int, int, Any], ...]
+    _matrices: dict[int, flint.acb_mat] = field(default_factory=dict, repr=False)
+
+    @classmethod
+    def of(cls, row: Sequence[tuple[Any, Factors]], n: int) -> DenseRow | None:
+        """None where there are few terms, or much of the matrix is empty."""
+        if len(row) < MANY_TERMS:
+            return None
+        support = sorted({i for _, f in row for i, _ in f})
+        cut = support[len(support) // 2]
+        sides: tuple[dict[Factors, int], dict[Factors, int]] = {}, {}
+        entries = []
+        for c, f in row:
+            k = sum(i < cut for i, _ in f)
+            places = (
+                side.setdefault(part, len(side))
+                for side, part in zip(sides, (f[:k], f[k:]), strict=True)
+            )
+            entries.append((*places, c))
+        if len(row) < FILLED * len(sides[0]) * len(sides[1]):
+            return None
+        made = MonomialProducts(n)
+        lowered = []
+        for side in sides:
+            derivatives: dict[int, list[tuple[int, int, int]]] = {}
+            for f, index in side.items():
+                for at, (i, k) in enumerate(f):
+                    derivatives.setdefault(i, []).append((index, k, made.place(_lower(f, at))))
+            lowered.append(tuple((i, tuple(found)) for i, found in derivatives.items()))
+        first, last = (tuple(map(made.place, side)) for side in sides)
+        return cls(made, (first, last), tuple(lowered), tuple(entries))
+
+    def value(self, x: Sequence[Any], bits: int) -> flint.acb:
+        """The value at a point in balls."""
+        u, v = self._monomials_at(self.monomials.values(x))
+        return (u * (self._matrix(bits) * v.transpose()))[0, 0]
+
+    def slopes(self, x: Sequence[Any], bits: int) -> Iterator[tuple[int, flint.acb]]:
+        """The variables that occur, each with the derivative by it."""
+        at, matrix = self.monomials.values(x), self._matrix(bits)
+        u, v = self._monomials_at(at)
+        beside = matrix * v.transpose(), (u * matrix).transpose()
+        for side, column in zip(self.lowered, beside, strict=True):
+            for i, changed in side:
+                line = flint.acb_mat(1, len(changed), [at[place] * k for _, k, place in changed])
+                factors = [column[index, 0] for index, _, _ in changed]
+                yield i, (line * flint.acb_mat(len(factors), 1, factors))[0, 0]
+
+    def size(self, x: Sequence[Any]) -> flint.arb:
+        """The sum of the absolute values of the terms, in the bits that are worked in."""
+        at = [abs(z) for z in self.monomials.values(x)]
+        first, last = self.sides
+        return sum(
+            (abs(in_ball(c)) * at[first[i]] * at[last[j]] for i, j, c in self.entries), flint.arb(0)
+        )
+
+    def _monomials_at(self, at: Sequence[Any]) -> Iterator[flint.acb_mat]:
+        """u and v, each a row."""
+        return (flint.acb_mat(1, len(side), [at[k] for k in side]) for side in self.sides)
+
+    def _matrix(self, bits: int) -> flint.acb_mat:
+        """C, in these bits; what rounds nothing in fewer bits is the same in more."""
+        if bits not in self._matrices:
+            known = (m for b, m in self._matrices.items() if b < bits and m.mid() == m)
+            found = next(known, None)
+            if found is None:
+                rows: list[list[Any]] = [[0] * len(self.sides[1]) for _ in self.sides[0]]
+                for i, j, c in self.entries:
+                    rows[i][j] = in_ball(c)
+                found = flint.acb_mat(rows)
+            self._matrices[bits] = found
+        return self._matrices[bits]
+
+
+@dataclass(frozen=True, eq=False)
 class BallPolynomials:
     """Rows of terms: pairs of an exact coefficient and the monomial that it stands before.
 
@@ -108,6 +202,7 @@ class BallPolynomials:
     _terms: dict[int, list[list[tuple[flint.acb, int]]]] = field(default_factory=dict, repr=False)
     _constants: dict[int, _Constants] = field(default_factory=dict, repr=False)
     _parts: dict[tuple[int, ...], BallPolynomials] = field(default_factory=dict, repr=False)
+    _known_dense: dict[int, DenseRow | None] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(
@@ -138,8 +233,31 @@ class BallPolynomials:
         key = tuple(chosen)
         if key not in self._parts:
             rows = self.all_rows
-            self._parts[key] = BallPolynomials(self.n, tuple(rows[i] for i in key))
+            part = BallPolynomials(self.n, tuple(rows[i] for i in key))
+            part._known_dense.update({k: self._dense_row(i) for k, i in enumerate(key)})
+            self._parts[key] = part
         return self._parts[key]
+
+    def _dense_row(self, i: int) -> DenseRow | None:
+        """A row of many terms, also one of those above."""
+        first = len(self) - len(self.rows)
+        if self.above is not None and i < first:
+            return self.above._dense_row(i)
+        if i - first not in self._known_dense:
+            self._known_dense[i - first] = DenseRow.of(self.rows[i - first], self.n)
+        return self._known_dense[i - first]
+
+    @cached_property
+    def _dense(self) -> list[DenseRow | None]:
+        """The rows, without those above, that are of many terms; None for each other."""
+        first = len(self) - len(self.rows)
+        return [self._dense_row(first + i) for i in range(len(self.rows))]
+
+    @cached_property
+    def _short(self) -> list[tuple[tuple[Any, Factors], ...]]:
+        """The rows without the terms of those that are of many."""
+        pairs = zip(self.rows, self._dense, strict=True)
+        return [() if dense else row for row, dense in pairs]
 
     def values(self, x: Sequence[flint.acb], bits: int) -> flint.acb_mat:
         """Values, a column."""
@@ -152,7 +270,10 @@ class BallPolynomials:
             self._terms[bits] = self._terms_in(bits)
         at = self._monomials.values(x)
         values = [] if self.above is None else self.above._values(x, bits)
-        for row in self._terms[bits]:
+        for row, dense in zip(self._terms[bits], self._dense, strict=True):
+            if dense is not None:
+                values.append(dense.value(x, bits))
+                continue
             # Terms that cancel exactly leave no error, as they would in a product of matrices.
             total = flint.acb(0)
             for c, place in row:
@@ -166,15 +287,18 @@ class BallPolynomials:
             if fewer < bits and all(c.is_exact() for row in rows for c, _ in row):
                 return rows
         place = self._monomials.place
-        return [[(in_ball(c), place(f)) for c, f in row] for row in self.rows]
+        return [[(in_ball(c), place(f)) for c, f in row] for row in self._short]
 
     def sizes(self, x: Sequence[Any], bits: int) -> list[flint.arb]:
         """Sums of the absolute values of each row's terms at a point."""
         with in_bits(bits):
             at = [abs(z) for z in self._monomials.values(x)]
-            terms = [[(in_ball(c), self._monomials.place(f)) for c, f in row] for row in self.rows]
-            above = [] if self.above is None else self.above.sizes(x, bits)
-            return above + [sum((abs(c) * at[i] for c, i in row), flint.arb(0)) for row in terms]
+            sizes = [] if self.above is None else self.above.sizes(x, bits)
+            for row, dense in zip(self._short, self._dense, strict=True):
+                terms = ((in_ball(c), self._monomials.place(f)) for c, f in row)
+                total = sum((abs(c) * at[i] for c, i in terms), flint.arb(0))
+                sizes.append(total if dense is None else dense.size(x))
+            return sizes
 
     def jacobian(self, x: Sequence[flint.acb], bits: int) -> flint.acb_mat:
         """The Jacobian matrix."""
@@ -193,6 +317,9 @@ class BallPolynomials:
             column = flint.acb_mat(len(row.monomials), 1, [at[m] for m in row.monomials])
             for place, slope in zip(row.places, (matrix * column).entries(), strict=True):
                 entries[place] = slope
+        for k, dense in enumerate(self._dense):
+            for i, slope in dense.slopes(x, bits) if dense is not None else ():
+                entries[k * self.n + i] = slope
         return entries if self.above is None else self.above._jacobian(x, bits) + entries
 
     def _constants_in(self, bits: int) -> _Constants:
@@ -204,7 +331,7 @@ class BallPolynomials:
     @cached_property
     def _monomials(self) -> MonomialProducts:
         made = MonomialProducts(self.n)
-        for row in self.rows:
+        for row in self._short:
             for _, f in row:
                 made.place(f)
         return made
@@ -214,7 +341,7 @@ class BallPolynomials:
         made = MonomialProducts(self.n)
         derivatives = [
             [(i, made.place(_lower(f, at)), (c, k)) for c, f in row for at, (i, k) in enumerate(f)]
-            for row in self.rows
+            for row in self._short
         ]
         return made, [_slopes_of(row, r * self.n) for r, row in enumerate(derivatives)]
 
@@ -262,8 +389,12 @@ class _Constants:
 
 def _constants_of(rows: Sequence[Slopes], size: int) -> _Constants:
     entries, matrices, exact = [flint.acb(0)] * size, [], True
+    zero = flint.acb(0)
     for k, row in enumerate(rows):
-        values = [flint.acb(0) if e is None else in_ball(e[0]) * e[1] for e in row.entries]
+        # A term has a derivative by each of its variables, with the same coefficient.
+        terms = {id(e[0]): e[0] for e in row.entries if e is not None}
+        balls = {key: in_ball(c) for key, c in terms.items()}
+        values = [zero if e is None else balls[id(e[0])] * e[1] for e in row.entries]
         exact = exact and all(c.is_exact() for c in values)
         if row.monomials == (0,):
             for place, c in zip(row.places, values, strict=True):

@@ -221,7 +221,7 @@ def deflate(
                 raise NotDeflated("the zero found is further away than the error of the point")
             if not left:
                 return _regular(system, point, rounds, descent)
-            lowest = _lowest_terms(system, point, rounds, reach, patience)
+            lowest = _lowest_terms(system, point, rounds, reach, descent.inverse, patience)
             if lowest is None:
                 return DeflatedPoint(point, tuple(rounds), left, descent.defect, descent.inverse)
             order, descent = lowest
@@ -260,10 +260,22 @@ def _regular(
 
 
 def _lowest_terms(
-    system: ExactSystem, point: Point, rounds: Sequence[Round], reach: float, patience: float
+    system: ExactSystem,
+    point: Point,
+    rounds: Sequence[Round],
+    reach: float,
+    inverse: float,
+    patience: float,
 ) -> tuple[int, Descent] | None:
+    """The order of the lowest terms of what remains, and the series; None where it vanishes."""
     from nag.numerics.curves import order_of_contact
 
+    contact: float | None = None
+    if len(rounds) == 1 and rounds[0].columns:
+        # Points beside take a fraction of the time of series, which show nothing along a set.
+        contact = order_of_contact(system, point, rounds, inverse)
+        if contact == 0:
+            return None
     left = len(point) - sum(len(r.columns) for r in rounds)
     least, most, known = 0.0, patience * MOST_WORK, 0
     for order in ORDERS:
@@ -288,7 +300,7 @@ def _lowest_terms(
             most, known = patience * MOST_WORK_ROUGHLY, order
         elif not least:
             # Each round's equations are derivatives, of lower order along the set.
-            least = order_of_contact(system, point, rounds, descent.inverse)
+            least = contact or order_of_contact(system, point, rounds, descent.inverse)
             if least == 0:
                 return None
             least /= prod(r.order for r in rounds[:-1])

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from math import floor, gcd, lcm, log2, prod
+from operator import mul
 from typing import Any
 
 import flint
@@ -200,15 +201,19 @@ def _scale_terms(
     """
     kept = [(e, c) for e, c in terms if not isinstance(c, complex) or c]
     if all(isinstance(c, Fraction) for _, c in kept):
-        whole = lcm(*(c.denominator for _, c in kept))
-        kept = [(e, c * whole) for e, c in kept]
-    shifts = [sum(k * s for k, s in zip(e, scales, strict=True)) for e, _ in kept]
+        ratios = [c.as_integer_ratio() for _, c in kept]
+        whole = lcm(*(q for _, q in ratios))
+        kept = [
+            (e, Fraction(p * (whole // q))) for (e, _), (p, q) in zip(kept, ratios, strict=True)
+        ]
+    shifts = [sum(map(mul, e, scales)) for e, _ in kept]
     top = floor(max(_log2(c) + s for (_, c), s in zip(kept, shifts, strict=True)))
+    powers = {shift: Fraction(2) ** (shift - top) for shift in set(shifts)}
     result = []
     for (e, c), shift in zip(kept, shifts, strict=True):
         if isinstance(c, complex):
             c = complex(np.ldexp(c.real, shift - top), np.ldexp(c.imag, shift - top))
-        else:
-            c = c * Fraction(2) ** (shift - top)
+        elif shift != top:
+            c = c * powers[shift]
         result.append((e, c))
     return tuple(result)
