@@ -319,3 +319,52 @@ def test_a_turn_is_told_with_its_line() -> None:
     moving = nag.mobility(Mechanism("wall", (hinge,)), of="door").moving
     assert moving is not None and moving.body is not None
     assert moving.body.motion.place == "about the line through (3, 4, 0) along (0, 0, 1)"
+
+
+def on_parallel_legs(feet: list[tuple[int, int]]) -> Mechanism:
+    """A platform on rods of one length, all upright, with balls at both ends."""
+    joints = []
+    for i, (x, y) in enumerate(feet):
+        joints += [
+            ball(f"A{i}", ("base", f"rod{i}"), (x, y, 0)),
+            ball(f"B{i}", (f"rod{i}", "platform"), (x, y, 3)),
+        ]
+    return Mechanism("base", tuple(joints))
+
+
+FEET = [(1, 0), (3, 1), (0, 4), (-2, 3), (-3, -1), (2, -5)]
+
+
+def test_a_body_moves_where_all_configurations_are_singular() -> None:
+    """On six equal upright legs it moves in circles, and turns about the upright infinitesimally.
+
+    So it does wherever it is: no configuration is reduced.
+    """
+    report = nag.mobility(on_parallel_legs(FEET), of="platform", detail="local")
+    assert (report.tangent_dimension, report.local_dimension) == (9, 8)
+    assert report.moving is not None and report.moving.body is not None
+    motion = report.moving.body.motion
+    assert (motion.rank, motion.turning) == (2, 0)
+    assert report.moving.idle_count == 6 and report.never_reduced
+    assert report.sentence.startswith("platform: 2 freedoms, translation with 2 freedoms")
+    assert "all configurations near by are singular" in report.sentence
+
+
+@settings(max_examples=5, deadline=None)
+@given(seed=st.integers(0, 10**6), turn=st.integers(-3, 3), far=st.integers(-3, 3))
+def test_motions_of_singular_components_do_not_depend_on_where_they_are_looked_at(
+    seed: int, turn: int, far: int
+) -> None:
+    made = on_parallel_legs([(x + far, y - turn * x) for x, y in FEET])
+    found = find_moving_parts(made, 8, np.random.default_rng(seed), None, "platform")
+    assert found.body is not None
+    assert (found.body.motion.rank, found.body.motion.turning) == (2, 0)
+    assert [e.bodies for e in found.idle] == [(f"rod{i}",) for i in range(6)]
+
+
+@pytest.mark.parametrize("name", ["robots/3-upu-wrist", "spatial/sarrus-kinematotropic"])
+def test_a_configuration_that_is_more_singular_than_others_is_told_to_be(name: str) -> None:
+    made = mechanism(name)
+    report = nag.mobility(made, detail="local")
+    assert report.moving is None and not report.never_reduced
+    assert report.unclear == "the configuration is singular; give one near by with --at"

@@ -147,22 +147,13 @@ def _unsaid_rows(options: argparse.Namespace, report: MobilityReport) -> Iterato
         if report.local_dimension == 0:
             yield "of", f"{options.of}: no freedom, it stands still"
         else:
-            yield "of", f"{options.of}: not known: {_why_unclear(report)}"
+            yield "of", f"{options.of}: not known: {report.unclear}"
     if options.tolerance is not None and report.near is None:
         yield (
             "tolerance",
             "not looked at: that is for the reference configuration of a mechanism that is rigid "
             "as it is given",
         )
-
-
-def _why_unclear(report: MobilityReport) -> str:
-    """Why it is not known what moves."""
-    if report.local is None or report.local.smooth:
-        return "what moves is not clear in doubles"
-    if report.never_reduced:
-        return "all configurations near by are singular"
-    return "the configuration is singular; give one near by with --at"
 
 
 def _beside_known(report: MobilityReport, case: Case) -> tuple[str, bool, dict[str, Any]] | None:

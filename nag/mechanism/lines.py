@@ -1,12 +1,14 @@
 """Axes as lines by Pluecker coordinates: a direction, and the moment point x direction.
 
 Other programs for linkages have their axes like that, rational-linkages among them, whose lines
-are read as they are.
+are read as they are. Any point of an axis may be given: in doubles stands the one nearest to the
+middle of the mechanism, found exactly, since one far along the axis would hide all lengths.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -14,11 +16,15 @@ import numpy as np
 from nag.algebra.from_python import exact_vector
 from nag.algebra.number import is_zero
 from nag.errors import MechanismError
-from nag.mechanism.axes import cross, dot, vanishes
-from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.axes import Vector, cross, difference, dot, vanishes
+from nag.mechanism.graph import ORIGIN, Joint, Mechanism
 
 # Decides: How far direction and moment may be from orthogonal, in numbers that are rounded.
 ROUNDED = 1e-9
+# Decides: Singular values, beside the largest, of directions in which no axis bounds the middle.
+PARALLEL = 1e-6
+# Steps to the middle; after the first one differences are those of near points.
+REFINEMENTS = 2
 
 
 def loop_of_lines(lines: Iterable[Any]) -> Mechanism:
@@ -58,6 +64,51 @@ def _axis(line: Any, index: int) -> tuple[Sequence[Any], Sequence[Any]]:
     return tuple(x / squared for x in cross(direction, moment)), direction
 
 
+def middle_of(joints: Sequence[Joint]) -> Vector:
+    """The point with the least squared distances from axes of turns and from centres, rational.
+
+    The same whatever points of their axes the joints name. Of parallel axes the one in the plane
+    through the origin across them.
+    """
+    placed = [joint for joint in joints if has_place(joint)]
+    across = np.array([_projection(joint) for joint in placed]).reshape(-1, 3, 3)
+    middle = ORIGIN
+    for _ in range(REFINEMENTS):
+        away = [difference(nearest_on_axis(joint, middle), middle) for joint in placed]
+        values = [own @ [float(x) for x in d] for own, d in zip(across, away, strict=True)]
+        rows = across.reshape(-1, 3), np.array(values).reshape(-1)
+        step = np.linalg.lstsq(*rows, rcond=PARALLEL)[0]
+        middle = tuple(x + Fraction(d) for x, d in zip(middle, step.tolist(), strict=True))
+    return middle
+
+
+def _projection(joint: Joint) -> np.ndarray:
+    """The matrix that takes the gap from a joint's place to the part that cannot be chosen."""
+    if not turns_about_line(joint):
+        return np.eye(3)
+    axis = np.array([float(x) for x in joint.axis])
+    axis /= np.linalg.norm(axis)
+    return np.eye(3) - np.outer(axis, axis)
+
+
+def has_place(joint: Joint) -> bool:
+    """Whether it matters where a joint is: of slides and rigid joints only directions do."""
+    return not joint.of_type.is_rigid and not joint.of_type.slides_only
+
+
+def turns_about_line(joint: Joint) -> bool:
+    """Whether any point of its axis may stand for a joint."""
+    return bool({"turn", "plane"} & set(joint.of_type.factors)) and joint.second_axis is None
+
+
+def nearest_on_axis(joint: Joint, to: Vector) -> Vector:
+    """The point of a joint's axis that is nearest to a point, exactly; else its centre."""
+    if not turns_about_line(joint):
+        return joint.point
+    along = dot(difference(to, joint.point), joint.axis) / dot(joint.axis, joint.axis)
+    return tuple(x + along * y for x, y in zip(joint.point, joint.axis, strict=True))
+
+
 def lines_of(mechanism: Mechanism) -> np.ndarray:
     """Direction, of length 1, and moment of each joint that has an axis, shape ``(k, 6)``."""
     rows = []
@@ -65,6 +116,7 @@ def lines_of(mechanism: Mechanism) -> np.ndarray:
         if joint.axis is not None:
             direction = np.array([float(x) for x in joint.axis])
             direction /= np.linalg.norm(direction)
-            moment = np.cross([float(x) for x in joint.point], direction)
+            near = nearest_on_axis(joint, ORIGIN)
+            moment = np.cross([float(x) for x in near], direction)
             rows.append([*direction, *moment])
     return np.array(rows).reshape(-1, 6)

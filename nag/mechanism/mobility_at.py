@@ -23,10 +23,11 @@ from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.graph import Mechanism, check_mechanism
+from nag.mechanism.joint_chains import NotClear
 from nag.mechanism.loops import gruebler_kutzbach, loop_structure
 from nag.mechanism.mobility_report import ALL_POSES, CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model
-from nag.mechanism.moving_parts import MovingParts, NotClear, find_moving_parts
+from nag.mechanism.moving_parts import find_moving_parts
 from nag.mechanism.nearly_mobile import check_tolerance, find_near_motion, find_spoiled_motion
 from nag.mechanism.parts import model_parts
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
@@ -143,7 +144,7 @@ def mobility_in_steps(
     if tree is not None:
         check_body(of, tree)
         first = _without_loops(tree)
-        yield replace(first, moving=_moving_parts(tree, first, None, of, run))
+        yield _with_moving(first, tree, None, of, run)
         return
     problem = None
     if point is None and formulation == "auto":
@@ -309,7 +310,7 @@ def _with_parts(
         shaky = first.tangent_dimension != 0
         return first if shaky else replace(first, hint=find_spoiled_motion(made.mechanism))
     places = None if at_reference else _places(made, at)
-    return replace(first, moving=_moving_parts(made.mechanism, first, places, of, run))
+    return _with_moving(first, made.mechanism, places, of, run)
 
 
 def _places(made: Model, at: Sequence[Number]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
@@ -326,21 +327,23 @@ def _places(made: Model, at: Sequence[Number]) -> dict[str, tuple[np.ndarray, np
     return found
 
 
-def _moving_parts(
-    mechanism: Mechanism,
+def _with_moving(
     report: MobilityReport,
+    mechanism: Mechanism,
     places: Mapping[str, tuple[np.ndarray, np.ndarray]] | None,
     of: str | None,
     run: Run,
-) -> MovingParts | None:
-    """What moves near a smooth configuration; None elsewhere, or where it is not clear."""
-    smooth = report.local is None or report.local.smooth
-    if report.local_dimension is None or not smooth:
-        return None
+) -> MobilityReport:
+    """A report, and what moves near the configuration, or why that is not known."""
+    if report.local_dimension is None:
+        return replace(report, unclear="the local dimension is not decided")
+    if report.unreal:
+        return replace(report, unclear="no real motion has all of its freedoms")
     try:
-        return find_moving_parts(mechanism, report.local_dimension, run.random(46), places, of)
-    except NotClear:
-        return None
+        moving = find_moving_parts(mechanism, report.local_dimension, run.random(46), places, of)
+    except NotClear as reason:
+        return replace(report, unclear=str(reason))
+    return replace(report, moving=moving)
 
 
 def _with_components(

@@ -108,7 +108,9 @@ class MobilityReport:
         least_degree: what the degree of the one component through a smooth configuration is at
             least, where it is not known.
         rests_on: what ``components`` are known by, and why a degree is not; empty where nothing is.
-        moving: what moves near a smooth configuration of a mechanism; None elsewhere.
+        moving: what moves near a configuration of a mechanism that is smooth, or as singular as all
+            others near it; None elsewhere.
+        unclear: why it is not known what moves; empty where it is, or was not looked at.
         near: how a rigid mechanism would move if its loops were let open; None if that was not
             asked for.
         hint: at a rigid mechanism that may be meant to move; empty where there is none.
@@ -136,6 +138,7 @@ class MobilityReport:
     least_degree: int | None = None
     rests_on: str = ""
     moving: MovingParts | None = None
+    unclear: str = ""
     near: NearMotion | None = None
     hint: str = ""
     unreal: int = 0
@@ -163,7 +166,11 @@ class MobilityReport:
     @property
     def never_reduced(self) -> bool:
         """Whether every configuration near this one is known to be singular in the equations."""
-        return bool(self.multiplicities) and min(self.multiplicities) > 1
+        if bool(self.multiplicities) and min(self.multiplicities) > 1:
+            return True
+        # What moves is told of configurations that are smooth, or as singular as all near by.
+        singular = self.local is not None and self.local.decided and not self.local.smooth
+        return singular and self.moving is not None
 
     @property
     def agrees(self) -> bool:
