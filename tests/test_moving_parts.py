@@ -368,3 +368,53 @@ def test_a_configuration_that_is_more_singular_than_others_is_told_to_be(name: s
     report = nag.mobility(made, detail="local")
     assert report.moving is None and not report.never_reduced
     assert report.unclear == "the configuration is singular; give one near by with --at"
+
+
+@pytest.mark.parametrize(
+    ("name", "body", "said"),
+    [
+        ("planar/four-bar", "coupler", "coupler: 1 freedom, turns about one direction"),
+        ("planar/double-parallelogram", "top", "top: 1 freedom, translation with 1 freedom"),
+        ("planar/watt-six-bar", "crank", "rotation about the line through (0, 0, 0) along"),
+        ("spherical/five-bar", "link3", "link3: 2 freedoms, turns about two directions"),
+        ("spatial/bennett", "link1", "link1: 1 freedom, rotation about the line"),
+        ("planar/prism-parallel", "E-F", "E-F: 1 freedom, translation with 1 freedom"),
+        ("planar/braced-square", "C-D", "C-D: no freedom, it stands still"),
+    ],
+)
+def test_links_tables_and_bars_have_freedoms(name: str, body: str, said: str) -> None:
+    report = nag.mobility(read_case(CASES / f"{name}.toml"), of=body, budget=0)
+    assert report.moving is not None and report.moving.body is not None
+    assert said in str(report.moving.body)
+
+
+def test_a_link_moves_as_its_component_does() -> None:
+    bars = {"base": "AD2", "left": "AB1", "top": "BC2", "right": "CD1"}
+    made = nag.Linkage.of(bars, "base")
+    somewhere = nag.mobility(made, of="top", budget=0)
+    assert somewhere.moving is None and somewhere.unclear.startswith("2 components have 1 freedom")
+    c, s = Fraction(3, 5), Fraction(4, 5)
+    crossed, upright = (1, 0, 1, 0, -1, 0), (c, s, 1, 0, -c, -s)
+    report = nag.mobility(made, upright, of="top", detail="local")
+    assert report.moving is not None and report.moving.body is not None
+    assert (report.moving.body.motion.rank, report.moving.body.motion.turning) == (1, 0)
+    report = nag.mobility(made, crossed, of="top", detail="local")
+    assert report.unclear == "the configuration is singular; give one near by with --at"
+
+
+def test_a_table_moves_alike_in_both_formulations() -> None:
+    case = read_case(CASES / "spatial" / "bennett.toml")
+    found = [nag.mobility(case, of="link2", formulation=name, budget=0) for name in "HE"]
+    kinds = [r.moving.body.motion.rank for r in found if r.moving and r.moving.body]
+    assert kinds == [1, 1]
+
+
+def test_what_has_no_bodies_is_told_to_have_none(capsys: pytest.CaptureFixture[str]) -> None:
+    for name, said in (
+        ("spatial/octahedron", "a framework in space has points and bars"),
+        ("literature/twisted-cubic", "is for mechanisms, whose bodies have names"),
+        ("planar/four-bar", "'stick' is no body; they are base, crank, coupler, rocker"),
+    ):
+        assert main(["mobility", str(CASES / f"{name}.toml"), "--of", "stick", "--quiet"]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert said in line

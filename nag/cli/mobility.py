@@ -212,7 +212,7 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
 
     case = _read_case(options)
     try:
-        check_body(options.of, case.mechanism)
+        check_body(options.of, case.mechanism or case.assembly)
     except NagError as error:
         raise UsageError(f"--{error}") from None
     if tree_of(case) is not None:

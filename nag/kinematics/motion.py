@@ -892,7 +892,8 @@ def _idle(problem: Problem, run: Run) -> str:
     """Which parts of a mechanism turn idly near its reference configuration, in words."""
     if not isinstance(problem.model, Model) or problem.reference is None:
         return ""
-    from nag.mechanism.moving_parts import NotClear, find_moving_parts
+    from nag.mechanism.joint_chains import NotClear
+    from nag.mechanism.moving_parts import find_moving_parts
 
     try:
         found = find_moving_parts(problem.model.mechanism, 1 + problem.free, run.random(46))

@@ -218,6 +218,26 @@ class LinkageModel(AssemblyModel):
         """The turns of links that close nothing."""
         return ((len(self.free), "the links that hang on one pin"),) if self.free else ()
 
+    def pin_places(self, point: Sequence[Any]) -> dict[str, tuple[Any, Any]]:
+        """The places of all pins where the moving links have these cosines and sines.
+
+        Links that close nothing are not turned.
+        """
+        held, *moving = self.in_loops
+        turn: dict[str, tuple[Any, Any]] = {link.name: (1, 0) for link in self.linkage.links}
+        turn |= {k.name: (point[2 * i], point[2 * i + 1]) for i, k in enumerate(moving)}
+        places: dict[str, tuple[Any, Any]] = dict(zip(held.pins, held.shape, strict=True))
+        left = [link for link in self.linkage.links if link.name != held.name]
+        while left:
+            link = next(k for k in left if places.keys() & set(k.pins))
+            left.remove(link)
+            (c, s), start = turn[link.name], next(p for p in link.pins if p in places)
+            (x0, y0), origin = places[start], link.shape[link.pins.index(start)]
+            for pin, (x, y) in zip(link.pins, link.shape, strict=True):
+                dx, dy = x - origin[0], y - origin[1]
+                places.setdefault(pin, (x0 + c * dx - s * dy, y0 + s * dx + c * dy))
+        return places
+
     @property
     def alternatives(self) -> tuple[Alternative, ...]:
         """In turns of the links, in which components are found, and in places of the pins."""
@@ -335,19 +355,7 @@ class PinModel(LinkageModel):
 
     def places_at(self, point: Sequence[Number]) -> tuple[Number, ...]:
         """The places of the pins where the moving links have these cosines and sines."""
-        held, *moving = self.in_loops
-        turn: dict[str, tuple[Any, Any]] = {held.name: (1, 0)}
-        turn |= {k.name: (point[2 * i], point[2 * i + 1]) for i, k in enumerate(moving)}
-        places: dict[str, tuple[Any, Any]] = dict(zip(held.pins, held.shape, strict=True))
-        left = list(moving)
-        while left:
-            link = next(k for k in left if places.keys() & set(k.pins))
-            left.remove(link)
-            (c, s), start = turn[link.name], next(p for p in link.pins if p in places)
-            (x0, y0), origin = places[start], link.shape[link.pins.index(start)]
-            for pin, (x, y) in zip(link.pins, link.shape, strict=True):
-                dx, dy = x - origin[0], y - origin[1]
-                places.setdefault(pin, (x0 + c * dx - s * dy, y0 + s * dx + c * dy))
+        places = self.pin_places(point)
         return tuple(x for pin in self.pins for x in places[pin])
 
 

@@ -19,6 +19,7 @@ from nag.decomposition.growth import grow_component
 from nag.decomposition.through import through_points, zero_at
 from nag.errors import MechanismError, NagError
 from nag.mechanism import BUDGET, FORMULATIONS, PLATFORM_ALONE
+from nag.mechanism.assembled import assemble_parts, bodies_of
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
@@ -33,7 +34,7 @@ from nag.mechanism.parts import model_parts
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.quaternion import R
-from nag.mechanism.real_assemblies import real_doubt
+from nag.mechanism.real_assemblies import real_assemblies, real_doubt
 from nag.numerics.local_dimension import local_dimension_near
 from nag.numerics.second_order import count_real_directions
 from nag.text.table import count_text
@@ -88,8 +89,8 @@ def mobility(
             processor does in them, so that the answer does not depend on the time that is taken;
             what is not known then is bounded from below. At a singular one that is not isolated
             nothing is decomposed that is sure to take longer.
-        of: the name of a body whose freedoms are asked for, of a mechanism at a smooth
-            configuration.
+        of: the name of a body whose freedoms are asked for: of a mechanism, a link of a linkage or
+            a table (``"link2"``), or a bar of a framework in the plane (``"A-B"``).
         tolerance: of a mechanism that is rigid as it is given, how far its loops may open, in
             radians and as a part of its size, for it to be called nearly mobile.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
@@ -152,18 +153,22 @@ def mobility_in_steps(
     problem = problem or problem_of(mechanism, formulation=formulation)
     if problem.model is None:
         check_mechanism(problem.system, "the parts of a case, case.assembly")
-    check_body(of, problem.mechanism.mechanism if problem.mechanism is not None else None)
+    made = problem.mechanism
+    check_body(of, problem.parts if made is None else made.mechanism)
     at = problem.reference
     if problem.formulation == PLATFORM_ALONE:
         _check_poses(at, point)
     if point is not None:
         at = coordinates(point, problem.system.variables)
     if at is None:
-        yield _in_general(problem, detail, run)
+        yield _in_general(problem, detail, of, run)
         return
     first = _local_report(problem, at, run)
-    if problem.mechanism is not None:
-        first = _with_parts(first, problem.mechanism, point is None, at, of, tolerance, run)
+    if made is not None:
+        first = _with_parts(first, made, point is None, at, of, tolerance, run)
+    elif of is not None and problem.parts is not None:
+        there = assemble_parts(problem.parts, None if point is None else at)
+        first = _with_moving(first, there, None, of, run)
     yield first
     if detail == "local":
         return
@@ -277,7 +282,7 @@ def _local_report(problem: Problem, at: Sequence[Number], run: Run) -> MobilityR
     )
 
 
-def check_body(of: str | None, mechanism: Mechanism | None) -> None:
+def check_body(of: str | None, given: Mechanism | AssemblyModel | None) -> None:
     """That a body whose freedoms are asked for is there.
 
     Raises:
@@ -285,11 +290,11 @@ def check_body(of: str | None, mechanism: Mechanism | None) -> None:
     """
     if of is None:
         return
-    if mechanism is None:
+    if given is None:
         raise MechanismError("of: is for mechanisms, whose bodies have names; leave it out")
-    if of not in mechanism.body_names:
-        names = ", ".join(mechanism.body_names)
-        raise MechanismError(f"of: {quote(of)} is no body; they are {names}")
+    known = given.body_names if isinstance(given, Mechanism) else bodies_of(given)
+    if of not in known:
+        raise MechanismError(f"of: {quote(of)} is no body; they are {', '.join(known)}")
 
 
 def _with_parts(
@@ -445,7 +450,7 @@ def _with_only_component(
     )
 
 
-def _in_general(problem: Problem, detail: str, run: Run) -> MobilityReport:
+def _in_general(problem: Problem, detail: str, of: str | None, run: Run) -> MobilityReport:
     """The mobility at a general configuration of parts that may be assembled."""
     if detail == "local":
         raise NagError("the parts are not assembled; give a point, an assembly of them")
@@ -460,7 +465,7 @@ def _in_general(problem: Problem, detail: str, run: Run) -> MobilityReport:
     doubt = ""
     if known is not None and known.dimension and problem.parts is not None:
         doubt = real_doubt(problem.parts, {c.corank for c in components if c.dimension})
-    return MobilityReport(
+    report = MobilityReport(
         **_count_freedoms(problem),
         tangent_dimension=None if known is None else known.corank + free,
         lower=free + (0 if known is None else known.dimension),
@@ -476,6 +481,43 @@ def _in_general(problem: Problem, detail: str, run: Run) -> MobilityReport:
         doubt=doubt,
         rests_on=ALL_COMPONENTS if found.complete else "",
     )
+    if of is None or report.local_dimension == 0:
+        return report
+    if known is None or problem.parts is None:
+        return replace(report, unclear="the components are not known")
+    # Symmetries carry what is one and the same assembly to itself, if it has several points.
+    each = found.components if problem.parts.points_of_each > 1 else components
+    motions = sum(c.dimension == known.dimension for c in each)
+    return _with_general_motion(report, problem, known.corank, motions, of, run)
+
+
+def _with_general_motion(
+    report: MobilityReport, problem: Problem, corank: int, motions: int, of: str, run: Run
+) -> MobilityReport:
+    """A report of a general configuration, and how a body moves there, if it is real.
+
+    Args:
+        corank: of the Jacobian there.
+        motions: how many components have so many freedoms.
+    """
+    if motions > 1:
+        return replace(
+            report,
+            unclear=f"{motions} components have {count_text(report.lower, 'freedom')}, and it may "
+            "move in another way on each; give a configuration with --at",
+        )
+    parts = in_real_coordinates(problem).parts
+    assert parts is not None
+    for zero in real_assemblies(parts, run.seed):
+        if zero.corank != corank:
+            continue
+        there = _with_moving(report, assemble_parts(parts, zero.x.tolist()), None, of, run)
+        if there.moving is None or there.moving.body is None:
+            return there
+        # What is so at this one alone is nothing that was asked for.
+        body = replace(there.moving.body, screws=None)
+        return replace(there, moving=replace(there.moving, body=body))
+    return replace(report, unclear=report.doubt or "no real assembly was found that moves")
 
 
 def _without_loops(mechanism: Mechanism) -> MobilityReport:

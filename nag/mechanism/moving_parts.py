@@ -61,18 +61,20 @@ class BodyFreedoms:
         body: its name.
         motion: what its poses have in common, all along the component; of rank 0 where it stands
             still.
-        screws: the twists that it can have at the configuration itself.
+        screws: the twists that it can have at the configuration itself; None where that is any.
     """
 
     body: str
     motion: MotionType
-    screws: ScrewSystem
+    screws: ScrewSystem | None
 
     def __str__(self) -> str:
         rank = self.motion.rank
         if not rank:
             return f"{self.body}: no freedom, it stands still"
         text = f"{self.body}: {count_text(rank, 'freedom')}, {self.motion}"
+        if self.screws is None:
+            return text
         if self.screws.rank < rank:
             there = f"screws of {self.screws} alone" if self.screws.rank else "none of them"
             return f"{text}; at the configuration {there}"
@@ -84,8 +86,8 @@ class BodyFreedoms:
             "body": self.body,
             "freedoms": self.motion.rank,
             "translations": self.motion.rank - self.motion.turning,
-            "freedoms_there": self.screws.rank,
-            "pitches": list(self.screws.pitches),
+            "freedoms_there": None if self.screws is None else self.screws.rank,
+            "pitches": None if self.screws is None else list(self.screws.pitches),
             "kind": str(self.motion) if self.motion.rank else "",
         }
 
