@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import io
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
     UsageError,
@@ -16,6 +16,7 @@ from nag.cli.arguments import (
 )
 from nag.cli.running import (
     CommandAnswer,
+    answer_document,
     answer_of,
     chosen_run,
     name_case,
@@ -68,6 +69,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.solving.family_members import check_values, solve_members
     from nag.solving.parameter import solve_generic
     from nag.text.table import count_text
+    from nag.tracking.run import UNFINISHED
 
     family = member.symmetric.original
     given = [complex(v) for v in member.values]
@@ -76,9 +78,14 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     start, count = options.start, member.solutions
     if start == "auto" and count is not None:
         start = "parameter"
-    how = chosen_run(options)
+
+    def document_of(early: FamilySolutions) -> dict[str, Any]:
+        fields = _fields(early) | {"notes": [UNFINISHED]}
+        return answer_document(options, name_case(case), fields, False)
+
+    how = chosen_run(options, document_of)
     try:
-        solved = solve_generic(family, start=start, count=count, run=how)
+        solved = solve_generic(family, start=start, count=count, run=how.without_found)
     except StartError as error:
         raise UsageError(f"{options.case}: {error}") from None
     found = solve_members(solved, values, run=how)
@@ -109,17 +116,25 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if len(incomplete):
         more = " and more" if len(incomplete) > 5 else ""
         rows.append(("open", f"members {', '.join(str(k + 1) for k in incomplete[:5])}{more}"))
-    fields = {
+    complete = bool(found.complete.all())
+    return answer_of(options, name_case(case), [rows], [], _fields(found), complete)
+
+
+def _fields(found: FamilySolutions) -> dict[str, Any]:
+    """What the document says of the members."""
+    real, start = found.real_counts.tolist(), found.start
+    numbers = zip(found.counts, real, found.complete, found.one_by_one, strict=True)
+    return {
         "format": FORMAT,
+        "notes": [],
         "variables": list(found.variables),
-        "parameters": list(family.parameters),
-        "solutions": general,
+        "parameters": list(found.parameters),
+        "solutions": len(start.points),
         "members": [
             {"solutions": int(n), "real": r, "complete": bool(c), "one_by_one": bool(o)}
-            for n, r, c, o in zip(found.counts, real, found.complete, found.one_by_one, strict=True)
+            for n, r, c, o in numbers
         ],
     }
-    return answer_of(options, name_case(case), [rows], [], fields, bool(found.complete.all()))
 
 
 def _missing(complete: bool) -> str:

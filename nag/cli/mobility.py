@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
@@ -16,7 +16,14 @@ from nag.cli.arguments import (
     read_given_case,
     whole,
 )
-from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case, say_first
+from nag.cli.running import (
+    CommandAnswer,
+    answer_document,
+    answer_of,
+    chosen_run,
+    name_case,
+    say_first,
+)
 from nag.cli.witness_input import real_point_at
 from nag.errors import NagError
 from nag.mechanism import BUDGET
@@ -28,6 +35,7 @@ if TYPE_CHECKING:
     from nag.mechanism.mobility_report import Alike, MobilityReport
     from nag.mechanism.other_equations import OtherEquations
     from nag.mechanism.problem import Problem
+    from nag.tracking.run import Run
 
 FORMAT = "nag-mobility"
 # Labels are as wide as the widest from the first line on.
@@ -107,10 +115,14 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     case, problem = _read_moving(options)
     at = None if options.at is None else real_point_at(options.at, problem.system)
     others = iter(()) if problem is None or not options.check else _other_equations(problem, at)
-    from nag.algebra.number import number_text
     from nag.mechanism.mobility_report import MobilityStatus
 
-    for report in _reports(options, problem or case, at):
+    here = at or (None if problem is None else problem.reference)
+
+    def document_of(early: MobilityReport) -> dict[str, Any]:
+        return answer_document(options, name_case(case), _fields(options, early, here), False)
+
+    for report in _reports(options, problem or case, at, chosen_run(options, document_of)):
         say_first(options, name_case(case), report.early_rows(), WIDTH)
     rows = [*report.rows(), *_unsaid_rows(options, report)]
     complete = options.of is None or report.moving is not None or report.local_dimension == 0
@@ -128,17 +140,25 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         text, agree, compared = _compare(options, report, next(others, None))
         rows.append(("check", text))
         complete &= agree
-    here = at or (None if problem is None else problem.reference)
-    fields = {
-        "format": FORMAT,
-        "budget": options.budget if _is_limited(options, report) else None,
-        "configuration": [number_text(x) for x in here or ()],
-        **report.document(),
-        "known": beside,
-        "check": compared,
-    }
+    fields = _fields(options, report, here) | {"known": beside, "check": compared}
     said = f"budget {options.budget} s" if _is_limited(options, report) else ""
     return answer_of(options, name_case(case), (), rows, fields, complete, said=said, width=WIDTH)
+
+
+def _fields(
+    options: argparse.Namespace, report: MobilityReport, at: Sequence[Number] | None
+) -> dict[str, Any]:
+    """What the document says, but for what the case knows and other equations say."""
+    from nag.algebra.number import number_text
+
+    return {
+        "format": FORMAT,
+        "budget": options.budget if _is_limited(options, report) else None,
+        "configuration": [number_text(x) for x in at or ()],
+        **report.document(),
+        "known": None,
+        "check": None,
+    }
 
 
 def _unsaid_rows(options: argparse.Namespace, report: MobilityReport) -> Iterator[tuple[str, str]]:
@@ -268,6 +288,7 @@ def _reports(
     options: argparse.Namespace,
     given: Case | Problem,
     at: tuple[Number, ...] | None,
+    how: Run,
     budget: int | None = None,
 ) -> Iterator[MobilityReport]:
     """What is known of a configuration, and then what is known more."""
@@ -283,7 +304,7 @@ def _reports(
             budget=budget,
             of=options.of,
             tolerance=options.tolerance,
-            run=chosen_run(options),
+            run=how,
         )
     except NoAssembly as reason:
         raise UsageError(f"{options.case}: {reason}") from None
@@ -301,7 +322,7 @@ def _compare(
     # unless these depend linearly on each other.
     smooth = report.local is None or report.local.smooth
     budget = 0 if smooth and equations.alike != "degrees" else None
-    *_, other = _reports(options, equations.problem, equations.at, budget)
+    *_, other = _reports(options, equations.problem, equations.at, chosen_run(options), budget)
     agree = other.same_motion(report, equations.alike)
     text = (
         f"{equations.name}, {other.equations} equations in {other.variables} "

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
     StoreOnce,
@@ -15,8 +16,11 @@ from nag.cli.arguments import (
     read_given_case,
     whole,
 )
-from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
+from nag.cli.running import CommandAnswer, answer_document, answer_of, chosen_run, name_case
 from nag.mechanism import MODES_BUDGET
+
+if TYPE_CHECKING:
+    from nag.mechanism.modes_report import OperationModes
 
 FORMAT = "nag-operation-modes"
 MOST_SECONDS = 1_000_000
@@ -52,34 +56,21 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.mechanism import PLATFORM_ALONE
     from nag.mechanism.operation_modes import modes
     from nag.report.agreement import agreement_text, compare
-    from nag.text.json_text import pairs
     from nag.witness.shown import paths_text
 
     case = read_given_case(options)
     if case.mechanism is None:
         raise only_assembled(case, "nag modes")
+
+    def document_of(early: OperationModes) -> dict[str, Any]:
+        return answer_document(options, name_case(case), _fields(early), False)
+
+    how = chosen_run(options, document_of)
     try:
-        found = modes(
-            case.mechanism, options.platform, budget=options.budget, run=chosen_run(options)
-        )
+        found = modes(case.mechanism, options.platform, budget=options.budget, run=how)
     except (MechanismError, InterpolationError) as error:
         raise UsageError(f"{options.case}: {error}") from None
     decomposition = found.decomposition
-    system = decomposition.system
-    points = [
-        {
-            "slice": {"A": pairs(mode.component.slice.A), "b": pairs(mode.component.slice.b)},
-            "points": pairs(mode.component.points),
-        }
-        for mode in found.modes
-    ]
-    fields = {
-        "format": FORMAT,
-        **found.document(),
-        "paths": asdict(decomposition.paths),
-        "system": {"variables": list(system.variables), "polynomials": system.text()},
-        "witness": points,
-    }
     blocks = found.rows(), found.table(), found.mode_rows()
     tail = found.tail()
     known = [t for t in case.truth if t.formulation]
@@ -89,4 +80,25 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if agreement is not None:
         tail.append(("known", agreement_text(agreement)))
     tail.append(("paths", paths_text(decomposition.paths)))
-    return answer_of(options, name_case(case), blocks, tail, fields, found.complete)
+    return answer_of(options, name_case(case), blocks, tail, _fields(found), found.complete)
+
+
+def _fields(found: OperationModes) -> dict[str, Any]:
+    """What the document says of the modes, their witness sets with it."""
+    from nag.text.json_text import pairs
+
+    system = found.decomposition.system
+    points = [
+        {
+            "slice": {"A": pairs(mode.component.slice.A), "b": pairs(mode.component.slice.b)},
+            "points": pairs(mode.component.points),
+        }
+        for mode in found.modes
+    ]
+    return {
+        "format": FORMAT,
+        **found.document(),
+        "paths": asdict(found.decomposition.paths),
+        "system": {"variables": list(system.variables), "polynomials": system.text()},
+        "witness": points,
+    }

@@ -20,7 +20,14 @@ from nag.cli.arguments import (
     read_given_case,
     whole,
 )
-from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case, write_document
+from nag.cli.running import (
+    CommandAnswer,
+    answer_document,
+    answer_of,
+    chosen_run,
+    name_case,
+    write_document,
+)
 from nag.errors import NagError
 from nag.kinematics import MOST_VALUES
 
@@ -158,10 +165,10 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         "drive": {name: values[0] for name, values in drives if len(values) == 1},
         "pose": dict(options.pose or ()),
         "samples": options.samples,
-        "run": chosen_run(options),
     }
     try:
         if ranges:
+            held["run"] = chosen_run(options)
             return _run_through(options, case, problem, ranges[0], held)
         return _run_once(options, case, problem, held)
     except NagError as error:
@@ -175,8 +182,19 @@ def _run_once(
     from nag.kinematics.motion import motion
     from nag.kinematics.shown import assembly_rows, drive_text, motion_rows
 
+    def document_of(early: Motion) -> dict[str, Any]:
+        return answer_document(options, name_case(case), fields_of(early), False)
+
+    def fields_of(found: Motion) -> dict[str, Any]:
+        return {
+            "format": FORMAT,
+            "formulation": problem.formulation,
+            "samples": options.samples,
+            **found.document(),
+        }
+
     asked = options.circuit or ("reference" if not held["drive"] else "all")
-    found = motion(problem, circuit=asked, **held)
+    found = motion(problem, circuit=asked, **held, run=chosen_run(options, document_of))
     if options.csv is not None:
         write_document(_table_text(found.whole_table(angles=options.angles)), options.csv, "csv")
     tail = [("open", note) for note in found.notes]
@@ -191,13 +209,7 @@ def _run_once(
     if found.drive is not None or found.held or found.poses:
         blocks.append([("driven", drive_text(found))])
         blocks.append(assembly_rows(found) if found.assemblies else [])
-    fields = {
-        "format": FORMAT,
-        "formulation": problem.formulation,
-        "samples": options.samples,
-        **found.document(),
-    }
-    return answer_of(options, name_case(case), blocks, tail, fields, found.complete)
+    return answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
 
 
 def _run_through(

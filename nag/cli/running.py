@@ -77,13 +77,23 @@ def answer_of(
     """
     from nag.text.table import sheet
 
-    chosen = {name: getattr(options, name) for name in rests_on}
-    head = document_head(fields["format"], case)
-    document = head | chosen | {"complete": complete} | fields
+    document = answer_document(options, case, fields, complete, rests_on)
     lines = sheet(case[0], *blocks, [*tail, run_row(options, rests_on, said)], width=width)
     if lines[: len(options.said)] == options.said:
         lines = lines[len(options.said) :]
     return CommandAnswer(lines, complete, lambda: document)
+
+
+def answer_document(
+    options: argparse.Namespace,
+    case: tuple[str, str],
+    fields: dict[str, Any],
+    complete: bool,
+    rests_on: Sequence[str] = ("seed", "settings"),
+) -> dict[str, Any]:
+    """The document of an answer, or of what is known of it by now; arguments as of `answer_of`."""
+    chosen = {name: getattr(options, name) for name in rests_on}
+    return document_head(fields["format"], case) | chosen | {"complete": complete} | fields
 
 
 def say_first(

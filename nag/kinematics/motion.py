@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal, get_args
 
@@ -36,7 +36,7 @@ from nag.numerics.local_dimension import local_dimension
 from nag.numerics.read_only import equal_values
 from nag.real.curve import RealCurve
 from nag.text.table import count_text, one_line
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition, WitnessSet
 
@@ -543,45 +543,56 @@ def _motion_on(
         raise NagError(f"samples: give a whole number from {LEAST_SAMPLES} to {MOST_SAMPLES}")
     if not problem.system.n:
         raise MotionError("no equation has an unknown: nothing moves but what is in no loop")
-    decomposition = problem.decompose(run=run)
+    inner = run.without_found
+    decomposition = problem.decompose(run=inner)
     notes = [] if decomposition.complete else [f"components: {'; '.join(decomposition.notes)}"]
-    found, left_out, others = _choose_components(problem, decomposition, which, run, notes, holding)
-    curve_of = curve_of or (lambda component: _real_curve(component, run))
-    curves = []
+    found, left_out, others = _choose_components(
+        problem, decomposition, which, inner, notes, holding
+    )
+    curve_of = curve_of or (lambda component: _real_curve(component, inner))
+    made, idle = problem.model, _idle(problem, inner)
+    curves: list[RealCurve] = []
+    walks: list[_FoundCircuit] = []
+
+    def motion_so_far(
+        circuits: Sequence[Circuit], notes: Sequence[str], isolated: Sequence[DrivenAssembly]
+    ) -> Motion:
+        return Motion(
+            scene,
+            tuple(found[: len(curves)]),
+            tuple(curves),
+            tuple(circuits),
+            made.reason,
+            int(bool(found) or not holding) + problem.free,
+            made.gruebler_kutzbach,
+            idle,
+            which,
+            left_out,
+            tuple(notes),
+            assemblies=tuple(isolated),
+        )
+
     for i, component in enumerate(found):
-        if run.progress is not None:
-            run.progress("real curves", i, len(found))
-        curves.append(curve_of(component))
-    notes += [
-        f"component {i + 1}: {curve.reason or 'its real points are undecided'}"
-        for i, curve in enumerate(curves)
-        if not curve.complete
-    ]
-    circuits = _circuits(problem, scene, curves, which, samples)
+        run.tell("real curves", i, len(found))
+        real = curve_of(component)
+        curves.append(real)
+        walks += _circuits_on(problem, scene, i, real, which, samples)
+        if not real.complete:
+            reason = real.reason or "its real points are undecided"
+            notes.append(f"component {i + 1}: {reason}")
+        if run.found is not None:
+            early = [each.circuit for each in _each_once(scene, walks)]
+            run.found(motion_so_far(early, [*notes, UNFINISHED], ()))
+    circuits = _each_once(scene, walks)
     isolated: list[DrivenAssembly] = []
     if holding:
         points = [c for c in others.components if c.dimension == 0]
-        isolated = isolated_assemblies(scene, points, run)
+        isolated = isolated_assemblies(scene, points, inner)
         notes += find_doubts_of_held(problem, isolated, points)
     if not circuits and not notes and not holding:
         raise MotionError(_no_motion(curves, left_out))
-    finished = _with_crossings(circuits, others, found, run)
-    made = problem.model
-    motion = Motion(
-        scene,
-        tuple(found),
-        tuple(curves),
-        tuple(finished),
-        made.reason,
-        int(bool(found) or not holding) + problem.free,
-        made.gruebler_kutzbach,
-        _idle(problem, run),
-        which,
-        left_out,
-        tuple(notes),
-        assemblies=tuple(isolated),
-    )
-    return motion, circuits
+    finished = _with_crossings(circuits, others, found, inner)
+    return motion_so_far(finished, notes, isolated), circuits
 
 
 def _real_curve(component: WitnessSet, run: Run) -> RealCurve:
@@ -652,27 +663,29 @@ class _FoundCircuit:
     end: float
 
 
-def _circuits(
-    problem: Problem, scene: Scene, curves: Sequence[RealCurve], which: Which, samples: int
+def _circuits_on(
+    problem: Problem, scene: Scene, number: int, real: RealCurve, which: Which, samples: int
 ) -> list[_FoundCircuit]:
-    """All circuits, or those through the reference configuration, which are the first ones."""
+    """The circuits on a curve, or those through the reference configuration, without numbers."""
     reference = None
     if scene.from_reference and problem.reference is not None:
         reference = np.array([float(x) for x in problem.reference])
-    candidates = []
-    for number, real in enumerate(curves):
-        curve = Curve(real, problem.system, scene)
-        for walk in walks_of(real):
-            begun = None if reference is None else _begin_at(curve, walk, reference)
-            candidates.append((number, curve, begun or walk, begun is not None))
-    candidates.sort(key=lambda c: not c[3])
-    if which == "reference":
-        candidates = [c for c in candidates if c[3]]
+    curve = Curve(real, problem.system, scene)
+    found = []
+    for walk in walks_of(real):
+        begun = None if reference is None else _begin_at(curve, walk, reference)
+        if begun is not None or which != "reference":
+            on = begun is not None
+            found.append(_sample(0, number, curve, begun or walk, on, samples))
+    return found
+
+
+def _each_once(scene: Scene, circuits: Iterable[_FoundCircuit]) -> list[_FoundCircuit]:
+    """Circuits with their numbers, those through the reference configuration first."""
     found: list[_FoundCircuit] = []
-    for number, curve, walk, on in candidates:
-        made = _sample(len(found) + 1, number, curve, walk, on, samples)
+    for made in sorted(circuits, key=lambda c: not c.circuit.through_reference):
         if not any(_is_same_motion(scene, made, other) for other in found):
-            found.append(made)
+            found.append(replace(made, circuit=replace(made.circuit, number=len(found) + 1)))
     return found
 
 

@@ -38,7 +38,7 @@ from nag.mechanism.real_assemblies import real_assemblies, real_doubt
 from nag.numerics.local_dimension import local_dimension_near
 from nag.numerics.second_order import count_real_directions
 from nag.text.table import count_text
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition, WitnessSet
 
@@ -137,6 +137,7 @@ def mobility_in_steps(
     run: Run = DEFAULT_RUN,
 ) -> Iterator[MobilityReport]:
     """The same, as far as it is known: what needs no component first, then the whole."""
+    found, run = run.found, run.without_found
     check_choice(detail, "detail", get_args(Detail))
     check_size(budget, "budget")
     if tolerance is not None:
@@ -170,6 +171,8 @@ def mobility_in_steps(
         there = assemble_parts(problem.parts, None if point is None else at)
         first = _with_moving(first, there, None, of, run)
     yield first
+    if found is not None and detail != "local":
+        found(replace(first, open=UNFINISHED))
     if detail == "local":
         return
     curve = None

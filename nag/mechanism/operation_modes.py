@@ -11,8 +11,9 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import combinations
 from math import ceil
 from typing import Any
@@ -70,7 +71,7 @@ from nag.mechanism.platform import LegEquations, PlatformModel, platform_model
 from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.zero_values import NONZERO
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, takes_run
 from nag.witness.membership import (
     Membership,
     UndecidedError,
@@ -133,8 +134,24 @@ def modes(
         )
         return OperationModes(model, _no_answer(model, run, note), (), (), (), (note,))
     run.tell("modes", 1, 4)
-    found = describe_modes(model, decompose(model.system, run=run), run)
-    return replace(found, modes=tuple(_carry_back(mode, model.origin) for mode in found.modes))
+    inner = run.without_found
+
+    def tell(decomposition: Decomposition, described: Mapping[int, OperationMode]) -> None:
+        """Tell of the modes that are known, those that are not described yet without equations."""
+        if run.found is not None:
+            parts = enumerate(decomposition.components)
+            early = tuple(described.get(k) or _undescribed(c) for k, c in parts)
+            run.found(_told(OperationModes(model, decomposition, early, (), (), (UNFINISHED,))))
+
+    heard = inner if run.found is None else replace(inner, found=lambda d: tell(d, {}))
+    components = decompose(model.system, run=heard)
+    return _told(describe_modes(model, components, inner, partial(tell, components)))
+
+
+def _told(found: OperationModes) -> OperationModes:
+    """The modes in the coordinates that were given."""
+    origin = found.model.origin
+    return replace(found, modes=tuple(_carry_back(mode, origin) for mode in found.modes))
 
 
 def _carry_back(mode: OperationMode, origin: Place) -> OperationMode:
@@ -193,8 +210,18 @@ def decompose_poses(model: PlatformModel, run: Run) -> Decomposition:
     )
 
 
-def describe_modes(model: PlatformModel, found: Decomposition, run: Run) -> OperationModes:
-    """What is to be said of the components of a platform's poses."""
+def describe_modes(
+    model: PlatformModel,
+    found: Decomposition,
+    run: Run,
+    tell: Callable[[Mapping[int, OperationMode]], None],
+) -> OperationModes:
+    """What is to be said of the components of a platform's poses.
+
+    Args:
+        tell: called with the modes that are described, by the indices of their components.
+    """
+    tell({})
     notes = list(found.notes)
     if not found.complete and not notes:
         notes.append("a component is undecided")
@@ -221,6 +248,7 @@ def describe_modes(model: PlatformModel, found: Decomposition, run: Run) -> Oper
         mode = replace(mode, residuals=own, limits=limits[k])
         if not any(_same_poses(model, mode, other, run) for other in known.values()):
             known[k] = mode
+            tell(known)
     order = sorted(known, key=lambda k: _rank(known[k]))
     place = {k: i for i, k in enumerate(order)}
     described = tuple(
@@ -363,6 +391,27 @@ def _conjugate(found: Decomposition, k: int, run: Run) -> int | None:
     return on[0] if len(on) == 1 else None
 
 
+def _undescribed(component: WitnessSet) -> OperationMode:
+    """A mode of which nothing is known but its component."""
+    return OperationMode(
+        component=component,
+        dimension=component.dimension,
+        degree=component.degree,
+        linear=(),
+        quadratic=(),
+        note="it was not looked at",
+        reality=ModeReality.UNKNOWN,
+        conjugate=None,
+        real_pose=None,
+        motion=None,
+        screws=None,
+        through_reference=None,
+        residuals=(),
+        limits=(),
+        real_residuals=(),
+    )
+
+
 def _describe(
     model: PlatformModel,
     component: WitnessSet,
@@ -373,22 +422,11 @@ def _describe(
     run: Run,
 ) -> OperationMode:
     """A mode, without what is asked of all of them at once."""
-    mode = OperationMode(
-        component=component,
-        dimension=component.dimension,
-        degree=component.degree,
-        linear=(),
-        quadratic=(),
+    mode = replace(
+        _undescribed(component),
         note="",
-        reality=ModeReality.UNKNOWN,
         conjugate=None if mirrored == index else mirrored,
-        real_pose=None,
-        motion=None,
-        screws=None,
         through_reference=through,
-        residuals=(),
-        limits=(),
-        real_residuals=(),
     )
     if not component.dimension:
         if mirrored != index:

@@ -8,6 +8,7 @@ solved by itself, as `nag.solving.parameter.solve_targets` solves one.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
@@ -38,6 +39,8 @@ __all__ = ["FamilySolutions", "solve_family", "solve_members"]
 MEMBERS, PATHS = 1000, 1 << 16
 # Bytes of the results of one call.
 MOST_BYTES = 1 << 34
+# Seconds between two times that members are told of: to copy and write all of them takes time.
+BETWEEN = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,7 +199,7 @@ def solve_family(
     family = family_of(equations, parameters, variables, imaginary)
     wanted = check_values(family, values)
     if known is None:
-        solved = solve_generic(family, start=start, count=count, run=run)
+        solved = solve_generic(family, start=start, count=count, run=run.without_found)
     else:
         solved = _solve_from_known(family, known, count, run)
     return solve_members(solved, wanted, run=run)
@@ -319,24 +322,49 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
     M = len(values)
     if M * S * (16 * family.n + 9) > MOST_BYTES:
         raise NagError(f"values: {M} members of {S} solutions are too many at once; give fewer")
-    points = np.full((M, S, family.n), np.nan, dtype=np.complex128)
+    places = np.full((M, S, family.n), np.nan, dtype=np.complex128)
+    # The imaginary unit is a coordinate of the paths, and none of the points.
+    points = places[..., : len(family.own_variables)]
     status = np.full((M, S), PathStatus.FAILED, dtype=np.int8)
     errors = np.full((M, S), np.inf)
     proved = np.zeros(M, dtype=bool)
+    one_by_one = np.zeros(M, dtype=bool)
+    complete = np.zeros(M, dtype=bool)
+    found = FamilySolutions(solved, values, points, status, errors, one_by_one, complete)
+    tell = _FoundMembers(found, run)
     done = 0
     for chunk, block in _track_all(solved, values, run):
-        points[chunk], errors[chunk], proved[chunk] = block
+        places[chunk], errors[chunk], proved[chunk] = block
+        status[chunk][block.proved] = PathStatus.REGULAR
+        complete[chunk] = block.proved & solved.complete
         done += len(block.proved)
         run.tell("members", done, M)
-    status[proved] = PathStatus.REGULAR
-    complete = proved & solved.complete
+        tell(done < M or not proved.all())
+    one_by_one[:] = ~proved
     alone = np.flatnonzero(~proved)
     for number, member in enumerate(alone.tolist()):
         run.tell("members one by one", number, len(alone))
         own = _solve_alone(solved, values[member], run)
-        points[member], status[member], errors[member], complete[member] = own
-    points = points[..., : len(family.own_variables)]
-    return FamilySolutions(solved, values, points, status, errors, ~proved, complete)
+        places[member], status[member], errors[member], complete[member] = own
+        tell(number + 1 < len(alone))
+    return found
+
+
+class _FoundMembers:
+    """Tells of the members that are solved, now and then."""
+
+    def __init__(self, found: FamilySolutions, run: Run) -> None:
+        self._found, self._run, self._last = found, run, time.monotonic()
+
+    def __call__(self, more: bool) -> None:
+        """Tell, if there is more to come, and it was not told just now."""
+        if self._run.found is None or not more or time.monotonic() - self._last < BETWEEN:
+            return
+        # What is told stays as it is, while the others are solved.
+        arrays = ("points", "status", "errors", "one_by_one", "complete")
+        copies = {name: getattr(self._found, name).copy() for name in arrays}
+        self._run.found(replace(self._found, **copies))
+        self._last = time.monotonic()
 
 
 def _track_all(solved: Solved, values: np.ndarray, run: Run) -> Iterator[tuple[slice, _Block]]:
@@ -428,7 +456,7 @@ def _solve_alone(
     status = np.full(S, PathStatus.FAILED, dtype=np.int8)
     errors = np.full(S, np.inf)
     exact = [exact_complex(v, "values") for v in values.tolist()]
-    alone = replace(run, progress=None)
+    alone = replace(run, progress=None, found=None)
     (result,) = solve_targets(replace(solved, classes=None), [exact], run=alone)
     found = result.solutions[:S]
     for i, each in enumerate(found):
