@@ -50,12 +50,13 @@ UNTESTED = "the trace of its points could not be tested"
 # --- Files
 
 
-def read(path: str | os.PathLike[str]) -> Case | Decomposition | SolveResult:
+def read(path: str | os.PathLike[str]) -> Case | Decomposition | SolveResult | dict[str, Any]:
     """What a file holds, told by its content.
 
     Args:
-        path: a case or a system in another program's format, which gives a `nag.Case`, or an export
-            of a decomposition or of solutions, which gives an equal one.
+        path: a case or a system in another program's format, which gives a `nag.Case`; an export
+            of a decomposition or of solutions, which gives an equal one; or what another command
+            wrote with ``--json``, which gives that JSON object, checked by its schema.
 
     Raises:
         nag.InputError: if it cannot be read or makes no sense; one line says where and what would
@@ -75,20 +76,23 @@ def read(path: str | os.PathLike[str]) -> Case | Decomposition | SolveResult:
         raise InputError(f"{path}: {error.strerror or error}") from None
 
 
-def _read_export(path: str | os.PathLike[str]) -> Decomposition | SolveResult:
+def _read_export(
+    path: str | os.PathLike[str],
+) -> Decomposition | SolveResult | dict[str, Any]:
     from nag.files import export, solutions_export
-    from nag.files.json_values import ExportError, read_file
+    from nag.files.json_schema import published_versions
+    from nag.files.json_values import ExportError, checked_document, read_file
 
-    def convert(value: Any) -> Decomposition | SolveResult:
+    def convert(value: Any) -> Decomposition | SolveResult | dict[str, Any]:
         name = value.get("format") if isinstance(value, dict) else None
         if name == export.FORMAT:
             return export.export_of(value).decomposition
         if name == solutions_export.FORMAT:
             return solutions_export.solutions_of(value).result
-        raise ExportError(
-            f'format: must be "{export.FORMAT}" or "{solutions_export.FORMAT}"; what other '
-            "commands write is for Python's json"
-        )
+        versions = published_versions(name) if isinstance(name, str) else ()
+        if versions:
+            return checked_document(value, name, *versions)
+        raise ExportError("format: is none that nag writes with --json")
 
     return read_file(path, convert)
 

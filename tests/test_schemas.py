@@ -183,6 +183,7 @@ def write_everything(
     members.write_text(FAMILY.replace('"y^2', '"x*y - 1", "y^2') + '[family]\nparameters = ["a"]\n')
     values = folder / "values.csv"
     values.write_text("a\n1\n2\n")
+    ask("decompose", str(members), "--sweep", "a=1:3:2")
     ask("family", str(members), "--values", str(values))
     ask("mobility", linkage, "--curves", "--check")
     idle = str(CASES / "robots" / "3-sps-s.toml")

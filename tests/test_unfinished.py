@@ -7,12 +7,13 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import nag
-from nag.cli import main
-from nag.cli.running import chosen_run, take_unfinished, unfinished_file
-from nag.tracking.run import UNFINISHED
+from nag.cli import main, running
+from nag.cli.running import chosen_run, take_unfinished, unfinished_file, write_document
+from nag.tracking.run import ENDED_EARLY, UNFINISHED
 
 APART = ["(x^2 + y^2 + z^2 - 4)*(x*y - z)", "(x - y)*(x^3 + y*z - 1)"]
 ONE_BY_ONE = ["x*z - y^2", "y - x^2 + z*w - z*x^3*w^2", "x*(z - x*y)"]
@@ -74,6 +75,65 @@ def test_what_is_told_stands_beside_the_export_until_that_is_there(tmp_path: Pat
     assert isinstance(kept, nag.Decomposition) and not kept.complete and len(kept)
     assert take_unfinished(str(target)) and nag.read(target) == kept
     assert not take_unfinished(str(target)) and not take_unfinished(None)
+
+
+def test_members_circuits_modes_and_local_answers_are_told_when_they_are_known() -> None:
+    members, moves, modes, local = [], [], [], []
+    circles = ["x^2 + y^2 = r", "x = a*y"]
+    values = [[2 + i / 1000, 1] for i in range(4000)]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("nag.solving.family_members.BETWEEN", 0.0)
+        whole = nag.solve_family(circles, ["r", "a"], values, found=members.append)
+    assert [int(f.complete.sum()) for f in members] == [1000, 2000, 3000] and whole.complete.all()
+    assert all(np.array_equal(f.points[:1000], whole.points[:1000]) for f in members)
+
+    moving = nag.motion("cases/planar-four-bar.toml", circuit="all", found=moves.append)
+    assert moves and moves[-1].notes[-1] == ENDED_EARLY and not moves[-1].complete
+    assert [c.length for c in moves[-1].circuits] == [c.length for c in moving.circuits]
+
+    robot = nag.read_case("cases/robots/3-upu-tsai-120.toml")
+    found = nag.modes(robot, found=modes.append)
+    assert all(m.notes == (ENDED_EARLY,) and len(m.modes) == len(found.modes) for m in modes)
+    described = [sum(m.motion is not None for m in early.modes) for early in modes]
+    assert described == sorted(described) and described[-1] == len(found.modes)
+
+    answer = nag.mobility("cases/bennett.toml", found=local.append)
+    (early,) = local
+    assert early.open == ENDED_EARLY and early.components is None
+    assert early.local_dimension == answer.local_dimension == 1
+
+
+@pytest.mark.parametrize(
+    ("command", "case", "rest"),
+    [
+        ("motion", "planar-four-bar", ["--circuit", "all"]),
+        ("modes", "robots/tripteron", []),
+        ("mobility", "bennett", []),
+        ("decompose", "four-bar", ["--sweep", "a=2:3:2"]),
+    ],
+)
+def test_what_a_command_keeps_reads_back_as_incomplete(
+    command: str, case: str, rest: list[str], tmp_path: Path, capsys, monkeypatch
+) -> None:
+    kept: list[str] = []
+
+    def keep(document: Any, target: str, option: str = "json") -> None:
+        kept.append(target)
+        write_document(document, target, option)
+
+    monkeypatch.setattr(running, "write_document", keep)
+    monkeypatch.setattr(running, "keeps_unfinished", lambda options: options.json is not None)
+    monkeypatch.setattr(running, "forget_unfinished", lambda options: None)
+    target = str(tmp_path / "a.json")
+    assert main([command, f"cases/{case}.toml", *rest, "--json", target, "--quiet"]) == 0
+    assert kept[0] == unfinished_file(target) and kept[-1] == target
+    assert take_unfinished(target)
+    early = nag.read(target)
+    assert early["complete"] is False and early["seed"] == 0
+    assert ENDED_EARLY in [*early.get("notes", ()), early.get("open")]
+    assert main(["show", target]) == 0
+    said = capsys.readouterr().out
+    assert "INCOMPLETE" in said and " ".join(ENDED_EARLY.split()[:4]) in said
 
 
 def test_nothing_unfinished_is_left_by_what_ends(tmp_path: Path) -> None:

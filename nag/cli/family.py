@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.solving.family_members import check_values, solve_members
     from nag.solving.parameter import solve_generic
     from nag.text.table import count_text
-    from nag.tracking.run import UNFINISHED
+    from nag.tracking.run import ENDED_EARLY
 
     family = member.symmetric.original
     given = [complex(v) for v in member.values]
@@ -80,7 +80,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         start = "parameter"
 
     def document_of(early: FamilySolutions) -> dict[str, Any]:
-        fields = _fields(early) | {"notes": [UNFINISHED]}
+        fields = _fields(early) | {"notes": [ENDED_EARLY]}
         return answer_document(options, name_case(case), fields, False)
 
     how = chosen_run(options, document_of)

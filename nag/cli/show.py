@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import read_case_file
 from nag.cli.running import CommandAnswer
@@ -48,8 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "case",
         metavar="FILE",
-        help="case file, system in another program's format, or export of `nag decompose --json` "
-        "or `nag solve --json`",
+        help="case file, system in another program's format, or what a command wrote with --json",
     )
 
 
@@ -58,6 +57,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.text.table import sheet
 
     title, blocks, questions = _describe(options.case)
+    if not questions:
+        return CommandAnswer(sheet(title, *blocks))
     width = max(len(f"nag {name}") for name, _ in questions)
     name = os.path.relpath(options.case) if os.path.isabs(options.case) else options.case
     asked = [(f"nag {command}", text) for command, text in questions]
@@ -77,9 +78,36 @@ def _describe(path: str) -> tuple[str, list[list[str] | list[Row]], tuple[tuple[
     title = os.path.basename(path)
     if isinstance(found, Decomposition):
         return title, _describe_components(found), QUESTIONS["components"]
+    if isinstance(found, dict):
+        return title, [_describe_answer(found)], ()
     from nag.report.solutions import solution_table
 
     return title, [str(found).splitlines(), solution_table(found)], QUESTIONS["solutions"]
+
+
+def _describe_answer(document: dict[str, Any]) -> list[Row]:
+    """What another command wrote: of what, whether it is whole, and how much of what there is."""
+    from nag.files.json_schema import schema
+
+    case = document.get("case")
+    published = schema(document["format"], document["version"])
+    about = published.get("description", "").partition(". Numbers")[0].partition(". Readers")[0]
+    if about.startswith("Readers"):
+        about = published["title"]
+    rows: list[Row] = [("holds", f"{document['format']}: {about.rstrip('.')}")]
+    if case:
+        rows.append(("of", f"{case['title']} ({case['file']})"))
+    if "complete" in document:
+        rows.append(("answer", "complete" if document["complete"] else "INCOMPLETE"))
+    if document.get("meaning"):
+        rows.append(("meaning", document["meaning"]))
+    rows += [
+        (name, str(len(value)))
+        for name, value in document.items()
+        if isinstance(value, list) and value and isinstance(value[0], dict)
+    ]
+    notes = [*document.get("notes", ()), *filter(None, [document.get("open")])]
+    return [*rows, *(("open", note) for note in notes)]
 
 
 def _describe_components(found: Decomposition) -> list[list[str] | list[Row]]:

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import argparse
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, read_problem
-from nag.cli.running import CommandAnswer, chosen_run, run_row
+from nag.cli.running import CommandAnswer, answer_document, chosen_run, name_case, run_row
 
+if TYPE_CHECKING:
+    from nag.decomposition.sweep import Swept
+
+FORMAT = "nag-sweep"
 MOST_VALUES = 1000
 _NUMBER = re.compile(r"[+-]?[0-9]{1,15}(\.[0-9]{1,15}|/[0-9]{1,15})?")
 
@@ -55,12 +61,11 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
         UsageError: for an option that does not go with a sweep.
     """
     for option, given in (
-        ("--json", arguments.json is not None),
         ("--expand", arguments.expand),
         ("--method sampling", arguments.method == "sampling"),
     ):
         if given:
-            raise UsageError(f"--sweep: prints a table; leave out {option}")
+            raise UsageError(f"--sweep: is not for {option}; leave it out")
     asked: Sweep = arguments.sweep
     settings = list(arguments.set)
     if any(name == asked.name for name, _ in settings):
@@ -76,10 +81,21 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
 
     from nag.decomposition.sweep import sweep
     from nag.text.table import align, sheet
+    from nag.tracking.run import ENDED_EARLY
 
-    swept = sweep(
-        lambda value: problem_at(value)[1].system, asked.values, run=chosen_run(arguments)
-    )
+    def document_of(values: Sequence[Swept], ended: bool = True) -> dict[str, Any]:
+        fields = {
+            "format": FORMAT,
+            "notes": [ENDED_EARLY] if ended else [],
+            "parameter": asked.name,
+            "count": len(asked.values),
+            "values": [each.document() for each in values],
+        }
+        complete = not ended and all(each.decomposition.complete for each in values)
+        return answer_document(arguments, name_case(case), fields, complete)
+
+    how = chosen_run(arguments, document_of)
+    swept = sweep(lambda value: problem_at(value)[1].system, asked.values, run=how)
     followed = sum(each.followed for each in swept)
     text = (
         f"{followed} of {len(swept)} values, from the components for a general value; those that a "
@@ -89,4 +105,5 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
     tail = [("followed", text), *(("by itself", reason) for reason in reasons)]
     rows = [[asked.name, "", "paths", "components"], *(each.row() for each in swept)]
     lines = sheet(case.title, align(rows, (1, 3)), [*tail, run_row(arguments, ())])
-    return CommandAnswer(lines, all(each.decomposition.complete for each in swept))
+    complete = all(each.decomposition.complete for each in swept)
+    return CommandAnswer(lines, complete, lambda: document_of(swept, ended=False))

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -65,6 +66,22 @@ class Swept:
         how = "followed" if self.followed else "by itself"
         return [number_text(self.value), how, str(self.paths), answer]
 
+    def document(self) -> dict[str, Any]:
+        """The value and its components as a JSON object, witness sets left out."""
+        answer = self.decomposition
+        return {
+            "value": number_text(self.value),
+            "followed": self.followed,
+            "reason": self.reason,
+            "paths": self.paths,
+            "complete": answer.complete,
+            "notes": list(answer.notes),
+            "components": [
+                {"dimension": c.dimension, "degree": c.degree, "multiplicity": c.multiplicity}
+                for c in answer.components
+            ],
+        }
+
 
 @dataclass(frozen=True, eq=False)
 class _General:
@@ -90,7 +107,9 @@ def sweep(
     Args:
         system_at: the exact system at a rational value.
         values: two or more.
+        run: how it is worked out; its ``found`` is told of the values that are done.
     """
+    told, run = run.found, run.without_found
     rng = run.random(13)
     general, reason = _general(system_at, values, rng, run)
     swept = []
@@ -108,6 +127,8 @@ def sweep(
             answer = decompose(system, run=run)
             paths += answer.paths.tracked
         swept.append(Swept(value, answer, not why, paths, why))
+        if told is not None and len(swept) < len(values):
+            told(list(swept))
     return swept
 
 

@@ -44,6 +44,18 @@ def schema(name: str, version: int = 1) -> dict[str, Any]:
     return json.loads(file.read_text("utf-8"))
 
 
+@cache
+def published_versions(name: str) -> tuple[int, ...]:
+    """The versions of a format that have a schema; none of a name that is no format's.
+
+    >>> published_versions("nag-decomposition"), published_versions("svg")
+    ((1, 2), ())
+    """
+    folder = resources.files("nag.files") / "schema"
+    parts = (file.name.removesuffix(".json").rpartition("-") for file in folder.iterdir())
+    return tuple(sorted(int(version) for own, _, version in parts if own == name))
+
+
 def find_problem(value: Any, published: dict[str, Any]) -> Violation | None:
     """The first place where a document does not fit a schema, and what is wrong there.
 

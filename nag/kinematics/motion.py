@@ -36,7 +36,7 @@ from nag.numerics.local_dimension import local_dimension
 from nag.numerics.read_only import equal_values
 from nag.real.curve import RealCurve
 from nag.text.table import count_text, one_line
-from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition, WitnessSet
 
@@ -582,7 +582,7 @@ def _motion_on(
             notes.append(f"component {i + 1}: {reason}")
         if run.found is not None:
             early = [each.circuit for each in _each_once(scene, walks)]
-            run.found(motion_so_far(early, [*notes, UNFINISHED], ()))
+            run.found(motion_so_far(early, [*notes, ENDED_EARLY], ()))
     circuits = _each_once(scene, walks)
     isolated: list[DrivenAssembly] = []
     if holding:

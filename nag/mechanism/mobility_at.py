@@ -38,7 +38,7 @@ from nag.mechanism.real_assemblies import real_assemblies, real_doubt
 from nag.numerics.local_dimension import local_dimension_near
 from nag.numerics.second_order import count_real_directions
 from nag.text.table import count_text
-from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition, WitnessSet
 
@@ -172,7 +172,7 @@ def mobility_in_steps(
         first = _with_moving(first, there, None, of, run)
     yield first
     if found is not None and detail != "local":
-        found(replace(first, open=UNFINISHED))
+        found(replace(first, open=ENDED_EARLY))
     if detail == "local":
         return
     curve = None

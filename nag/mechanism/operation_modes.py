@@ -71,7 +71,7 @@ from nag.mechanism.platform import LegEquations, PlatformModel, platform_model
 from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.zero_values import NONZERO
-from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
 from nag.witness.membership import (
     Membership,
     UndecidedError,
@@ -141,7 +141,7 @@ def modes(
         if run.found is not None:
             parts = enumerate(decomposition.components)
             early = tuple(described.get(k) or _undescribed(c) for k, c in parts)
-            run.found(_told(OperationModes(model, decomposition, early, (), (), (UNFINISHED,))))
+            run.found(_told(OperationModes(model, decomposition, early, (), (), (ENDED_EARLY,))))
 
     heard = inner if run.found is None else replace(inner, found=lambda d: tell(d, {}))
     components = decompose(model.system, run=heard)

@@ -19,10 +19,8 @@ from nag.tracking.settings import Settings
 # Called with a stage's name, the step reached and the number of steps; 0 if that is not known.
 Progress = Callable[[str, int, int], None]
 # Called with an answer that is not complete yet, of what is known so far; and what it says of that.
-UNFINISHED = (
-    "the work was ended early: this is what was known by then, some of it perhaps twice "
-    "and multiplicities perhaps too low"
-)
+ENDED_EARLY = "the work was ended early: this is what was known by then"
+UNFINISHED = f"{ENDED_EARLY}, some of it perhaps twice and multiplicities perhaps too low"
 Found = Callable[[Any], None]
 
 
