@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from solved import components_of
 from systems import system
 
+import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -29,6 +30,7 @@ from nag.files.solutions_export import read_solutions, write_solutions
 from nag.mechanism.model import model
 from nag.numerics.ball_boxes import BallOperator
 from nag.numerics.certified_points import Proof, certify_points, certify_regular_points
+from nag.numerics.claims import Standing
 from nag.numerics.discs import DiscPolynomials, Discs, product
 from nag.numerics.krawczyk import boxes_in_doubles, find_overlaps, prove_boxes, tell_real_zeros
 from nag.numerics.point_claims import zero_digits
@@ -36,6 +38,7 @@ from nag.solving.certificate import certify_solutions
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.witness.certificate import certify_decomposition
+from nag.witness.witness import Decomposition
 
 CASES = Path(__file__).parents[1] / "cases"
 x, y = Polynomial.variables(2)
@@ -514,3 +517,45 @@ def test_middles_at_points_are_those_of_discs_of_no_size() -> None:
     exact = Discs(x, np.zeros(x.shape))
     assert np.array_equal(values, polynomials(exact).mid)
     assert np.array_equal(slopes, polynomials.jacobian(exact).mid)
+
+
+MISSING = {
+    "complex surface": ("x y z", ["(x - I*y)*(x^2 + y - z - 2)", "(x - I*y)*(z - I)"], (2, 1)),
+    "complex curve of two": ("x y", ["(x - I*y)*(x*y - 1)"], (1, 1)),
+    "complex line of four": ("x y z", ["x*z - I*y^2", "y*z - x^2*(1 + I)"], (1, 1)),
+    "complex point of four": ("x y", ["x^2 - I*y^2 + 1", "x*y - I"], (0, 1)),
+    "the only curve": ("x y z", ["x*y - z", "x*z - 1"], (1, 3)),
+    "double line": ("x y z", ["(x - y)^2*(x*z - 1)", "(x - y)^2*z"], (2, 1)),
+}
+
+
+AGAINST = (Standing.REFUTED, Standing.DOUBTED)
+
+
+def standing_of_completeness(found: Decomposition) -> Standing:
+    (said,) = (c for c in certify_decomposition(found).claims if c.field == "complete")
+    assert said.text.startswith("that there are no more components")
+    return said.standing
+
+
+@pytest.mark.parametrize("kind", MISSING)
+def test_a_missing_component_of_the_largest_dimension_is_seen(kind: str) -> None:
+    variables, equations, shape = MISSING[kind]
+    whole = decompose(nag.system(equations, variables))
+    assert standing_of_completeness(whole) not in AGAINST
+    left_out = next(c for c in whole if (c.dimension, c.degree) == shape)
+    others = tuple(c for c in whole if c is not left_out)
+    assert standing_of_completeness(replace(whole, components=others)) in AGAINST
+
+
+def test_where_it_was_not_looked_at_whether_components_are_missing_it_says_so() -> None:
+    whole = decompose(nag.system(["(x^2 + I*y)*(x - 1)", "(x^2 + I*y)*(y - 2*I)"], "x y"))
+    curve = replace(whole, components=whole.components[:1])
+    row = ("complete", "not looked at: there may be more components than these")
+    assert row in certify_decomposition(curve).rows(1.0)
+
+
+def test_degrees_of_complex_equations_bound_those_of_components() -> None:
+    whole = decompose(nag.system(["x*z - I*y^2", "y*z - x^2*(1 + I)"], "x y z"))
+    certificate = certify_decomposition(whole)
+    assert certificate.most == 4 and certificate.complete

@@ -36,7 +36,7 @@ from nag.numerics.certified_points import (
     joined_boxes,
     points_rows,
 )
-from nag.numerics.claims import CERTIFICATE, Claim, nothing_against
+from nag.numerics.claims import CERTIFICATE, Claim, Standing, nothing_against
 from nag.numerics.krawczyk import find_overlaps
 from nag.numerics.point_claims import (
     find_nonvanishing,
@@ -164,6 +164,8 @@ class DecompositionCertificate:
         if self.complete:
             text = f"proved: the degrees of all components add up to {self.most} at most"
             rows.append(("complete", text))
+        elif any(c.field == "complete" and c.standing is Standing.UNSEEN for c in self.claims):
+            rows.append(("complete", "not looked at: there may be more components than these"))
         rows.append(cost_row(groups, seconds))
         return rows
 
@@ -219,10 +221,9 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
     for (dimension, signature), slices in apart.items():
         if signature is not None:
             bounds[dimension] += max(map(distinct_simple, slices.values()))
-    most, surfaces = prod(f.degree for f in equations), hypersurface_degree(system)
-    if system.imaginary:
-        # The other half belongs to the conjugate system.
-        most //= 2
+    # The imaginary unit is a number: its equation counts nothing, nor do its powers.
+    own = system.degrees[: len(system.polynomials) - system.imaginary]
+    most, surfaces = prod(d for d in own if d >= 0), hypersurface_degree(system)
     if len(equations) == 1 and surfaces is not None:
         most = surfaces
     return DecompositionCertificate(

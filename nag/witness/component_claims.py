@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import comb
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.zero_count import most_zeros
+from nag.algebra.zero_count import LARGEST, MOST_MONOMIALS, most_zeros
 from nag.numerics.certified_points import Proof
 from nag.numerics.claims import (
     Claim,
@@ -46,6 +50,8 @@ OF_THE_RUN = (
     "order",
     "notes",
 )
+# Number of the stream of random linear spaces.
+SLICED = 31
 OF_ARITHMETIC = ("residual", "precision", "digits")
 
 
@@ -203,7 +209,11 @@ def _completeness(certificate: DecompositionCertificate) -> Claim:
     if listed < surfaces:
         text += f": in dimension {d} their degrees add up to {surfaces}, not to {listed}"
         return Claim("complete", text, Standing.REFUTED)
-    return _claim_number(certificate, text) or Claim("complete", text, Standing.UNSEEN)
+    return (
+        _claim_number(certificate, text)
+        or _claim_on_slices(certificate, text)
+        or Claim("complete", text, Standing.UNSEEN)
+    )
 
 
 def _claim_number(certificate: DecompositionCertificate, text: str) -> Claim | None:
@@ -216,3 +226,55 @@ def _claim_number(certificate: DecompositionCertificate, text: str) -> Claim | N
         return None
     count = most_zeros(system.polynomials, -1, False)
     return claim_of_number(text, sum(known), count, system.imaginary)
+
+
+def _claim_on_slices(certificate: DecompositionCertificate, text: str) -> Claim | None:
+    """That a component is missing of the largest dimension or a larger one; None if it is not seen.
+
+    On a random linear space of codimension k there are as many zeros, by their multiplicities, as
+    the degrees of the components of dimension k add up to, where there is none of a larger one.
+    """
+    found = certificate.decomposition
+    system, own = found.system, len(found.system.own_variables)
+    if system.nonzero or certificate.same or certificate.unknown:
+        return None
+    top = max((c.dimension for c in found.components), default=0)
+    for k in range(own - 1, max(top, 1) - 1, -1):
+        known = [
+            (c.component.orbit, m)
+            for c in certificate.components
+            if c.component.dimension == k
+            for m in c.points.multiplicities.tolist()
+        ]
+        if not all(m for _, m in known):
+            return None
+        rng = np.random.default_rng([found.seed, SLICED, k])
+        on_slice = _on_random_space(system, own - k, rng)
+        count = None if on_slice is None else most_zeros(on_slice, -1, False)
+        if count is None:
+            return None
+        said = f"{text}: on a random linear space of codimension {k}"
+        listed = sum(orbit * m for orbit, m in known)
+        claim = claim_of_number(said, listed, count, system.imaginary)
+        if claim is not None and claim.standing is not Standing.EVIDENCE:
+            return claim
+    return None
+
+
+def _on_random_space(
+    system: PolynomialSystem, dimension: int, rng: np.random.Generator
+) -> list[Polynomial] | None:
+    """The equations on a random rational linear space; None where they would be too long."""
+    own, n = len(system.own_variables), dimension + system.imaginary
+    degree = max((f.degree for f in system.polynomials), default=0)
+    if not all(f.algebraic for f in system.polynomials) or comb(n + degree, n) > MOST_MONOMIALS:
+        return None
+    coordinates = Polynomial.variables(n)
+    images = []
+    for row in rng.integers(-LARGEST, LARGEST, (own, dimension + 1)).tolist():
+        place = Polynomial.constant(n, row[-1])
+        for a, x in zip(row[:-1], coordinates, strict=False):
+            place = place + a * x
+        images.append(place)
+    images += coordinates[dimension:]
+    return [f.compose(images) for f in system.polynomials]
