@@ -7,8 +7,9 @@ import pytest
 
 import nag
 from nag.algebra.evaluation import Evaluator
-from nag.decomposition.growth import grow_component
+from nag.decomposition.growth import grow_component, leave_singular_point
 from nag.mechanism.problem import problem_of
+from nag.numerics.local_dimension import local_dimension
 from nag.tracking.evaluations import PREPARATION, count, count_evaluations
 from nag.witness.witness import Status
 
@@ -124,3 +125,38 @@ def test_work_in_more_digits_counts_for_more_and_inside_counts_outside() -> None
         count(1)
     assert (inner.number, outer.number) == (5, 6)
     assert outer.work - inner.work == 1 and inner.work > 5
+
+
+# Surfaces singular at the origin, and whether their tangent cone is irreducible.
+SINGULAR = {
+    "a cone": ("x^2 + 2*y^2 - z^2 + x^3", True),
+    "a cubic cone": ("x^3 + y^3 + z^3 + 5*x*y*z + z^4", True),
+    "the lines of a cubic's flexes": ("x^3 + y^3 + z^3 - 3*x*y*z + z^4", False),
+    "two planes": ("x*y", False),
+    "one sheet whose cone is two planes": ("x*y + z^3", False),
+    "two complex planes, bent": ("x^2 + y^2 + z^3", False),
+    "a double plane": ("x^2 - y^2*z", False),
+    "two surfaces": ("(x^2 + y*z)*(x + y - z + z^2)", False),
+}
+
+
+@pytest.mark.parametrize("name", sorted(SINGULAR))
+def test_a_singular_point_is_left_where_its_tangent_cone_shows_one_component(name: str) -> None:
+    text, irreducible = SINGULAR[name]
+    system = nag.system([text, "w^2 + w - 3*x"], "w x y z")
+    local = local_dimension(system, (0, 0, 0, 0))
+    assert (local.tangent_dimension, local.dimension) == (3, 2)
+    for seed in range(3):
+        beside = leave_singular_point(system, (0,) * 4, local, np.random.default_rng(seed))
+        assert (beside is not None) is irreducible
+        if beside is not None:
+            evaluator = Evaluator.of(system.polynomials, 4)
+            assert evaluator.residuals(beside[None]).max() < 1e-14
+            assert np.linalg.matrix_rank(evaluator.jacobian(beside), 1e-9) == 2
+
+
+def test_an_equation_that_cuts_a_curve_from_a_cone_shows_no_component() -> None:
+    # The cone's equation times others: a line and the origin are left.
+    system = nag.system(["(x^2 + y^2 - z^2)*x", "(x^2 + y^2 - z^2)*y", "(x^2 + y^2 - z^2)*z"])
+    local = local_dimension(system, (0, 0, 0))
+    assert leave_singular_point(system, (0, 0, 0), local, np.random.default_rng(0)) is None

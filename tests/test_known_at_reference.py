@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, product
 
 import pytest
 from linkages import CASES
@@ -14,7 +14,7 @@ import nag
 from nag.algebra.exact_ranks import null_space, rank
 from nag.cli import main
 from nag.mechanism.axes import cross, difference, dot
-from nag.mechanism.framework import Framework
+from nag.mechanism.framework import Framework, placed_framework
 from nag.mechanism.mobility_report import MobilityStatus
 from nag.report.agreement import AgreementKind, compare_at_reference
 
@@ -150,6 +150,39 @@ def test_no_seed_finds_another_degree_of_the_motion_of_steffens_polyhedron(seed:
     report = nag.mobility(shipped("mobility/steffen"), seed=seed)
     ((dimension, degree),) = report.components
     assert (dimension, degree) == (1, 40) or (degree is None and report.least_degree <= 40)
+
+
+def affine_cube() -> Framework:
+    """Twelve edges and four diagonals of a parallelepiped: K(4, 4), its points on many quadrics."""
+    corners = list(product((0, 1), repeat=3))
+    edges = ((4, 1, 3), (-3, 5, 2), (1, -2, 6))
+    sums = [
+        [sum(c * e[i] for c, e in zip(v, edges, strict=True)) for i in range(3)] for v in corners
+    ]
+    points = {
+        "".join(map(str, v)): tuple(map(Fraction, p)) for v, p in zip(corners, sums, strict=True)
+    }
+    apart = {
+        (a, b): sum(x != y for x, y in zip(a, b, strict=True)) for a, b in combinations(points, 2)
+    }
+    bars = [pair for pair, k in apart.items() if k % 2]
+    return placed_framework(3, points, bars)
+
+
+def test_one_component_passes_through_a_singular_configuration_with_an_irreducible_cone() -> None:
+    report = nag.mobility(affine_cube(), budget=0)
+    assert (report.tangent_dimension, report.local_dimension) == (3, 2)
+    assert (report.components, report.multiplicities, report.open) == (((2, None),), (1,), "")
+    assert report.status is MobilityStatus.MOBILE and "singular" in report.sentence
+    assert "tangent cone is irreducible" in report.rests_on
+
+
+@pytest.mark.parametrize("name", ["mobility/3-rrr-stretched"])
+def test_what_a_cone_shows_is_what_a_decomposition_finds(name: str) -> None:
+    case = shipped(name)
+    through, everything = nag.mobility(case), nag.mobility(case, detail="components")
+    assert "cone" in through.rests_on and "decomposition" in everything.rests_on
+    assert through.components == everything.components
 
 
 def test_what_a_case_knows_of_its_reference_is_compared(capsys, tmp_path) -> None:

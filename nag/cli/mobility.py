@@ -218,7 +218,9 @@ def _is_limited(options: argparse.Namespace, report: MobilityReport) -> bool:
     """Whether the answer may depend on the budget."""
     if options.local or options.components or options.curves or report.local is None:
         return report.least_degree is not None
-    return report.local.smooth and report.local.lower > 0
+    from nag.mechanism.mobility_at import ALL_COMPONENTS
+
+    return report.local.lower > 0 and report.rests_on != ALL_COMPONENTS
 
 
 def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:

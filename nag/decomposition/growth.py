@@ -8,6 +8,9 @@ Paths that ask for more digits than doubles are dropped: others lead to the same
 trace says that all are found (Sommese, Verschelde & Wampler 2002); else there are at least as many
 as were found. How much is done is limited by evaluations of the equations and not by a clock: the
 same seed, the same answer.
+
+A singular point that only one component passes through, as its tangent cone says, is left along
+that cone for a regular one.
 """
 
 from __future__ import annotations
@@ -16,6 +19,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from itertools import product, zip_longest
+from typing import Any
 
 import numpy as np
 
@@ -33,6 +37,9 @@ from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import split_joined_points
 from nag.decomposition.trace import Trace, digits_of_evidence
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
+from nag.numerics.doubles import ROUGH
+from nag.numerics.local_dimension import LocalDimension, exact_numbers
+from nag.numerics.tangent_cone import tangent_cone
 from nag.numerics.zero_values import LEAST, ON
 from nag.tracking.evaluations import Evaluations, count_evaluations
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -62,6 +69,11 @@ FEW, MOST_AT_ONCE = 64, 1024
 PATH, FACTOR, ENTRY, STEP, LANES = 6e-5, 3e-10, 7e-10, 2e-11, 8
 # Seconds that it takes, for each variable of a term, to find coordinates and a cut.
 MADE_READY = 5e-5
+
+# Binary logarithms of the distances to which a singular point is left, one after the other; how far
+# from the tangent cone, beside the distance, a zero may be there; and what that becomes at half the
+# distance where the set touches the cone, at most.
+DISTANCES, BENT, TOUCHING = (3, 24), 0.1, 0.7
 
 BUDGET = "its budget was used up"
 NO_SLICE = "no path led from it to a generic slice"
@@ -102,12 +114,13 @@ class _Allowance:
     Attributes:
         seconds: that are left of a common processor.
         each: that an evaluation takes there.
-        per_path: that one of the last paths took, by the digits in which paths were followed.
+        spent: seconds, and the paths that they were spent on, by the digits in which these were
+            followed. The last ones tell less: points that are found late are hard to reach.
     """
 
     seconds: float
     each: float = 0.0
-    per_path: dict[int, float] = field(default_factory=dict)
+    spent: dict[int, tuple[float, int]] = field(default_factory=dict)
     paths: PathCounts = field(default_factory=PathCounts)
 
     def pay(self, digits: int, spent: Evaluations, paths: PathCounts) -> None:
@@ -119,14 +132,19 @@ class _Allowance:
         cost = work + paths.tracked * PATH
         self.seconds -= cost + spent.once * self.each
         self.paths += paths
-        if paths.tracked:
-            self.per_path[digits] = cost / paths.tracked
+        before, tracked = self.spent.get(digits, (0.0, 0))
+        self.spent[digits] = before + cost, tracked + paths.tracked
+
+    def per_path(self, digits: int) -> float | None:
+        """Seconds that a path in so many digits took on the average; None if there was none."""
+        cost, tracked = self.spent.get(digits, (0.0, 0))
+        return cost / tracked if tracked else None
 
     def most(self, digits: int) -> int:
         """How many paths may be tracked: a few where it is not known what they take."""
         if self.seconds <= 0:
             return 0
-        cost = self.per_path.get(digits)
+        cost = self.per_path(digits)
         return FEW if cost is None else int(self.seconds / cost)
 
 
@@ -169,6 +187,39 @@ def grow_component(
         component, reason = None, component.note
     least, left = len(growing.points), allowance.seconds
     return Growth(dimension, least, component, reason, allowance.paths, left)
+
+
+def leave_singular_point(
+    system: PolynomialSystem,
+    point: Sequence[Any],
+    local: LocalDimension,
+    rng: np.random.Generator,
+) -> np.ndarray | None:
+    """A regular point beside a singular one, on the only component that passes through it.
+
+    None where others may pass through it as well, and where no such point is found.
+
+    Args:
+        point: as it was given, exact or not.
+        local: what is known of the equations there.
+    """
+    if local.dimension is None or local.tangent_dimension != local.dimension + 1:
+        return None
+    error = {} if exact_numbers(point) is not None else {"accuracy": ROUGH}
+    cone = tangent_cone(system, point, **error)
+    if cone is None or not cone.is_irreducible(rng):
+        return None
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    along, last, found = cone.tangent_vector(rng), np.inf, None
+    for k in range(*DISTANCES):
+        # A curve leaves the point along each vector of the cone: what is off is of second order.
+        start = local.point + 2.0**-k * along
+        end = polish(evaluator, start, local.dimension)
+        off = float(np.abs(end.x - start).max()) * 2.0**k
+        if found is not None and off < BENT and off < TOUCHING * last:
+            return found
+        last, found = off, end.x if end.converged and off < BENT else None
+    return None
 
 
 def _dimension_at(system: PolynomialSystem, point: np.ndarray) -> int:
@@ -319,7 +370,7 @@ class _Growing:
             if linear is None and quiet >= max(MOST_QUIET, QUIET_PATHS // len(self.points)):
                 return NOT_ALL
             self.run.tell("points of the component", len(self.points), 0)
-            known = self.allowance.per_path.get(digits)
+            known = self.allowance.per_path(digits)
             some = min(len(self.points), self.allowance.most(digits) // 2)
             if not some or (known is not None and some < len(self.points)):
                 return BUDGET

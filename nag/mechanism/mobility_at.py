@@ -15,7 +15,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import quote
 from nag.decomposition.curve_genus import GenusError, genus
 from nag.decomposition.fibre_product import FibreProduct, find_fibre_product
-from nag.decomposition.growth import grow_component
+from nag.decomposition.growth import grow_component, leave_singular_point
 from nag.decomposition.through import through_points, zero_at
 from nag.errors import MechanismError, NagError
 from nag.mechanism import BUDGET, FORMULATIONS, PLATFORM_ALONE
@@ -44,6 +44,10 @@ from nag.witness.witness import Decomposition, WitnessSet
 
 # What components are known by.
 SMOOTH = "one component passes through a smooth point, and is reduced there"
+ONE_BRANCH = (
+    "one component passes through a singular point whose tangent cone is irreducible, of the same "
+    "dimension, and is reduced"
+)
 ISOLATED = "an isolated configuration is a component"
 ALL_COMPONENTS = "a decomposition of all configurations"
 
@@ -364,9 +368,13 @@ def _with_components(
 ) -> MobilityReport:
     """A report, and the components through the configuration."""
     if detail == "through" and first.local.smooth:
-        return _with_only_component(first, problem, budget, run)
+        return _with_only_component(first, problem, first.local.point, SMOOTH, budget, run)
     if detail == "through" and first.local.upper == 0:
         return replace(first, components=((problem.free, 1),), rests_on=ISOLATED)
+    if detail == "through":
+        beside = leave_singular_point(problem.system, at, first.local, run.random(48))
+        if beside is not None:
+            return _with_only_component(first, problem, beside, ONE_BRANCH, budget, run)
     paths = fewest_estimated_paths(problem.system)
     if detail == "through" and not first.local.smooth and paths * LEAST_SECONDS > budget:
         reason = (
@@ -380,7 +388,7 @@ def _with_components(
         return replace(first, open=reason)
     through, doubt = _components(problem, zero_at(problem.system, at, first.local), run)
     if through is None and first.local.smooth:
-        only = _with_only_component(first, problem, budget, run)
+        only = _with_only_component(first, problem, first.local.point, SMOOTH, budget, run)
         return replace(only, open=doubt if only.least_degree is not None else "")
     free = problem.free
     known = None if through is None else tuple((c.dimension + free, c.degree) for c in through)
@@ -422,34 +430,43 @@ def _components_by_poses(
 
 
 def _with_only_component(
-    first: MobilityReport, problem: Problem, budget: float, run: Run
+    first: MobilityReport,
+    problem: Problem,
+    start: np.ndarray,
+    why: str,
+    budget: float,
+    run: Run,
 ) -> MobilityReport:
-    """A report of a smooth configuration, and the degree of the component through it.
+    """A report of a configuration that one component passes through, and its degree.
 
-    Exactly one passes through a smooth point, of the local dimension, and it is reduced.
+    It is of the local dimension, and reduced, as at every smooth point.
+
+    Args:
+        start: a smooth point of it.
+        why: no other passes through the configuration.
     """
     local = first.local
     whole = (local.lower + problem.free,)
     if not local.lower:
-        return replace(first, components=((*whole, 1),), multiplicities=(1,), rests_on=SMOOTH)
+        return replace(first, components=((*whole, 1),), multiplicities=(1,), rests_on=why)
     # Multidegrees are not asked for.
     system = replace(problem.system, groups=())
-    grown = grow_component(system, local.point, local.lower, seconds=budget, run=run)
+    grown = grow_component(system, start, local.lower, seconds=budget, run=run)
     paths = f"by loops of {count_text(grown.paths.tracked, 'path')} from there"
     if grown.degree is not None:
         return replace(
             first,
             components=((*whole, grown.degree),),
             multiplicities=(1,),
-            rests_on=f"{SMOOTH}; its degree {paths}",
+            rests_on=f"{why}; its degree {paths}",
         )
-    why = f"its degree {paths} within a budget of {budget:g} s: {grown.reason}"
+    unknown = f"its degree {paths} within a budget of {budget:g} s: {grown.reason}"
     return replace(
         first,
         components=((*whole, None),),
         multiplicities=(1,),
         least_degree=grown.least,
-        rests_on=f"{SMOOTH}; {why}",
+        rests_on=f"{why}; {unknown}",
     )
 
 

@@ -4,6 +4,10 @@ In the coordinates of the tangent space the equations have no linear part; their
 order are the equations of lowest degree of the tangent cone, and all of them if there is one. They
 hold on the tangent space, which linear equations cut out.
 
+A power series whose part of lowest order has no factors over the complex numbers has none itself.
+So where the local dimension is one less than the tangent dimension and there is such a form, the
+zeros near the point are those of that series: one component passes through it, and is reduced.
+
 Reference:
     Cox, Little & O'Shea, Ideals, Varieties, and Algorithms, chapter 9, section 7.
 """
@@ -20,6 +24,8 @@ from typing import Any
 import flint
 import numpy as np
 
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.factoring import factor_into_irreducibles, is_absolutely_irreducible
 from nag.algebra.fixed_mapping import fixed_mapping
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -71,6 +77,44 @@ class TangentCone:
     def text(self, variables: Sequence[str]) -> str:
         """The forms, with the variables' names for their distances from the point."""
         return _equations(self.forms, variables)
+
+    def is_irreducible(self, rng: np.random.Generator) -> bool:
+        """Whether there is one form, and it certainly has no factors over the complex numbers.
+
+        Args:
+            rng: chooses a plane on which it is looked at.
+        """
+        if len(self.forms) != 1:
+            return False
+        (form,) = self.forms
+        if not all(isinstance(c, Fraction) for c in form.values()):
+            return False
+        f = Polynomial(len(next(iter(form))), form)
+        factors = factor_into_irreducibles(f)
+        return [k for _, k in factors] == [1] and is_absolutely_irreducible(f, rng)
+
+    def tangent_vector(self, rng: np.random.Generator) -> np.ndarray:
+        """A random vector on the cone of one form, complex, its largest entry of size one."""
+        (form,) = self.forms
+        n, free = len(next(iter(form))), list(self.coordinates)
+        others = [i for i in range(n) if i not in free]
+        ends = rng.normal(size=(2, 2, len(free)))
+        start, along = ends[0] + 1j * ends[1]
+        # The form on a line, by its values at as many roots of unity as it has coefficients.
+        turns = np.exp(2j * np.pi * np.arange(self.degree + 1) / (self.degree + 1))
+        points = np.zeros((len(turns), n), dtype=complex)
+        points[:, free] = start + turns[:, None] * along
+        values = Evaluator.of([Polynomial(n, form)], n).values(points)[:, 0]
+        on_cone = np.roots((np.fft.fft(values) / len(turns))[::-1])[0]
+        vector = np.zeros(n, dtype=complex)
+        vector[free] = start + on_cone * along
+        if others:
+            rows = np.zeros((len(self.linear), n), dtype=complex)
+            for row, line in zip(rows, self.linear, strict=True):
+                for e, c in line.items():
+                    row[e.index(1)] = complex(c)
+            vector[others] = -np.linalg.solve(rows[:, others], rows[:, free] @ vector[free])
+        return vector / np.abs(vector).max()
 
     def tangent_text(self, variables: Sequence[str]) -> str:
         """The equations of the tangent space, empty if it is the whole space."""
