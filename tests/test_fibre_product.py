@@ -99,6 +99,14 @@ def test_a_row_of_twelve_four_bars_has_its_degree_and_genus_at_once() -> None:
     assert [curve.genus for curve in report.curves] == [euler // 2 + 1]
 
 
+def test_longer_rows_of_four_bars_keep_to_the_law_of_shorter_ones() -> None:
+    # Places that are led along half of the row are 4, doubled by each cell.
+    for n in (4, 8, 16):
+        problem = nag.model(four_bars(n), formulation="H")
+        known = find_fibre_product(problem.system, problem.reference, np.random.default_rng(n))
+        assert (known.degree, known.genus) == ((n + 1) * 2**n, (n - 1) * 2**n + 1)
+
+
 def test_parallelograms_stay_rational() -> None:
     report = nag.mobility(parallelograms(12))
     assert report.components == ((1, 13),) and report.curves[0].genus == 0

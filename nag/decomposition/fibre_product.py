@@ -21,7 +21,7 @@ a common zero is found nothing is said.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import combinations
 from typing import Any
 
@@ -34,8 +34,8 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 
-# Resultants of higher degree than this take long.
-MOST_DEGREE = 300
+# Resultants of higher degree than this take long: seconds, and four times as long for each double.
+MOST_DEGREE = 5_000
 
 
 @dataclass(frozen=True)
@@ -87,10 +87,8 @@ def find_fibre_product(
     if len(whole) < len(curves) or not _have_no_common_branch_points(lines, whole):
         return None
     sheets, genus = _riemann_hurwitz(whole, system.n)
-    apart = all(
-        lines.never_meet(whole, (v, lines.infinity(v)), (w, lines.infinity(w)))
-        for v, w in combinations(range(system.n), 2)
-    )
+    infinities = [lines.infinity(v) for v in range(system.n)]
+    apart = all(lines.never_meet(whole, v, w) for v, w in combinations(infinities, 2))
     return FibreProduct(len(whole), sheets, sum(sheets) if apart else None, genus)
 
 
@@ -121,20 +119,28 @@ def _are_tree(equations: Sequence[Polynomial], n: int) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
+class _Places:
+    """Places of a variable's line: the zeros of a form in its coordinate, FLINT's ``nmod_poly``."""
+
+    variable: int
+    form: Any
+
+
+@dataclass(frozen=True, eq=False)
 class _Curve:
     """The curve of one equation in two variables, smooth in the product of their lines.
 
     Attributes:
         ends: its variables.
         degrees: of the equation in each of them.
-        form: the equation modulo the prime, its first variable x, the other one y.
-        branches: over each variable a form that vanishes at the branch points.
+        terms: of the equation modulo the prime, in the coordinates of its variables.
+        branches: over each variable the branch points.
     """
 
     ends: tuple[int, int]
     degrees: tuple[int, int]
-    form: Any
-    branches: tuple[Any, Any]
+    terms: dict[tuple[int, int], int]
+    branches: tuple[_Places, _Places]
 
     @property
     def genus(self) -> int:
@@ -146,6 +152,14 @@ class _Curve:
 
     def other(self, variable: int) -> int:
         return self.ends[1 - self.ends.index(variable)]
+
+    def powers(self, variable: int, modulus: int) -> list[Any]:
+        """What each power of a variable is multiplied by, forms in the other variable."""
+        k = self.ends.index(variable)
+        table = [[0] * (self.degrees[1 - k] + 1) for _ in range(self.degrees[k] + 1)]
+        for e, c in self.terms.items():
+            table[e[k]][e[1 - k]] = c
+        return [flint.nmod_poly(row, modulus) for row in table]
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,6 +174,7 @@ class _Lines:
     field: PrimeField
     ring: Any
     coordinates: tuple[tuple[int, int, int, int], ...]
+    _led: dict[tuple[_Places, tuple[_Curve, ...]], _Places | None] = field(default_factory=dict)
 
     @classmethod
     def of(cls, n: int, field: PrimeField, rng: np.random.Generator) -> _Lines:
@@ -167,10 +182,10 @@ class _Lines:
         drawn = rng.integers(1, field.modulus, size=(n, 4)).tolist()
         return cls(field, ring, tuple(map(tuple, drawn)))
 
-    def infinity(self, variable: int) -> Any:
-        """A form that vanishes where a variable is infinite."""
+    def infinity(self, variable: int) -> _Places:
+        """The place where a variable is infinite."""
         *_, c, d = self.coordinates[variable]
-        return c * self.ring.gens()[0] + d
+        return _Places(variable, flint.nmod_poly([d, c], self.field.modulus))
 
     def curve(self, f: Polynomial) -> _Curve | None:
         """The curve of an equation; None if it may be singular, or the coordinates are special."""
@@ -192,47 +207,79 @@ class _Lines:
         for k, name in enumerate("yx"):
             sheets = degrees[1 - k]
             own = form.discriminant(name) if sheets > 1 else 0 * x + 1
-            own = own if k == 0 else own.compose(y, x)
-            if own.degrees()[0] != 2 * (sheets - 1) * degrees[k] or not own:
+            places = _Places((i, j)[k], self._in_one_variable(own, k))
+            if places.form.degree() != 2 * (sheets - 1) * degrees[k]:
                 return None
-            branches.append(own)
+            branches.append(places)
         if max(degrees) == 1:
             smooth = bool(form[1, 1] * form[0, 0] - form[1, 0] * form[0, 1])
         else:
-            own = branches[degrees[1] == 1]
-            smooth = own.gcd(own.derivative("x")).is_constant()
-        return _Curve((i, j), degrees, form, (branches[0], branches[1])) if smooth else None
+            own = branches[degrees[1] == 1].form
+            smooth = own.gcd(own.derivative()).is_constant()
+        terms = {tuple(map(int, e)): int(c) for e, c in form.to_dict().items()}
+        return _Curve((i, j), degrees, terms, (branches[0], branches[1])) if smooth else None
 
-    def never_meet(
-        self, curves: Sequence[_Curve], first: tuple[int, Any], second: tuple[int, Any]
-    ) -> bool:
-        """Whether the curves certainly lead no zero of a form to one of another's.
+    def _in_one_variable(self, form: Any, index: int) -> Any:
+        """A form that contains one variable alone, as ``nmod_poly``."""
+        terms = {int(e[index]): int(c) for e, c in form.to_dict().items()}
+        row = [terms.get(k, 0) for k in range(max(terms, default=0) + 1)]
+        return flint.nmod_poly(row, self.field.modulus)
 
-        Args:
-            first, second: each a variable, and a form in its coordinate.
-        """
-        path = _path(curves, first[0], second[0])
+    def never_meet(self, curves: Sequence[_Curve], first: _Places, second: _Places) -> bool:
+        """Whether the curves certainly lead no place to one of some others."""
+        path = _path(curves, first.variable, second.variable)
         # Led from both ends to the middle, degrees grow to their roots.
         half = len(path) // 2
-        ahead = self._lead(path[:half], *first)
-        back = self._lead(path[half:][::-1], *second)
+        ahead = self._lead(tuple(path[:half]), first)
+        back = self._lead(tuple(path[half:][::-1]), second)
         if ahead is None or back is None:
             return False
-        return bool(ahead.gcd(back).is_constant())
+        return bool(ahead.form.gcd(back.form).is_constant())
 
-    def _lead(self, path: Sequence[_Curve], variable: int, form: Any) -> Any | None:
-        """Where the curves lead the zeros of a form, one after the other; None if it is large."""
-        x, y = self.ring.gens()
-        for curve in path:
-            degree = form.degrees()[0] * curve.sheets(variable)
-            if degree > MOST_DEGREE:
-                return None
-            own = curve.form if curve.ends[0] == variable else curve.form.compose(y, x)
-            form = form.resultant(own, "x").compose(y, x)
-            if form.degrees()[0] != degree or not form:
-                return None
-            variable = curve.other(variable)
-        return form
+    def _lead(self, path: tuple[_Curve, ...], places: _Places) -> _Places | None:
+        """Where the curves lead places, one after the other; None if these are too many."""
+        if not path:
+            return places
+        key = places, path
+        if key not in self._led:
+            before = self._lead(path[:-1], places)
+            self._led[key] = None if before is None else self._lead_once(path[-1], before)
+        return self._led[key]
+
+    def _lead_once(self, curve: _Curve, places: _Places) -> _Places | None:
+        """Where a curve leads places: the resultant, by its values."""
+        variable, form, p = places.variable, places.form, self.field.modulus
+        degree = form.degree() * curve.sheets(variable)
+        if degree > MOST_DEGREE:
+            return None
+        powers, most = curve.powers(variable, p), curve.degrees[curve.ends.index(variable)]
+        values, leading = [], form.leading_coefficient()
+        for y in range(degree + 1):
+            own = flint.nmod_poly([f(y) for f in powers], p)
+            # A leading coefficient that vanishes leaves zeros at infinity out.
+            values.append(form.resultant(own) * leading ** (most - max(own.degree(), 0)))
+        found = _interpolate(values, p)
+        if found.degree() != degree:
+            return None
+        return _Places(curve.other(variable), found)
+
+
+def _interpolate(values: Sequence[Any], modulus: int) -> Any:
+    """The polynomial modulo a prime that has these values at 0, 1, .."""
+    n, factorials = len(values), [1]
+    for k in range(1, n):
+        factorials.append(factorials[-1] * k % modulus)
+    parts = []
+    for k, value in enumerate(values):
+        # The derivative of (x - 0) (x - 1) .. at k.
+        slope = factorials[k] * factorials[n - 1 - k] * (-1) ** (n - 1 - k)
+        weight = int(value) * pow(slope, -1, modulus) % modulus
+        parts.append((flint.nmod_poly([weight], modulus), flint.nmod_poly([-k, 1], modulus)))
+    while len(parts) > 1:
+        last = parts[len(parts) & ~1 :]
+        pairs = zip(parts[::2], parts[1::2], strict=False)
+        parts = [(a * q + b * p, p * q) for (a, p), (b, q) in pairs] + last
+    return parts[0][0]
 
 
 def _path(curves: Sequence[_Curve], first: int, last: int) -> list[_Curve]:
@@ -256,7 +303,7 @@ def _have_no_common_branch_points(lines: _Lines, curves: Sequence[_Curve]) -> bo
             key=lambda ends: len(_path(curves, *ends)),
         )
         first, second = one.branches[one.ends.index(u)], other.branches[other.ends.index(v)]
-        if not lines.never_meet(curves, (u, first), (v, second)):
+        if not lines.never_meet(curves, first, second):
             return False
     return True
 

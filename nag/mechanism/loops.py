@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from functools import lru_cache
+from typing import Any, TypeVar
 
 from nag.algebra.fixed_mapping import fixed_mapping
 from nag.mechanism.axes import space_of
@@ -255,6 +256,12 @@ def minimum_cycles(edges: Iterable[tuple[Node, Node]]) -> list[list[Node]]:
     Each begins with its least node and goes on to its least neighbour. Which of several minimum
     bases is taken follows the hashes of the nodes: numbers have the same ones in every run.
     """
+    return [list(cycle) for cycle in _minimum_cycles(tuple(edges))]
+
+
+@lru_cache(maxsize=16)
+def _minimum_cycles(edges: tuple[tuple[Any, Any], ...]) -> tuple[tuple[Any, ...], ...]:
+    """The same: a mechanism's are asked for by all who take it apart."""
     import networkx
 
     graph: networkx.Graph = networkx.Graph(edges)
@@ -263,8 +270,8 @@ def minimum_cycles(edges: Iterable[tuple[Node, Node]]) -> list[list[Node]]:
         cycle = [min(nodes)]
         while len(cycle) < len(nodes):
             cycle.append(min(v for v in graph[cycle[-1]] if v in nodes and v not in cycle))
-        cycles.append(cycle)
-    return cycles
+        cycles.append(tuple(cycle))
+    return tuple(cycles)
 
 
 def _edges(joints: Iterable[Joint]) -> list[tuple[tuple[str, str], tuple[str, str]]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -240,9 +241,17 @@ def _product_of(problem: Problem, run: Run) -> FibreProduct | None:
     """The curve through the reference, where it is known without paths, with its degree."""
     if problem.formulation != "H" or problem.reference is None:
         return None
-    found = find_fibre_product(problem.system, problem.reference, run.random(47))
+    found = _fibre_product(problem.system, tuple(problem.reference), run.seed)
     known = found is not None and found.factors > 1 and found.degree is not None
     return found if known else None
+
+
+@lru_cache(maxsize=8)
+def _fibre_product(
+    system: PolynomialSystem, at: tuple[Number, ...], seed: int
+) -> FibreProduct | None:
+    """It is asked for before a model is chosen, and when the answer is made."""
+    return find_fibre_product(system, at, Run(seed=seed).random(47))
 
 
 def _has_four_bars(given: Any) -> bool:
