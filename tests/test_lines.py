@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import cycle
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import nag
 from nag.mechanism.axes import cross
+from nag.mechanism.lines import given_links, shortest_links, turns_about_line
 
 
 class Line:
@@ -53,3 +60,69 @@ def test_exact_lines_are_kept_and_rounded_ones_nearly_move() -> None:
 def test_what_is_no_line_is_refused_by_its_number(line: Any, said: str) -> None:
     with pytest.raises(nag.NagError, match=said):
         nag.Mechanism.from_lines([(0, 0, 1, 0, 0, 0), line])
+
+
+def moved_along(mechanism: nag.Mechanism, steps: Sequence[Fraction]) -> nag.Mechanism:
+    """The same axes by other points of them; slides at any other place."""
+    joints = []
+    for joint, step in zip(mechanism.joints, cycle(steps)):
+        if turns_about_line(joint):
+            point = tuple(x + step * y for x, y in zip(joint.point, joint.axis, strict=True))
+            joint = replace(joint, point=point)
+        elif joint.of_type.slides_only:
+            joint = replace(joint, point=tuple(x + step for x in joint.point))
+        joints.append(joint)
+    return replace(mechanism, joints=tuple(joints))
+
+
+STEPS = st.builds(
+    lambda digits, size: Fraction(digits * 10**size),
+    st.integers(-9, 9),
+    st.integers(0, 30),
+)
+
+
+@settings(max_examples=4, deadline=None)
+@given(steps=st.lists(STEPS, min_size=1, max_size=5))
+@pytest.mark.parametrize(
+    "name",
+    ["bennett", "planar-four-bar", "spatial/rssr", "spatial/rccc", "spatial/delassus-rprp"],
+)
+def test_mobility_does_not_depend_on_which_points_of_axes_are_named(
+    name: str, steps: list[Fraction]
+) -> None:
+    made = nag.read_case(f"cases/{name}.toml").mechanism
+    body = made.body_names[-1]
+    assert nag.mobility(moved_along(made, steps), of=body) == nag.mobility(made, of=body)
+
+
+@settings(max_examples=5, deadline=None)
+@given(steps=st.lists(STEPS, min_size=1, max_size=5))
+@pytest.mark.parametrize("formulation", ["E", "H"])
+def test_equations_do_not_depend_on_which_points_of_axes_are_named(
+    formulation: str, steps: list[Fraction]
+) -> None:
+    made = nag.read_case("cases/robots/3-rps.toml").mechanism
+    one, other = (nag.model(m, formulation).system for m in (made, moved_along(made, steps)))
+    assert one.polynomials == other.polynomials
+
+
+def test_a_telescope_stays_idle_however_far_its_axes_are_named() -> None:
+    """Lengths are those of the mechanism, whichever points of the axes are given."""
+    x, z, far = (1, 0, 0), (0, 0, 1), (1 + 2 * 10**9, 2 * 10**9, 10**9)
+    joints = (
+        nag.Joint("A", "revolute", ("base", "crank"), (0, 0, 10**12), z),
+        nag.Joint("B", "spherical", ("crank", "tube"), (1, 0, 0)),
+        nag.Joint("C", "cylindrical", ("tube", "rod"), far, (2, 2, 1)),
+        nag.Joint("D", "spherical", ("rod", "rocker"), (3, 2, 1)),
+        nag.Joint("E", "revolute", ("rocker", "base"), (-(10**20), 0, 1), x),
+    )
+    moving = nag.mobility(nag.Mechanism("base", joints), detail="local").moving
+    assert {e.bodies for e in moving.idle} == {("tube",), ("rod",)}
+
+
+def test_shortest_links_are_common_perpendiculars_where_offsets_are_zero() -> None:
+    made = nag.read_case("cases/bennett.toml").mechanism
+    ring = moved_along(made, [Fraction(3), Fraction(-5), Fraction(10**9)])
+    links = shortest_links(ring.joints)
+    assert links == given_links(made.joints)

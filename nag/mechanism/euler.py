@@ -32,6 +32,7 @@ from nag.mechanism.configuration import (
     configuration,
 )
 from nag.mechanism.graph import Joint
+from nag.mechanism.lines import given_links, shortest_links
 from nag.mechanism.loops import Loop, LoopStructure
 from nag.mechanism.quaternion import Quaternion, conjugate, multiply, norm_squared, rotate
 
@@ -170,7 +171,9 @@ def euler_system(
         polynomials += prime_component(structure, parameters, joint, mode)
     if not spherical:
         for loop in structure.loops:
-            polynomials += loop_closure(structure, parameters, slides, loop)
+            # Of a joint whose axis is turned round, its point is where both bodies meet.
+            links = given_links(loop.joints) if modes else shortest_links(loop.joints)
+            polynomials += loop_closure(structure, parameters, slides, loop, links)
     return PolynomialSystem(names, tuple(f for f in polynomials if f))
 
 
@@ -345,16 +348,22 @@ def slide_carrier(structure: LoopStructure, joint: Joint) -> str:
 
 
 def loop_closure(
-    structure: LoopStructure, parameters: Parameters, slides: Slides, loop: Loop
+    structure: LoopStructure,
+    parameters: Parameters,
+    slides: Slides,
+    loop: Loop,
+    links: Sequence[Vector],
 ) -> list[Polynomial]:
     """The sum of R(a_i) v_i over a loop's bodies, v_i from a body's one joint to its other.
 
     Slides add their distance along their direction in the body that carries them.
+
+    Args:
+        links: the vectors v_i at the reference configuration.
     """
     total: Sequence[Any] = (Fraction(0),) * 3
     for i, body in enumerate(loop.bodies):
-        link = difference(loop.joints[i].point, loop.joints[i - 1].point)
-        turned = rotate(parameters[body], _local(structure, body, link))
+        turned = rotate(parameters[body], _local(structure, body, links[i]))
         total = tuple(x + y for x, y in zip(turned, total, strict=True))
         joint = loop.joints[i]
         carrier = slide_carrier(structure, joint)

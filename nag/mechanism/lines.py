@@ -14,11 +14,12 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.from_python import exact_vector
-from nag.algebra.number import is_zero
+from nag.algebra.number import Number, is_zero
 from nag.errors import MechanismError
 from nag.mechanism.axes import Vector, cross, difference, dot, vanishes
 from nag.mechanism.graph import ORIGIN, Joint, Mechanism
 
+UNITS = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
 # Decides: How far direction and moment may be from orthogonal, in numbers that are rounded.
 ROUNDED = 1e-9
 # Decides: Singular values, beside the largest, of directions in which no axis bounds the middle.
@@ -107,6 +108,81 @@ def nearest_on_axis(joint: Joint, to: Vector) -> Vector:
         return joint.point
     along = dot(difference(to, joint.point), joint.axis) / dot(joint.axis, joint.axis)
     return tuple(x + along * y for x, y in zip(joint.point, joint.axis, strict=True))
+
+
+def given_links(joints: Sequence[Joint]) -> list[Vector]:
+    """The vectors from each joint of a loop to the next, between the points that are named."""
+    return [difference(joint.point, joints[i - 1].point) for i, joint in enumerate(joints)]
+
+
+def shortest_links(joints: Sequence[Joint]) -> list[Vector]:
+    """The vectors from each joint of a loop to the next, between the points that make them short.
+
+    The i-th one leads from the joint before to the i-th. Any point of its axis may stand for a
+    joint that turns about it, any point at all for one that slides alone: of all choices these have
+    the least sum of squares, so that they are the same whichever points are named.
+    """
+    ways = [_free_directions(joint) for joint in joints]
+    given = given_links(joints)
+    free = [(i, way) for i, own in enumerate(ways) for way in own]
+    last = len(joints) - 1
+
+    def derivative(k: int, link: int) -> Vector | None:
+        i, way = free[k]
+        if i == link:
+            return way
+        before = i == link - 1 or (link == 0 and i == last)
+        return tuple(-x for x in way) if before else None
+
+    def product(u: Vector | None, v: Vector | None) -> Number:
+        return Fraction(0) if u is None or v is None else dot(u, v)
+
+    slopes = [[derivative(k, link) for link in range(len(joints))] for k in range(len(free))]
+    matrix = [
+        [
+            *(
+                sum((product(u, v) for u, v in zip(one, other, strict=True)), Fraction(0))
+                for other in slopes
+            ),
+            -sum((product(u, v) for u, v in zip(one, given, strict=True)), Fraction(0)),
+        ]
+        for one in slopes
+    ]
+    shifts = _solve(matrix)
+    moved = [joint.point for joint in joints]
+    for (i, way), shift in zip(free, shifts, strict=True):
+        moved[i] = tuple(x + shift * y for x, y in zip(moved[i], way, strict=True))
+    return [difference(point, moved[i - 1]) for i, point in enumerate(moved)]
+
+
+def _free_directions(joint: Joint) -> tuple[Vector, ...]:
+    """Along which the point of a joint may be moved."""
+    if joint.of_type.slides_only:
+        return UNITS
+    return (joint.axis,) if turns_about_line(joint) else ()
+
+
+def _solve(rows: list[list[Number]]) -> list[Number]:
+    """A solution of equations that have one, the right sides last; what is free is zero."""
+    count = len(rows)
+    solved: list[Number] = [Fraction(0)] * count
+    left, pivots = list(rows), []
+    for k in range(count):
+        pivot = next((row for row in left if not is_zero(row[k])), None)
+        if pivot is None:
+            continue
+        left = [row for row in left if row is not pivot]
+        left = [
+            row
+            if is_zero(row[k])
+            else [x - row[k] / pivot[k] * y for x, y in zip(row, pivot, strict=True)]
+            for row in left
+        ]
+        pivots.append((k, pivot))
+    for k, row in reversed(pivots):
+        known = sum((row[j] * solved[j] for j in range(k + 1, count)), Fraction(0))
+        solved[k] = (row[-1] - known) / row[k]
+    return solved
 
 
 def lines_of(mechanism: Mechanism) -> np.ndarray:

@@ -28,6 +28,7 @@ from nag.mechanism.euler import (
     slide_variables,
 )
 from nag.mechanism.graph import Joint
+from nag.mechanism.lines import given_links
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import conjugate, multiply
 
@@ -149,7 +150,8 @@ def carries_modes(structure: LoopStructure, flip: Flip) -> bool:
     slides = slide_variables(structure, Polynomial.variables(n))
     for loop in structure.loops:
         if flip.body in loop.bodies or flip.body == structure.base:
-            common += loop_closure(structure, parameters, slides, loop)
+            links = given_links(loop.joints)
+            common += loop_closure(structure, parameters, slides, loop, links)
     changed = [
         [f for j in joints if j.name in flip.joints for f in _equations(structure, j, n, mode)]
         for mode in (0, 1)

@@ -22,7 +22,6 @@ from nag.algebra.turns import looped_turns
 from nag.mechanism.axes import (
     Vector,
     cross,
-    difference,
     direction,
     dot,
     planar_normal,
@@ -44,6 +43,7 @@ from nag.mechanism.euler import (
     without_slides,
 )
 from nag.mechanism.graph import Joint
+from nag.mechanism.lines import shortest_links
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import Quaternion, multiply
 
@@ -152,9 +152,10 @@ def planar_model(structure: LoopStructure) -> PlanarModel:
         polynomials += [first[0] - second[0], first[1] - second[1]]
     for loop in structure.loops:
         total = (Polynomial(n, {}), Polynomial(n, {}))
+        links = shortest_links(loop.joints)
         for i, body in enumerate(loop.bodies):
             joint = loop.joints[i]
-            moved = carry(body, difference(joint.point, loop.joints[i - 1].point))
+            moved = carry(body, links[i])
             total = (total[0] + moved[0], total[1] + moved[1])
             if joint.name in slides:
                 carrier = slide_carrier(structure, joint)
