@@ -65,7 +65,7 @@ def test_what_is_no_line_is_refused_by_its_number(line: Any, said: str) -> None:
 def moved_along(mechanism: nag.Mechanism, steps: Sequence[Fraction]) -> nag.Mechanism:
     """The same axes by other points of them; slides at any other place."""
     joints = []
-    for joint, step in zip(mechanism.joints, cycle(steps)):
+    for joint, step in zip(mechanism.joints, cycle(steps), strict=False):
         if turns_about_line(joint):
             point = tuple(x + step * y for x, y in zip(joint.point, joint.axis, strict=True))
             joint = replace(joint, point=point)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -24,6 +25,7 @@ import nag
 from nag.cli import main
 from nag.errors import NagError
 from nag.files.cases import read_case
+from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.nearly_mobile import ROUNDING, WIDEST_GAP, find_near_motion, find_spoiled_motion
 from nag.mechanism.overconstrained import known_linkage
 
@@ -184,3 +186,37 @@ def test_a_tolerance_that_makes_no_sense_is_refused(capsys) -> None:
     rounded = str(CASES / "spatial" / "bennett-rounded.toml")
     assert main(["mobility", rounded, "--tolerance", "2"]) == 2
     assert "is not between 0 and 0.03" in capsys.readouterr().err
+
+
+NEARLY_MEETING = (((1, 0, 0), (0, 0, 0)), ((1, 2, 0), (0, 0, 1)), ((1, 2, 3), (1, 0, 0)))
+NEARLY_MEETING += (((0, 1, 4), (0, 1, 0)),)
+
+
+def nearly_meeting(offset: Fraction, *along: int) -> Mechanism:
+    """Four turns about axes that pass a point in the distance of an offset, named along them."""
+    joints = []
+    for i, (axis, away) in enumerate(NEARLY_MEETING):
+        point = tuple(
+            offset * x + along[i % len(along)] * y for x, y in zip(away, axis, strict=True)
+        )
+        joints.append(Joint(f"J{i}", "revolute", (f"b{(i - 1) % 4}", f"b{i}"), point, axis))
+    return Mechanism("b0", tuple(joints))
+
+
+@pytest.mark.parametrize("offset", [Fraction(1, 10**6), Fraction(1)])
+def test_axes_that_pass_a_point_are_small_beside_links_that_are_told(offset: Fraction) -> None:
+    """Where joints are named there as well nothing says that their distances are small."""
+    found = find_near_motion(nearly_meeting(offset, 0), 1e-3)
+    assert found is not None and not found.nearly_mobile and found.radius is not None
+    assert found.size < offset and 2e3 * offset < found.radius < 2e4 * offset
+    assert any(label == "lengths" for label, _ in found.rows())
+    # The shortest of the axes' vectors is longer than one.
+    drawn = find_near_motion(nearly_meeting(offset, int(found.radius) + 1), 1e-3)
+    assert drawn is not None and drawn.nearly_mobile and drawn.radius is None
+
+
+def test_one_joint_that_is_named_far_along_its_axis_makes_nothing_small() -> None:
+    near = find_near_motion(nearly_meeting(Fraction(1), 0), 1e-3)
+    far = find_near_motion(nearly_meeting(Fraction(1), 0, 0, 10**9, 0), 1e-3)
+    assert near is not None and far is not None
+    assert near.size == far.size and near.gap == far.gap and not far.nearly_mobile

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 from math import atan2, hypot, inf, isfinite, pi
@@ -27,11 +27,13 @@ import numpy as np
 
 from nag.algebra.given import check_type
 from nag.errors import NagError
-from nag.mechanism.axes import cross
+from nag.mechanism.axes import cross, difference
 from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.lines import middle_of, nearest_on_axis
 from nag.mechanism.loops import Loop, loop_structure
 from nag.mechanism.overconstrained import known_linkage
 from nag.mechanism.quaternion import multiply
+from nag.numerics.double_ranks import is_regular
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.linear_algebra_threads import limit_scipy
 from nag.numerics.zero_values import ON
@@ -126,6 +128,9 @@ class NearMotion:
             loops to close at `FITTED` positions; None if there is no such change nearby.
         left_open: the largest gap over the whole motion after that.
         linkages: what is known of each loop after that.
+        radius: of turns alone: how far from the point nearest to all axes the links must be for
+            turns about that point to be within tolerance; None of others, where such turns are not
+            sure to move, and where the size is such a distance.
     """
 
     tolerance: float
@@ -139,6 +144,7 @@ class NearMotion:
     change: tuple[float, float] | None
     left_open: tuple[float, float] | None
     linkages: tuple[LoopLinkage, ...]
+    radius: float | None = None
 
     @property
     def nearly_mobile(self) -> bool:
@@ -177,6 +183,13 @@ class NearMotion:
         size = f"{self.tolerance:g} rad, and {self.tolerance * self.size:.2g} in length"
         text = f"{word} within {size} ({self.tolerance:g} of the size {self.size:.4g})"
         rows = [("tolerance", f"{text}: {self.obstacle}" if self.obstacle else text)]
+        if self.radius is not None and self.obstacle:
+            text = (
+                f"with links at {self.radius:.2g} or more from the point nearest to all axes it "
+                "would be nearly mobile, as turns about that point are; most joints are named "
+                "nearer to it"
+            )
+            rows.append(("lengths", text))
         gap = f"the loops open by at most {_amount(self.gap)}"
         rows.append(("motion", f"{self._motion_text()}, {gap}"))
         if self.change is not None:
@@ -221,6 +234,7 @@ class NearMotion:
             "gap": list(self.gap),
             "change": None if self.change is None else list(self.change),
             "left_open": None if self.left_open is None else list(self.left_open),
+            "radius": self.radius,
             "linkages": [
                 {"joints": list(x.joints), "linkage": x.linkage, "next_to": x.next_to}
                 for x in self.linkages
@@ -299,6 +313,7 @@ def find_near_motion(mechanism: Mechanism, tolerance: float) -> NearMotion | Non
         change=None if change is None else (change[0], change[1] * size),
         left_open=None if left_open is None else (left_open[0], left_open[1] * size),
         linkages=tuple(linkages),
+        radius=chains.radius_within(tolerance),
     )
 
 
@@ -343,6 +358,8 @@ class Chains:
         axis: the unit direction of each, shape (n, 3).
         point: a point of each, from the centre, shape (n, 3).
         products: for each loop, numbers of its turns and slides and their signs, in order.
+        on_sphere: whether the axes all but meet in a point, and the size is how far from it the
+            joints are named.
     """
 
     joints: tuple[Joint, ...]
@@ -352,6 +369,7 @@ class Chains:
     axis: Array
     point: Array
     products: tuple[tuple[tuple[int, int], ...], ...]
+    on_sphere: bool
 
     @classmethod
     def of(cls, mechanism: Mechanism) -> Chains | None:
@@ -362,30 +380,39 @@ class Chains:
         screws: list[Screw] = []
         axes: list[Array] = []
         points: list[Array] = []
+        named: list[float] = []
         numbers: dict[str, range] = {}
+        middle = middle_of(structure.joints)
         for i, joint in enumerate(structure.joints):
             begin = len(screws)
+            near, there = (
+                np.array([float(x) for x in difference(p, middle)])
+                for p in (nearest_on_axis(joint, middle), joint.point)
+            )
             for turns, line, direction in _motions(joint):
                 screws.append(Screw(i, turns, line))
                 axes.append(direction / np.linalg.norm(direction))
-                points.append(np.array([float(x) for x in joint.point]))
+                points.append(near)
+                named.append(float(np.linalg.norm(there)))
             numbers[joint.name] = range(begin, len(screws))
         axis, point = np.array(axes), np.array(points)
         turning = np.array([s.turns for s in screws])
         centre = _nearest_point(axis[turning], point[turning])
         point = point - centre
-        drawn = point.copy()
         feet = point - np.sum(point * axis, axis=1, keepdims=True) * axis
         for k, screw in enumerate(screws):
             # Where a joint has one axis, any of its points is as good.
             if len(_lines(structure.joints[screw.joint])) == 1:
                 point[k] = feet[k]
         size = _mean_size(feet[turning])
-        drawn = _mean_size(drawn[turning])
-        # Lines that all but meet in a point are drawn on a sphere about it.
-        if size <= WIDEST_GAP * drawn:
-            size = drawn
-        if size <= ROUNDING * (1 + float(np.abs(centre).max())):
+        # Lines that all but meet in a point are drawn on a sphere about it; the lower median leaves
+        # out what is named far along its axis.
+        drawn = sorted(x for x, turns in zip(named, turning, strict=True) if turns)
+        radius = drawn[(len(drawn) - 1) // 2] if drawn else 0.0
+        on_sphere = size <= WIDEST_GAP * radius
+        if on_sphere:
+            size = radius
+        if size <= ROUNDING * (1 + max(abs(float(x)) for x in middle)):
             size = 1.0
         return cls(
             structure.joints,
@@ -395,12 +422,30 @@ class Chains:
             axis,
             point / size,
             tuple(_product(loop, numbers) for loop in structure.loops),
+            on_sphere,
         )
 
     @cached_property
     def turning(self) -> Array:
         """Which coordinates are angles."""
         return np.array([s.turns for s in self.screws])
+
+    def radius_within(self, tolerance: float) -> float | None:
+        """How far from their centre turns are nearly turns about it, see `NearMotion.radius`.
+
+        Axes moved there open no loop by more than twice the sum of their distances. Turns about one
+        point move where their axes are directions of full rank for each loop, and are more.
+        """
+        if self.on_sphere or not self.turning.all():
+            return None
+        rows = np.zeros((3 * len(self.products), len(self.axis)))
+        for i, product in enumerate(self.products):
+            for k, sign in product:
+                rows[3 * i : 3 * i + 3, k] += sign * self.axis[k]
+        if len(rows) >= rows.shape[1] or not is_regular(rows.T):
+            return None
+        feet = np.linalg.norm(np.cross(self.point, self.axis), axis=1)
+        return float(2 * feet.sum() * self.size / tolerance)
 
     def closing(self, q: Array, axis: Array | None = None, point: Array | None = None) -> Array:
         """How far each loop is from closed: twice its quaternion's vector, and where its centre is.
@@ -517,7 +562,7 @@ class Chains:
     def with_change(self, change: Array) -> Chains:
         """The same with changed axes and points."""
         axis, point = self.changed_lines(change)
-        return Chains(self.joints, self.loops, self.size, self.screws, axis, point, self.products)
+        return replace(self, axis=axis, point=point)
 
     def change_to(self, other: Chains) -> tuple[float, float]:
         """The largest angle between axes, and the largest distance between points, in sizes."""
