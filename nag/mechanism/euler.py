@@ -32,7 +32,7 @@ from nag.mechanism.configuration import (
     configuration,
 )
 from nag.mechanism.graph import Joint
-from nag.mechanism.lines import given_links, shortest_links
+from nag.mechanism.lines import given_links, short_links
 from nag.mechanism.loops import Loop, LoopStructure
 from nag.mechanism.quaternion import Quaternion, conjugate, multiply, norm_squared, rotate
 
@@ -172,7 +172,7 @@ def euler_system(
     if not spherical:
         for loop in structure.loops:
             # Of a joint whose axis is turned round, its point is where both bodies meet.
-            links = given_links(loop.joints) if modes else shortest_links(loop.joints)
+            links = given_links(loop.joints) if modes else short_links(loop.joints)
             polynomials += loop_closure(structure, parameters, slides, loop, links)
     return PolynomialSystem(names, tuple(f for f in polynomials if f))
 

@@ -9,16 +9,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from math import ceil, hypot, log2
 from typing import Any
 
 import numpy as np
 
 from nag.algebra.from_python import exact_vector
-from nag.algebra.number import Number, is_zero
+from nag.algebra.number import Number, is_zero, rounded_fraction
 from nag.errors import MechanismError
 from nag.mechanism.axes import Vector, cross, difference, dot, vanishes
 from nag.mechanism.graph import ORIGIN, Joint, Mechanism
 
+# Steps by which points are moved along axes, beside the longest link, at least; digits that
+# irrational numbers of steps are taken to.
+STEP, DIGITS_OF_STEPS = 4, 40
 UNITS = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
 # Decides: How far direction and moment may be from orthogonal, in numbers that are rounded.
 ROUNDED = 1e-9
@@ -115,12 +119,13 @@ def given_links(joints: Sequence[Joint]) -> list[Vector]:
     return [difference(joint.point, joints[i - 1].point) for i, joint in enumerate(joints)]
 
 
-def shortest_links(joints: Sequence[Joint]) -> list[Vector]:
-    """The vectors from each joint of a loop to the next, between the points that make them short.
+def short_links(joints: Sequence[Joint]) -> list[Vector]:
+    """The vectors from each joint of a loop to the next, between points that make them short.
 
     The i-th one leads from the joint before to the i-th. Any point of its axis may stand for a
-    joint that turns about it, any point at all for one that slides alone: of all choices these have
-    the least sum of squares, so that they are the same whichever points are named.
+    joint that turns about it, any point at all for one that slides alone. Of all choices one has
+    the least sum of squares; a joint whose point is farther from that one than some of the longest
+    link is moved there, by a round number of steps, so that numbers stay as short as they are.
     """
     ways = [_free_directions(joint) for joint in joints]
     given = given_links(joints)
@@ -148,11 +153,29 @@ def shortest_links(joints: Sequence[Joint]) -> list[Vector]:
         ]
         for one in slopes
     ]
+
+    def moved(shifts: Sequence[Number]) -> list[Vector]:
+        points = [joint.point for joint in joints]
+        for (i, way), shift in zip(free, shifts, strict=True):
+            points[i] = tuple(x + shift * y for x, y in zip(points[i], way, strict=True))
+        return [difference(point, points[i - 1]) for i, point in enumerate(points)]
+
     shifts = _solve(matrix)
-    moved = [joint.point for joint in joints]
-    for (i, way), shift in zip(free, shifts, strict=True):
-        moved[i] = tuple(x + shift * y for x, y in zip(moved[i], way, strict=True))
-    return [difference(point, moved[i - 1]) for i, point in enumerate(moved)]
+    longest = max(_length(link) for link in moved(shifts))
+    if not longest:
+        return given
+    sizes = [longest / _length(way) for _, way in free]
+    return moved([_round_steps(t, size) for t, size in zip(shifts, sizes, strict=True)])
+
+
+def _length(vector: Vector) -> float:
+    return hypot(*map(float, vector))
+
+
+def _round_steps(shift: Number, size: float) -> Fraction:
+    """A shift to within a few sizes, in steps of a power of two; none if it is no longer."""
+    step = Fraction(2) ** ceil(log2(STEP * size))
+    return round(rounded_fraction(shift, DIGITS_OF_STEPS) / step) * step
 
 
 def _free_directions(joint: Joint) -> tuple[Vector, ...]:

@@ -43,7 +43,7 @@ from nag.mechanism.euler import (
     without_slides,
 )
 from nag.mechanism.graph import Joint
-from nag.mechanism.lines import shortest_links
+from nag.mechanism.lines import short_links
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import Quaternion, multiply
 
@@ -152,7 +152,7 @@ def planar_model(structure: LoopStructure) -> PlanarModel:
         polynomials += [first[0] - second[0], first[1] - second[1]]
     for loop in structure.loops:
         total = (Polynomial(n, {}), Polynomial(n, {}))
-        links = shortest_links(loop.joints)
+        links = short_links(loop.joints)
         for i, body in enumerate(loop.bodies):
             joint = loop.joints[i]
             moved = carry(body, links[i])
