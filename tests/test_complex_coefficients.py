@@ -314,9 +314,11 @@ def test_points_that_are_nearly_real_are_not_called_so() -> None:
 
 def test_dimensions_at_real_points_are_said_where_the_set_is_smooth() -> None:
     """Real points at which complex sheets meet lie on less than the component's dimension."""
-    for equations in (["x^2 + y^2 + z^2"], ["x^2 + y^2 + z^2 + w^2 - 1", "x*y + z*w - 1/2"]):
-        for component in nag.decompose(equations).components:
-            assert set(nag.find_real_points(component).dimensions) == {-1}
+    cone = nag.decompose("x^2 + y^2 + z^2").components[0]
+    assert set(nag.find_real_points(cone).dimensions) == {-1}
+    # Two conjugate surfaces, which meet in a circle.
+    for component in nag.decompose(["x^2 + y^2 + z^2 + w^2 - 1", "x*y + z*w - 1/2"]).components:
+        assert set(nag.find_real_points(component).dimensions) == {1}
     sphere = nag.decompose("x^2 + y^2 + z^2 - 1").components[0]
     assert set(nag.find_real_points(sphere).dimensions) == {2}
 
@@ -349,6 +351,28 @@ def test_real_points_of_complex_curves_beside_real_ones_are_decided(
 ) -> None:
     """Real dimensions of the components, -1 for none; each meets the real ones in points."""
     found = [nag.find_real_points(c) for c in nag.decompose(complex_system(equation)).components]
+    assert all(each.each_piece for each in found)
+    dimensions = [max(each.dimensions, default=-1) for each in found]
+    assert {d: dimensions.count(d) for d in set(dimensions)} == kinds
+    assert {each.reality for each in found if not len(each)} <= {Reality.NONE}
+
+
+@pytest.mark.parametrize(
+    ("equations", "kinds"),
+    [
+        ("(x - I)*(x^2 + y^2 + z^2 - 1)", {2: 1, -1: 1}),
+        ("(x - I)*(z - y)", {2: 1, -1: 1}),
+        ("(x^2 + y^2 + z^2 + 1 + I*(x - y))*(x^2 + y^2 + z^2 - 4)", {2: 1, -1: 1}),
+        ("(x^2 + y^2 + z^2 + I*(x - y))*(x^2 + y^2 + z^2 - 4)", {2: 1, 0: 1}),
+        # The product of what has no real points and a line's plane is no product over Q.
+        ("(x - I)*(z + I*y - 2)*z", {2: 1, 1: 1, -1: 1}),
+    ],
+)
+def test_real_points_of_complex_surfaces_beside_real_ones_are_decided(
+    equations: str, kinds: dict[int, int]
+) -> None:
+    """Real dimensions of the components, -1 for none, which is proved."""
+    found = [nag.find_real_points(c) for c in nag.decompose(complex_system(equations)).components]
     assert all(each.each_piece for each in found)
     dimensions = [max(each.dimensions, default=-1) for each in found]
     assert {d: dimensions.count(d) for d in set(dimensions)} == kinds

@@ -109,3 +109,28 @@ def test_none_is_drawn_where_there_is_none() -> None:
     (sphere,) = nag.decompose("x^2 + y^2 + z^2 = -1").components
     with pytest.raises(NoRealPointsError, match="none, proved"):
         sample_real(sphere, 1)
+
+
+@pytest.mark.parametrize(
+    ("equations", "variables", "dimensions"),
+    [
+        # Conjugate sets that do not meet.
+        (["(x*y + z)^2 + 1"], "x y z", []),
+        (["x^2 + 1", "y^2 + z^2*w"], "x y z w", []),
+        # Conjugate planes through a line; surfaces that meet in two lines, and in a circle.
+        (["x^2 + y^2"], "x y z", [1]),
+        (["x^2 + y^2*z^2"], "x y z", [1, 1]),
+        (["x^2 + (y^2 + z^2 - 1)^2"], "x y z", [1]),
+        # Which meet in a curve without real points.
+        (["x^2 + (y^2 + z^2 + 1)^2"], "x y z", []),
+    ],
+)
+def test_sets_that_are_not_their_conjugates_have_real_points_where_they_meet(
+    equations: list[str], variables: str, dimensions: list[int]
+) -> None:
+    components = nag.decompose(nag.system(equations, variables)).components
+    assert len(components) == 2
+    for component in components:
+        found = nag.find_real_points(component)
+        assert found.each_piece and sorted(found.dimensions) == dimensions
+        assert (found.reality is Reality.NONE) == (not dimensions)

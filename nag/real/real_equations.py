@@ -16,6 +16,7 @@ from nag.algebra.imaginary_unit import (
     append_unit,
     in_variables_with_unit,
     real_and_imaginary_parts,
+    restore_unit,
 )
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.decompose import decompose
@@ -56,9 +57,13 @@ class RealEquations:
 
 
 def find_real_equations(component: WitnessSet, run: Run) -> RealEquations:
-    """The components of the real and imaginary parts of a component's complex equations."""
+    """The components of the real and imaginary parts of a component's complex equations.
+
+    Of equations that have factors those of the component are taken, so that it is not asked where
+    it meets real zeros of the other ones.
+    """
     system = component._known_system()
-    parts = real_and_imaginary_parts(system)
+    parts = real_and_imaginary_parts(restore_unit(component_system(system, component)))
     found = decompose(parts, run=run)
     doubts = [] if found.complete else [f"real and imaginary parts: {'; '.join(found.notes)}"]
     inside, beside, met = [], [], list[WitnessSet]()

@@ -5,13 +5,14 @@ it says. On each connected piece of the real part of a larger set, which is clos
 nearest to a given one (Seidenberg 1954): with n - d of the equations f it satisfies
 ``x - p = J^T l``, a system in x and l whose isolated solutions are found, if the nearest point is
 smooth (Hauenstein 2012; Wu & Reid 2013). Where that takes too many paths, Newton's method looks for
-real points round random ones.
+real points round random ones. A component that is not its own conjugate has real points only where
+it meets that, which is a smaller set.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
 
@@ -20,9 +21,12 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_type
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.errors import StartError
+from nag.decomposition.intersection import intersect_components
+from nag.errors import ComponentError, StartError
 from nag.numerics.coincidence import coincident
+from nag.numerics.doubles import EPS
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
@@ -42,9 +46,10 @@ from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
-from nag.witness.membership import Membership, is_member
+from nag.witness.frame import expand_orbits
+from nag.witness.membership import Membership, is_member, membership_in
 from nag.witness.real_points import real_points_near
-from nag.witness.witness import WitnessSet
+from nag.witness.witness import Slice, WitnessSet
 
 # Paths of the system of nearest points, by the product of its degrees, up to which it is solved.
 MOST_PATHS = 3000
@@ -57,8 +62,8 @@ ROUGHLY = 1e-6
 class Reality(StrEnum):
     """Whether a component has real points.
 
-    It has none, which is proved, where its picture is complete; where none was found there may be
-    some.
+    It has none, which is proved, where its picture is complete, or it does not meet its conjugate;
+    where none was found there may be some.
     """
 
     FOUND = "found"
@@ -171,6 +176,10 @@ def join_pieces(equations: RealEquations, inside: Sequence[RealPieces], run: Run
         doubts.append("real points may be missing at which it meets other real zeros")
     doubts += [f.reason for f in found if not f.each_piece]
     reason = "; ".join(doubts) or "real and imaginary parts of the equations"
+    own = equations.inside and equations.inside[0].dimension == component.dimension
+    with_conjugate = _where_conjugates_meet(component, run) if doubts and not own else None
+    if with_conjugate is not None and with_conjugate.each_piece:
+        return with_conjugate
     known = [f for f in found if len(f)]
     if known:
         points, places = distinct_points([f.points for f in known])
@@ -212,6 +221,10 @@ def points_of_pieces(curve: RealCurve) -> tuple[np.ndarray, tuple[int, ...]]:
 
 def _of_larger_set(component: WitnessSet, run: Run) -> RealPieces:
     given = component._known_system()
+    if _is_other_than_its_conjugate(component, run):
+        with_conjugate = _where_conjugates_meet(component, run)
+        if with_conjugate is not None:
+            return with_conjugate
     natural = coordinates_of(given)
     system = natural.system(given)
     here = carry_component(component, natural, system)
@@ -244,6 +257,64 @@ def _of_larger_set(component: WitnessSet, run: Run) -> RealPieces:
     reason = f"points whose distance from a random one is stationary; {doubt or 'all of them'}"
     back = natural.inverse.points(points)
     return RealPieces(back, dimensions, Reality.FOUND, not doubt, reason)
+
+
+def _is_other_than_its_conjugate(component: WitnessSet, run: Run) -> bool:
+    """Whether a component of real equations is proved not to be its own conjugate."""
+    point, error = component.points[0].conj(), max(float(component.errors[0]), EPS)
+    answer = membership_in(component._known_system(), component, point, error, run)
+    return answer is Membership.FOREIGN
+
+
+def _where_conjugates_meet(component: WitnessSet, run: Run) -> RealPieces | None:
+    """The real points of a component that is not its own conjugate; None if these are not known.
+
+    They lie on its conjugate as well.
+    """
+    system = component._known_system()
+    try:
+        met = intersect_components(system, component, _conjugate(component), run=run)
+    except ComponentError:
+        return None
+    if not met.complete:
+        return None
+    found = [find_real_points(each, run=run) for each in expand_orbits(met).components]
+    doubts = [each.reason for each in found if not each.each_piece]
+    reason = "it is not its own conjugate, and its real points are where it meets that"
+    reason = "; ".join([reason, *doubts])
+    known = [each for each in found if len(each)]
+    if known:
+        points, dimensions = _each_once(known)
+        return RealPieces(points, dimensions, Reality.FOUND, not doubts, reason)
+    nothing = np.zeros((0, len(system.own_variables)))
+    reality = Reality.NONE_FOUND if doubts else Reality.NONE
+    return RealPieces(nothing, (), reality, not doubts, reason)
+
+
+def _conjugate(component: WitnessSet) -> WitnessSet:
+    """The component whose points are the conjugates, of the conjugate equations.
+
+    The imaginary unit is i in these as well.
+    """
+    system = component._known_system()
+    own = len(system.own_variables)
+    A, points = component.slice.A.conj(), component.points.conj()
+    if system.imaginary:
+        A[:, own:] *= -1
+        points[:, own:] *= -1
+        signs = (*(1,) * own, -1)
+        unit = SignedPermutation.of_signs(signs)
+        polynomials = tuple(unit.of_polynomial(f) for f in system.polynomials)
+        system = replace(system, polynomials=polynomials)
+    return replace(
+        component,
+        slice=Slice(A, component.slice.b.conj()),
+        points=points,
+        orbit=1,
+        images=(),
+        fibres=(),
+        system=system,
+    )
 
 
 def _singular_doubt(cut: Cut, rng: np.random.Generator, run: Run) -> str:
