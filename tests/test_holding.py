@@ -337,3 +337,34 @@ def test_assemblies_are_a_table_where_there_is_no_circuit(tmp_path) -> None:
     main(["motion", five, "--drive", "A=30", "--drive", "E=-20", "--csv", str(table), "--quiet"])
     head, *lines = table.read_text().splitlines()
     assert head.startswith("circuit,arc,A,B,C,D,E,base.x") and len(lines) == 2
+
+
+@pytest.mark.parametrize("turn", [(), (0.9, 0.1, -0.2, 0.15)])
+def test_a_joints_point_of_a_held_body_is_where_it_is_asked_for(turn: tuple[float, ...]) -> None:
+    case = nag.read_case(CASES / "spatial" / "puma-held.toml")
+    (tie,) = [j for j in case.mechanism.joints if j.type == "rigid"]
+    hand = next(b for b in tie.bodies if b != case.mechanism.ground)
+    wrist = next(j for j in case.mechanism.joints if hand in j.bodies and j.type == "revolute")
+    drawn = np.array([float(x) for x in wrist.point])
+    place = drawn + np.array([0.03, -0.02, 0.05])
+    motion = nag.motion(case, pose={f"{hand}@{wrist.name}": (*place, *turn)})
+    assert motion.assemblies
+    body = motion.scene.bodies.index(hand)
+    for each in motion.assemblies:
+        assert np.allclose(each.poses.move(body, drawn)[0], place, atol=FIT)
+    if not turn:
+        # Not turned, it is as far from where it is drawn as its frame is.
+        moved = nag.motion(case, pose={hand: tuple(place - drawn)})
+        assert len(moved.assemblies) == len(motion.assemblies)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("{hand}@nothing", "'nothing' is no joint of"), ("nobody@j", "'nobody'")],
+)
+def test_a_point_of_no_joint_is_refused(name: str, said: str) -> None:
+    case = nag.read_case(CASES / "spatial" / "puma-held.toml")
+    (tie,) = [j for j in case.mechanism.joints if j.type == "rigid"]
+    hand = next(b for b in tie.bodies if b != case.mechanism.ground)
+    with pytest.raises(nag.NagError, match=said):
+        nag.motion(case, pose={name.format(hand=hand): (0, 0, 0)})

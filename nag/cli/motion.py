@@ -80,10 +80,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--pose",
         type=_pose,
         action="append",
-        metavar="BODY=X,Y,Z[,Q0,Q1,Q2,Q3]",
-        help="hold a body so far from where it is drawn (or --at puts it), with a quaternion or "
-        "turned as it is there, as --csv writes them: all assemblies of an arm with its hand at "
-        "the place; may be repeated",
+        metavar="BODY[@JOINT]=X,Y,Z[,Q0,Q1,Q2,Q3]",
+        help="hold a body: BODY=X,Y,Z so far from where it is drawn (or --at puts it), as --csv "
+        "writes it; BODY@JOINT=X,Y,Z with the point of that joint at this place. With a quaternion "
+        "or turned as it is drawn: all assemblies of an arm with its hand there; may be repeated",
     )
     parser.add_argument(
         "--csv",
@@ -146,16 +146,16 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if case.kind == "system":
         raise UsageError(f"{options.case}: is a polynomial system; only mechanisms have a motion")
 
-    from nag.kinematics.driven import tie_placed_bodies
+    from nag.kinematics.driven import split_place, tie_placed_bodies
 
     for option, names in (
         ("--drive", [each.name for each in options.drive or ()]),
-        ("--pose", [body for body, _ in options.pose or ()]),
+        ("--pose", [split_place(body)[0] for body, _ in options.pose or ()]),
     ):
         for i, name in enumerate(names):
             if name in names[:i]:
                 raise UsageError(f"{option}: {name[:40]!r} is given twice; give it once")
-    given = tie_placed_bodies(case, (body for body, _ in options.pose or ()))
+    given = tie_placed_bodies(case, (split_place(body)[0] for body, _ in options.pose or ()))
     problem = problem_of_case(given, options.formulation or "auto")
     drives = _with_radians(problem, options.drive or ())
     ranges = [each for each in drives if len(each[1]) > 1]

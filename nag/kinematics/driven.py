@@ -69,13 +69,15 @@ class Pose:
 
     Attributes:
         body: its name.
-        place: of its frame's origin, as in a motion's table.
+        place: of its frame's origin, as in a motion's table, or of a joint's point.
         quaternion: of its frame, of any length but zero; None for that of the drawing.
+        joint: of the body's joints the one whose point is at the place; empty for the frame.
     """
 
     body: str
     place: tuple[float, float, float]
     quaternion: tuple[float, float, float, float] | None = None
+    joint: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,8 +147,42 @@ def read_poses(given: Any) -> tuple[Pose, ...]:
             raise NagError(problem) from None
         if len(x) not in (3, 7):
             raise NagError(f"pose: {body!r} has {len(x)} numbers; give 3, or 7 with a quaternion")
-        found.append(Pose(str(body), x[:3], x[3:] or None))  # type: ignore[arg-type]
+        name, joint = split_place(str(body))
+        found.append(Pose(name, x[:3], x[3:] or None, joint))  # type: ignore[arg-type]
     return tuple(found)
+
+
+def split_place(text: str) -> tuple[str, str]:
+    """A body, and the joint of it whose point is placed, as ``BODY@JOINT``; or the body alone."""
+    body, at, joint = text.rpartition("@")
+    return (body.strip(), joint.strip()) if at else (text, "")
+
+
+def place_frames(problem: Problem, poses: Sequence[Pose]) -> tuple[Pose, ...]:
+    """The same poses by the places of frames, of those that are given by a joint's point.
+
+    Raises:
+        NagError: if a body has no such joint, or that has no point of its own.
+    """
+    made = problem.model
+    if not isinstance(made, Model):
+        return tuple(poses)
+    return tuple(_place_frame(made, each) if each.joint else each for each in poses)
+
+
+def _place_frame(made: Model, pose: Pose) -> Pose:
+    own = [
+        j for j in made.mechanism.joints if pose.body in j.bodies and j.of_type.turns_about_point
+    ]
+    chosen = next((j for j in own if j.name == pose.joint), None)
+    if chosen is None:
+        there = f"those are {join_words([j.name for j in own])}" if own else "it has none"
+        raise NagError(
+            f"pose: {pose.joint[:40]!r} is no joint of {pose.body[:40]!r} with a point; {there}"
+        )
+    turned = _displacement(made, replace(pose, place=(0.0, 0.0, 0.0))).placed(chosen.point)
+    place = tuple(x - float(y) for x, y in zip(pose.place, turned, strict=True))
+    return Pose(pose.body, place, pose.quaternion)  # type: ignore[arg-type]
 
 
 def tie_placed_bodies(given: Any, bodies: Iterable[str]) -> Any:

@@ -19,6 +19,7 @@ from nag.kinematics.driven import (
     Drive,
     Pose,
     check_drive,
+    place_frames,
     read_drives,
     read_poses,
     tie_placed_bodies,
@@ -192,6 +193,7 @@ def driven_motion(
     others, poses = read_drives(drive), read_poses(pose)
     given = tie_placed_bodies(mechanism, (each.body for each in poses))
     problem = in_real_coordinates(problem_of(given, formulation=formulation))
+    poses = place_frames(problem, poses)
     scene = scene_of(problem)
     steps = [Drive(coordinate, value) for value in numbers]
     column = check_drive(scene, steps[0])

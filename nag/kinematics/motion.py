@@ -20,6 +20,7 @@ from nag.kinematics.driven import (
     find_doubts_of_held,
     hold,
     isolated_assemblies,
+    place_frames,
     read_drives,
     read_poses,
     tie_placed_bodies,
@@ -333,7 +334,10 @@ class Motion:
             ],
             "drive": None if self.drive is None else asdict(self.drive),
             "held": [asdict(each) for each in self.held],
-            "poses": [asdict(each) for each in self.poses],
+            "poses": [
+                {"body": each.body, "place": each.place, "quaternion": each.quaternion}
+                for each in self.poses
+            ],
             "assemblies": [each.document() for each in self.assemblies],
             "circuits": [c.document(scene) for c in self.circuits],
         }
@@ -370,7 +374,9 @@ def motion(
         drive: the name of an angle or slide and a value, in radians or a length, or a dict of
             several; of one freedom, all assemblies on the circuits at which it has the value.
         pose: by the names of bodies that the ground is to hold, the place of a body's frame as a
-            motion's table has it: ``(x, y, z)``, or with a quaternion behind it 7 numbers.
+            motion's table has it, which is how far it is moved from where it is drawn: ``(x, y,
+            z)``, or with a quaternion behind it 7 numbers. By ``"BODY@JOINT"`` the place of that
+            joint's point instead, in the drawing's coordinates.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
@@ -398,6 +404,7 @@ def motion(
     drives, poses = read_drives(drive), read_poses(pose)
     given = tie_placed_bodies(mechanism, (each.body for each in poses))
     problem = in_real_coordinates(problem_of(given, formulation=formulation))
+    poses = place_frames(problem, poses)
     if poses or len(drives) > 1 or (drives and has_several_freedoms(problem, run)):
         return held_motion(problem, drives, poses, samples=samples, run=run)
     held = drives[0] if drives else None
