@@ -160,11 +160,13 @@ def _of_complex_equations(component: WitnessSet, run: Run) -> RealPieces:
     """Real points of a set of larger dimension than zero, where coefficients are complex."""
     equations = find_real_equations(component, run)
     inside = [find_real_points(c, run=run) for c in equations.inside]
-    return join_pieces(equations, inside, run)
+    return join_pieces(component, equations, inside, run)
 
 
-def join_pieces(equations: RealEquations, inside: Sequence[RealPieces], run: Run) -> RealPieces:
-    """Real points of a set by those of the parts of its complex equations.
+def join_pieces(
+    component: WitnessSet, equations: RealEquations, inside: Sequence[RealPieces], run: Run
+) -> RealPieces:
+    """Real points of a component by those of the parts of its complex equations.
 
     Args:
         inside: those of the components that lie on it.
@@ -176,20 +178,24 @@ def join_pieces(equations: RealEquations, inside: Sequence[RealPieces], run: Run
         doubts.append("real points may be missing at which it meets other real zeros")
     doubts += [f.reason for f in found if not f.each_piece]
     reason = "; ".join(doubts) or "real and imaginary parts of the equations"
-    own = equations.inside and equations.inside[0].dimension == component.dimension
-    with_conjugate = _where_conjugates_meet(component, run) if doubts and not own else None
+    itself = equations.inside and equations.inside[0].dimension == component.dimension
+    with_conjugate = _where_conjugates_meet(component, run) if doubts and not itself else None
     if with_conjugate is not None and with_conjugate.each_piece:
         return with_conjugate
+    return _join(found, len(equations.variables), reason, not doubts)
+
+
+def _join(found: Sequence[RealPieces], n: int, reason: str, each_piece: bool) -> RealPieces:
+    """The real points of several sets together, in ``n`` variables, each once."""
     known = [f for f in found if len(f)]
     if known:
         points, places = distinct_points([f.points for f in known])
         dimensions = np.full(len(points), -1)
         np.maximum.at(dimensions, places, [d for f in known for d in f.dimensions])
         own = tuple(dimensions.tolist())
-        return RealPieces(points, own, Reality.FOUND, not doubts, reason)
-    nothing = np.zeros((0, len(equations.variables)))
-    reality = Reality.NONE_FOUND if doubts else Reality.NONE
-    return RealPieces(nothing, (), reality, not doubts, reason)
+        return RealPieces(points, own, Reality.FOUND, each_piece, reason)
+    reality = Reality.NONE if each_piece else Reality.NONE_FOUND
+    return RealPieces(np.zeros((0, n)), (), reality, each_piece, reason)
 
 
 def _of_curve(component: WitnessSet, run: Run) -> RealPieces:
@@ -281,14 +287,7 @@ def _where_conjugates_meet(component: WitnessSet, run: Run) -> RealPieces | None
     found = [find_real_points(each, run=run) for each in expand_orbits(met).components]
     doubts = [each.reason for each in found if not each.each_piece]
     reason = "it is not its own conjugate, and its real points are where it meets that"
-    reason = "; ".join([reason, *doubts])
-    known = [each for each in found if len(each)]
-    if known:
-        points, dimensions = _each_once(known)
-        return RealPieces(points, dimensions, Reality.FOUND, not doubts, reason)
-    nothing = np.zeros((0, len(system.own_variables)))
-    reality = Reality.NONE_FOUND if doubts else Reality.NONE
-    return RealPieces(nothing, (), reality, not doubts, reason)
+    return _join(found, len(system.own_variables), "; ".join([reason, *doubts]), not doubts)
 
 
 def _conjugate(component: WitnessSet) -> WitnessSet:

@@ -88,7 +88,7 @@ def _of_complex_equations(
     found = [(each, find_real_points(each, run=run)) for each in equations.inside]
     largest = max((max(f.dimensions) for _, f in found if len(f)), default=-1)
     if largest <= 0:
-        whole = join_pieces(equations, [f for _, f in found], run)
+        whole = join_pieces(component, equations, [f for _, f in found], run)
         if whole.reality is not Reality.FOUND:
             raise _why_none(whole.reality, whole.reason)
         return _samples(system, whole.points[rng.integers(len(whole.points), size=count)])
