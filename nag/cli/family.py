@@ -80,7 +80,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         start = "parameter"
 
     def document_of(early: FamilySolutions) -> dict[str, Any]:
-        fields = _fields(early) | {"notes": [ENDED_EARLY]}
+        rest = f"{len(values) - len(early)} of {len(values)} members were not reached"
+        fields = _fields(early) | {"notes": [ENDED_EARLY, rest]}
         return answer_document(options, name_case(case), fields, False)
 
     how = chosen_run(options, document_of)

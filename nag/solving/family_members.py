@@ -39,7 +39,7 @@ __all__ = ["FamilySolutions", "solve_family", "solve_members"]
 MEMBERS, PATHS = 1000, 1 << 16
 # Bytes of the results of one call.
 MOST_BYTES = 1 << 34
-# Seconds between two times that members are told of: to copy and write all of them takes time.
+# Seconds between two times that members are told of, at least.
 BETWEEN = 1.0
 
 
@@ -339,32 +339,38 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
         complete[chunk] = block.proved & solved.complete
         done += len(block.proved)
         run.tell("members", done, M)
-        tell(done < M or not proved.all())
+        tell(done, done < M or not proved.all())
     one_by_one[:] = ~proved
     alone = np.flatnonzero(~proved)
     for number, member in enumerate(alone.tolist()):
         run.tell("members one by one", number, len(alone))
         own = _solve_alone(solved, values[member], run)
         places[member], status[member], errors[member], complete[member] = own
-        tell(number + 1 < len(alone))
+        tell(M, number + 1 < len(alone))
     return found
 
 
 class _FoundMembers:
-    """Tells of the members that are solved, now and then."""
+    """Tells of the members that are solved, now and then: the first ones, up to the last reached.
+
+    To copy and to keep them takes time, a tenth of the whole at the most.
+    """
 
     def __init__(self, found: FamilySolutions, run: Run) -> None:
-        self._found, self._run, self._last = found, run, time.monotonic()
+        self._found, self._run = found, run
+        self._next = time.monotonic() + BETWEEN
 
-    def __call__(self, more: bool) -> None:
+    def __call__(self, reached: int, more: bool) -> None:
         """Tell, if there is more to come, and it was not told just now."""
-        if self._run.found is None or not more or time.monotonic() - self._last < BETWEEN:
+        started = time.monotonic()
+        if self._run.found is None or not more or started < self._next:
             return
         # What is told stays as it is, while the others are solved.
-        arrays = ("points", "status", "errors", "one_by_one", "complete")
-        copies = {name: getattr(self._found, name).copy() for name in arrays}
+        arrays = ("values", "points", "status", "errors", "one_by_one", "complete")
+        copies = {name: getattr(self._found, name)[:reached].copy() for name in arrays}
         self._run.found(replace(self._found, **copies))
-        self._last = time.monotonic()
+        ended = time.monotonic()
+        self._next = ended + max(BETWEEN, 10 * (ended - started))
 
 
 def _track_all(solved: Solved, values: np.ndarray, run: Run) -> Iterator[tuple[slice, _Block]]:

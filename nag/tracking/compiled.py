@@ -53,8 +53,24 @@ class Tape(NamedTuple):
     jacobian_coefficient: np.ndarray
 
 
+class SentByContent:
+    """A dataclass with a ``_cache``, which other processes get, and ledgers know, by its fields."""
+
+    def __getstate__(self) -> dict[str, object]:
+        """The fields alone: what is kept besides holds addresses of this process."""
+        state = {each.name: getattr(self, each.name) for each in fields(self)}
+        return {**state, "_cache": {}}
+
+    @cached_property
+    def content_digest(self) -> bytes:
+        """The digest of all that results depend on."""
+        from nag.tracking.ledger import digest_of_fields
+
+        return digest_of_fields(self)
+
+
 @dataclass(frozen=True, eq=False)
-class CompiledRows:
+class CompiledRows(SentByContent):
     """Homogeneous polynomial rows in ``N`` projective coordinates.
 
     Attributes:
@@ -75,18 +91,6 @@ class CompiledRows:
 
     def __len__(self) -> int:
         return len(self.parts)
-
-    def __getstate__(self) -> dict[str, object]:
-        """The fields alone: what is kept besides holds addresses of this process."""
-        state = {each.name: getattr(self, each.name) for each in fields(self)}
-        return {**state, "_cache": {}}
-
-    @cached_property
-    def content_digest(self) -> bytes:
-        """The digest of all that results depend on."""
-        from nag.tracking.ledger import digest_of_fields
-
-        return digest_of_fields(self)
 
     @cached_property
     def part_count(self) -> int:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from nag.errors import NagError
-from nag.tracking.compiled import CompiledRows, blend
+from nag.tracking.compiled import CompiledRows, SentByContent, blend
 
 Factors = tuple[tuple[complex, complex], ...]
 
@@ -43,7 +43,7 @@ class Members:
 
 
 @dataclass(frozen=True, eq=False)
-class Homotopy:
+class Homotopy(SentByContent):
     """Polynomial rows, linear rows, and one patch for each group of coordinates.
 
     Attributes:
@@ -88,18 +88,6 @@ class Homotopy:
                 f"{len(self.rows)} polynomial rows, {len(A0)} linear rows and {len(self.groups)}"
                 f" patches do not make {N} rows"
             )
-
-    def __getstate__(self) -> dict[str, object]:
-        """The fields alone: what is kept besides holds addresses of this process."""
-        state = {each.name: getattr(self, each.name) for each in fields(self)}
-        return {**state, "_cache": {}}
-
-    @cached_property
-    def content_digest(self) -> bytes:
-        """The digest of all that results depend on."""
-        from nag.tracking.ledger import digest_of_fields
-
-        return digest_of_fields(self)
 
     @property
     def N(self) -> int:
