@@ -190,6 +190,13 @@ def add_formulation(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_start(parser: argparse.ArgumentParser, text: str) -> None:
+    """The start system of paths to isolated solutions; ``text`` says which one is meant."""
+    from nag.solving.start import ASKED_FOR
+
+    parser.add_argument("--start", choices=(*ASKED_FOR, "parameter"), default="auto", help=text)
+
+
 def add_running(parser: argparse.ArgumentParser) -> None:
     """The options of every command that tracks paths and exports its answer."""
     add_tracking(parser)

@@ -12,6 +12,7 @@ from nag.cli.arguments import (
     add_format,
     add_parameters,
     add_running,
+    add_start,
     read_case_file,
 )
 from nag.cli.running import (
@@ -22,7 +23,6 @@ from nag.cli.running import (
     name_case,
     write_document,
 )
-from nag.solving.start import ASKED_FOR
 
 if TYPE_CHECKING:
     from nag.solving.family_members import FamilySolutions
@@ -45,11 +45,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--points", metavar="FILE", help="write all solutions to FILE as NumPy arrays (.npz)"
     )
-    parser.add_argument(
-        "--start",
-        choices=(*ASKED_FOR, "parameter"),
-        default="auto",
-        help="start system for the family at random parameters (default: auto, parameter where "
+    add_start(
+        parser,
+        "start system for the family at random parameters (default: auto, parameter where "
         "the number of solutions is known)",
     )
     add_running(parser)

@@ -12,11 +12,11 @@ from nag.cli.arguments import (
     add_format,
     add_robot,
     add_running,
+    add_start,
     read_problem,
 )
 from nag.cli.certify import proof_asked_for
 from nag.cli.running import CommandAnswer, chosen_run, name_case, run_row
-from nag.solving.start import ASKED_FOR
 
 if TYPE_CHECKING:
     from nag.solving.solutions import SolveResult
@@ -29,11 +29,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_format(parser)
     add_running(parser)
     add_certify(parser)
-    parser.add_argument(
-        "--start",
-        choices=(*ASKED_FOR, "parameter"),
-        default="auto",
-        help="start system (default: auto, parameter where the case has a [family] whose number of "
+    add_start(
+        parser,
+        "start system (default: auto, parameter where the case has a [family] whose number of "
         "solutions is known, else the one with the least work)",
     )
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -256,37 +256,40 @@ def run_in_doubles(
     With ``member``, shape ``(P,)``, each path has the factors of that one of the homotopy's
     members.
     """
+    work = _PathsInDoubles(homotopy, starts, settings, endgame, weights, member)
     if blocks.in_blocks() and len(starts) >= LEAST_BLOCK:
-        raw = _run_in_blocks(homotopy, starts, settings, threads, endgame, weights, member)
+        raw = _run_in_blocks(work, threads)
     else:
-        raw = _run(homotopy, starts, settings, threads, endgame, weights, member)
+        raw = _run(work, threads)
     # A step takes two values, and the Taylor coefficients of each order.
     evaluations.count(raw.steps.sum() * (2 + settings.order))
     return raw
 
 
-def _run_in_blocks(
-    homotopy: Homotopy,
-    starts: np.ndarray,
-    settings: Settings,
-    threads: int,
-    endgame: bool,
-    weights: np.ndarray | None,
-    member: np.ndarray | None,
-) -> StraightRun:
+class _PathsInDoubles(NamedTuple):
+    """What is tracked in doubles, and how; the arguments of `block_in_doubles`."""
+
+    homotopy: Homotopy
+    starts: np.ndarray
+    settings: Settings
+    endgame: bool
+    weights: np.ndarray | None
+    member: np.ndarray | None
+
+    def block(self, first: int) -> tuple[Any, ...]:
+        """Those of a block of paths."""
+        rows = slice(first, first + BLOCK)
+        weights, member = (None if a is None else a[rows] for a in (self.weights, self.member))
+        return self.homotopy, self.starts[rows], self.settings, self.endgame, weights, member
+
+
+def _run_in_blocks(work: _PathsInDoubles, threads: int) -> StraightRun:
     """The same in blocks, each of which may be known already, or be worked out elsewhere."""
-
-    def part(rows: np.ndarray | None, k: int) -> np.ndarray | None:
-        return None if rows is None else rows[k : k + BLOCK]
-
-    calls = [
-        (homotopy, starts[k : k + BLOCK], settings, endgame, part(weights, k), part(member, k))
-        for k in range(0, len(starts), BLOCK)
-    ]
+    calls = [work.block(k) for k in range(0, len(work.starts), BLOCK)]
     from nag.tracking import kernel_arrays
 
     # What is made ready for a homotopy is made, and counted, whoever tracks the paths.
-    kernel_arrays.equations(homotopy, weights=weights)
+    kernel_arrays.equations(work.homotopy, weights=work.weights)
     done = [arrays for arrays, _ in blocks.work_out(block_in_doubles, calls, "paths", threads)]
     return StraightRun(**{name: np.concatenate([b[name] for b in done]) for name in done[0]})
 
@@ -301,22 +304,16 @@ def block_in_doubles(
     threads: int = 1,
 ) -> dict[str, np.ndarray]:
     """A block of paths in doubles, see `StraightRun`."""
-    raw = _run(homotopy, starts, settings, threads, endgame, weights, member)
+    work = _PathsInDoubles(homotopy, starts, settings, endgame, weights, member)
+    raw = _run(work, threads)
     return {each.name: getattr(raw, each.name) for each in fields(raw)}
 
 
-def _run(
-    homotopy: Homotopy,
-    starts: np.ndarray,
-    settings: Settings,
-    threads: int,
-    endgame: bool,
-    weights: np.ndarray | None,
-    member: np.ndarray | None,
-) -> StraightRun:
+def _run(work: _PathsInDoubles, threads: int) -> StraightRun:
     """Run the kernel."""
     from nag.tracking import kernel_arrays, straight_run
 
+    homotopy, starts, settings, endgame, weights, member = work
     P = len(starts)
     raw = StraightRun(
         points=starts.copy(),
