@@ -35,8 +35,9 @@ from nag.mechanism.leg_image import (
 )
 from nag.mechanism.legs import Leg, parallel_robot
 from nag.mechanism.loop_product import Element, displacement
-from nag.mechanism.modes_report import ModeReality, OperationModes
+from nag.mechanism.modes_report import ModeReality, OperationModes, Transition
 from nag.mechanism.motions import motion_of, screw_system
+from nag.mechanism.platform import platform_model
 from nag.mechanism.quaternion import rotate
 from nag.report.agreement import AgreementKind, compare
 
@@ -683,6 +684,52 @@ def test_what_is_not_found_is_said_only_of_modes_without_a_real_pose_that_is_kno
         other = replace(mode, through_reference=through, real_residuals=nowhere)
         ((_, text),) = replace(found, modes=(other,)).mode_rows()
         assert ("no real pose" in text) == said
+
+
+def inclined_upu() -> nag.Mechanism:
+    """A 3-UPU robot with upright legs, whose middle axes are not normal to the outer ones."""
+    joints = []
+    corners = ((1, 0), (Fraction(-3, 5), Fraction(4, 5)), (0, -1))
+    for i, (c, s) in enumerate(corners):
+        foot, along, up = (3 * c, 3 * s, 0), (-s, c, 0), (0, 0, 1)
+        middle = (c - Fraction(2, 5) * s, s + Fraction(2, 5) * c, 0)
+        head, first, second = (*foot[:2], 4), ("base", f"a{i}"), (f"b{i}", "platform")
+        joints += [
+            nag.Joint(f"A{i}", "universal", first, foot, along, second_axis=middle),
+            nag.Joint(f"P{i}", "prismatic", (f"a{i}", f"b{i}"), axis=up),
+            nag.Joint(f"B{i}", "universal", second, head, middle, second_axis=along),
+        ]
+    return nag.Mechanism("base", joints)
+
+
+def test_quartics_of_legs_are_singular_along_translations_alone() -> None:
+    model = platform_model(parallel_robot(inclined_upu()), np.random.default_rng(0))
+    shift, turn = np.array([1.0, 0, 0, 0, 0, 2, -3, 5]), np.array([1.0, 2, -1, 3, 0, 0, 0, 0])
+    for leg in model.legs:
+        assert [f.degree for f in leg.image.forms] == [4]
+        assert leg.is_singular_at(shift) and not leg.is_singular_at(turn)
+
+
+def test_what_a_multiplicity_comes_from_is_said() -> None:
+    found = found_modes("3-rrr-planar")
+    (mode,) = found.moving
+    multiple = replace(mode, component=replace(mode.component, multiplicity=4))
+    for singular, said in (((), "touch all along it"), ((0, 2), "singular all along it")):
+        other = replace(found, modes=(replace(multiple, singular_legs=singular),))
+        (text,) = [text for label, text in other.tail() if label == "multiple"]
+        assert said in text and text.startswith("mode 1: multiplicity 4 ")
+    assert not any(label == "multiple" for label, _ in found.tail())
+
+
+def test_modes_that_meet_are_not_said_to_be_open_whether_they_do() -> None:
+    some, none = (Transition((0, 1), kinds, "no end") for kinds in (((0, 1),) * 16, ()))
+    assert some.open_text == "modes 1 and 2 meet, and in what all is not known: no end"
+    assert none.open_text == "whether modes 1 and 2 meet is not known: no end"
+    found = replace(found_modes("3-rps"), transitions=(some, none))
+    texts = [text for label, text in found.tail() if label == "transition"]
+    assert texts[0].startswith("1 and 2: they meet, and in what all is not known; found are ")
+    assert texts[0].endswith("dimension 0, degree 1 (16 times)")
+    assert texts[1] == "1 and 2: not known whether they meet"
 
 
 @pytest.mark.parametrize("seed", [1, 5])

@@ -194,7 +194,7 @@ def conjugate_product(
         value = combination(element, coordinates, convert)
         product = value if product is None else dual_multiply(product, value)
     if product is None:
-        product = tuple(tuple(convert(x) for x in part) for part in UNIT)
+        product = tuple(tuple(map(convert, part)) for part in UNIT)
     return [x for part in dual_conjugate(product) for x in part]
 
 

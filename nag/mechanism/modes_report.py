@@ -68,6 +68,8 @@ class OperationMode:
             one likes: it is a component of what the closures of their poses have in common.
         real_residuals: as the residuals, with real joint coordinates next to the real pose; empty
             without one.
+        singular_legs: of a multiple mode, indices of the legs whose own equations are singular all
+            along it.
     """
 
     component: WitnessSet
@@ -85,6 +87,7 @@ class OperationMode:
     residuals: tuple[float, ...]
     limits: tuple[int, ...]
     real_residuals: tuple[float, ...]
+    singular_legs: tuple[int, ...] = ()
 
     __eq__ = equal_values
 
@@ -154,6 +157,7 @@ class OperationMode:
             "residuals": list(map(_finite, self.residuals)),
             "limits": [i + 1 for i in self.limits],
             "real_residuals": list(map(_finite, self.real_residuals)),
+            "singular_legs": [i + 1 for i in self.singular_legs],
         }
 
 
@@ -170,6 +174,14 @@ class Transition:
     modes: tuple[int, int]
     kinds: tuple[tuple[int, int], ...]
     note: str = ""
+
+    @property
+    def open_text(self) -> str:
+        """What is not known of it, and why."""
+        pair = f"modes {self.modes[0] + 1} and {self.modes[1] + 1}"
+        if self.kinds:
+            return f"{pair} meet, and in what all is not known: {self.note}"
+        return f"whether {pair} meet is not known: {self.note}"
 
     def document(self) -> dict[str, Any]:
         """It as a JSON object."""
@@ -323,7 +335,10 @@ class OperationModes:
                 f"dimension {d}, degree {degree}" + (f" ({count} times)" if count > 1 else "")
                 for (d, degree), count in counts.items()
             ]
-            found.append(("transition", f"{pair}: {'; '.join([*listed, *filter(None, [t.note])])}"))
+            if t.note:
+                meeting = "they meet, and in what all is not known; found are "
+                listed = [meeting + "; ".join(listed) if t.kinds else "not known whether they meet"]
+            found.append(("transition", f"{pair}: {'; '.join(listed)}"))
         if len(self.moving) > 1 and not self.transitions:
             found.append(("transition", "no two modes meet"))
         own = [(i, m) for i, m in enumerate(self.modes, 1) if not m.limits]
@@ -341,12 +356,24 @@ class OperationModes:
                 "comes as near to their poses as one likes, and no joint coordinates of its own "
             )
             found.append(("limits", f"{text}give a general one"))
+        for i, mode in enumerate(self.modes, 1):
+            if mode.multiplicity > 1:
+                found.append(("multiple", f"mode {i}: {self._multiplicity_text(mode)}"))
         for each in self.spurious:
             text = f"a component of dimension {each.dimension}, degree {each.degree} of the "
             found.append(("left out", f"{text}equations, which leg {each.leg} does not reach"))
         found += [("open", note) for note in self.notes]
         found.append(("not seen", NOT_SEEN))
         return found
+
+    def _multiplicity_text(self, mode: OperationMode) -> str:
+        """What the multiplicity of a mode comes from."""
+        text = f"multiplicity {mode.multiplicity} is that of the legs' equations together"
+        names = [self.model.legs[k].leg.name for k in mode.singular_legs]
+        if not names:
+            return f"{text}, which touch all along it"
+        legs = f"leg {names[0]} is" if len(names) == 1 else f"legs {join_words(names)} are"
+        return f"{text}: those of {legs} singular all along it, whatever the other legs are"
 
     def document(self) -> dict[str, Any]:
         """The answer as a JSON object, witness sets left out."""

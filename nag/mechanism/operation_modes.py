@@ -245,7 +245,11 @@ def describe_modes(
             spurious.append(SpuriousComponent(component.dimension, component.degree, name))
             continue
         mode = _describe(model, component, mirrored[k], k, through and through[k], length, run)
-        mode = replace(mode, residuals=own, limits=limits[k])
+        singular: tuple[int, ...] = ()
+        if mode.multiplicity > 1:
+            pairs = enumerate(model.legs)
+            singular = tuple(i for i, leg in pairs if leg.is_singular_at(poses[k]))
+        mode = replace(mode, residuals=own, limits=limits[k], singular_legs=singular)
         if not any(_same_poses(model, mode, other, run) for other in known.values()):
             known[k] = mode
             tell(known)
@@ -262,11 +266,7 @@ def describe_modes(
         if not r < REACHED and i not in mode.limits
     ]
     transitions = _transitions(model, described, run)
-    notes += [
-        f"whether modes {t.modes[0] + 1} and {t.modes[1] + 1} meet is not known: {t.note}"
-        for t in transitions
-        if t.note
-    ]
+    notes += [t.open_text for t in transitions if t.note]
     return OperationModes(
         model, found, described, tuple(spurious), tuple(transitions), tuple(notes)
     )

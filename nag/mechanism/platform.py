@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Irrational, Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.root_basis import MOST_DEGREE as MOST_DEGREE_OF_COSINES
@@ -43,6 +44,7 @@ from nag.mechanism.leg_image import (
 from nag.mechanism.legs import Leg, ParallelRobot
 from nag.mechanism.loop_product import Element, displacement, factors_in
 from nag.mechanism.quaternion import dual_conjugate, dual_multiply
+from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.natural_coordinates import shorten_origin
 from nag.numerics.read_only import equal_values
 
@@ -81,6 +83,22 @@ class LegEquations:
         """The factors between those that it keeps."""
         elements = self.leg.elements()
         return elements[len(self.before) : len(elements) - len(self.behind)]
+
+    def is_singular_at(self, pose: np.ndarray) -> bool:
+        """Whether its equations are singular at a pose that satisfies them.
+
+        With Study's quadric they are dependent in first order there, more than elsewhere. Of a leg
+        that keeps joints nothing is said.
+
+        Args:
+            pose: Study coordinates, shape ``(8,)``.
+        """
+        forms = (study_quadric(), *self.image.forms)
+        if self.kept or not self.image.forms:
+            return False
+        # Of a form of which the coefficients and the pose are of size one.
+        rows = Evaluator.of(forms, 8).jacobian(pose / np.abs(pose).max())
+        return 8 - matrix_corank(rows, NEARLY_SINGULAR) < self.image.codimension
 
     def between(
         self, pose: np.ndarray, kept: Mapping[Factor, Sequence[Any]]
