@@ -784,3 +784,11 @@ def test_a_robot_far_from_the_origin_has_the_modes_that_it_has_near_it(name: str
     if name == "3-rrr-spherical":
         place = far.modes[0].motion.place
         assert place == "about the point (1e+06, -2e+06, 1e+06)"
+
+
+def test_the_model_of_a_robot_says_that_its_platform_may_be_asked_about_alone(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    for name, said in (("robots/3-rrs", True), ("robots/tricept", True), ("bennett", False)):
+        assert main(["model", str(CASES / f"{name}.toml")]) == 0
+        assert ("  P: on request, the poses of" in capsys.readouterr().out) == said

@@ -6,7 +6,10 @@ from collections.abc import Sequence
 from math import prod
 from typing import TYPE_CHECKING
 
+from nag.errors import MechanismError
+from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.joint_types import JOINT_TYPES
+from nag.mechanism.legs import parallel_robot
 from nag.text.table import align, count_text, printable
 
 if TYPE_CHECKING:
@@ -96,6 +99,23 @@ def formulation_lines(problem: Problem) -> list[str]:
         *(f"  {line}" for line in align(rows, (0, 6))),
         *(line for a in covered for line in _at_once_lines(a)),
         *(f"  {a.formulation}: {printable(a.problem)}" for a in others),
+        *([] if taken == PLATFORM_ALONE else _platform_lines(problem)),
+    ]
+
+
+def _platform_lines(problem: Problem) -> list[str]:
+    """What may be asked of a robot's platform alone, which is taken on request only."""
+    if problem.mechanism is None:
+        return []
+    try:
+        robot = parallel_robot(problem.mechanism.mechanism)
+    except MechanismError:
+        return []
+    if not all(leg.is_serial for leg in robot.legs):
+        return []
+    return [
+        f"  {PLATFORM_ALONE}: on request, the poses of {printable(robot.platform)} alone, by its "
+        f"{count_text(len(robot.legs), 'leg')}; nag modes tells its operation modes"
     ]
 
 
