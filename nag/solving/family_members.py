@@ -357,8 +357,7 @@ class _FoundMembers:
     """
 
     def __init__(self, found: FamilySolutions, run: Run) -> None:
-        self._found, self._run = found, run
-        self._next = time.monotonic() + BETWEEN
+        self._found, self._run, self._next = found, run, 0.0
 
     def __call__(self, reached: int, more: bool) -> None:
         """Tell, if there is more to come, and it was not told just now."""
