@@ -81,8 +81,9 @@ def test_poses_beside_kept_joints_lift_to_configurations_with_these() -> None:
     point = reference + 0.01 * rng.standard_normal(len(reference))
     for _ in range(20):
         value = np.array([f(list(point)) for f in model.system.polynomials])
-        rows = [[g(list(point)) for g in row] for row in model.system.jacobian]
-        point = point - np.linalg.lstsq(np.array(rows), value, rcond=None)[0]
+        rows = np.array([[g(list(point)) for g in row] for row in model.system.jacobian])
+        sizes = np.linalg.norm(rows, axis=1)
+        point = point - np.linalg.lstsq(rows / sizes[:, None], value / sizes, rcond=1e-6)[0]
     assert lifting_error(model, point) < 1e-10
 
 

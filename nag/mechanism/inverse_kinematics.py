@@ -89,7 +89,7 @@ def reach_poses(
         `REACHED` where a pose is reached.
     """
     scale = np.array([1.0] * 4 + [1.0 / length] * 4)
-    generators = [[g * scale for g in map(_generators, elements)] for elements in chains]
+    generators = [[_generators(e, scale) for e in elements] for elements in chains]
     targets = _unit(poses * scale)
     best = np.full((len(poses), len(chains)), np.inf)
     for _ in range(REAL_ROUNDS if real else ROUNDS):
@@ -127,7 +127,7 @@ def find_reached_pose(
     """
     scale = np.array([1.0] * 4 + [1.0 / length] * 4)
     back = conjugate_pose(basis) * scale
-    legs = [[g * scale for g in map(_generators, own)] for own in chains]
+    legs = [[_generators(e, scale) for e in own] for own in chains]
     one = np.eye(8)[:1]
     first = np.linalg.lstsq(basis.T, pose, rcond=None)[0]
     for _ in range(STARTS):
@@ -201,7 +201,8 @@ def find_joints(
         length, real: as for `reach_poses`.
     """
     scale = np.array([1.0] * 4 + [1.0 / length] * 4)
-    generators = [g * scale for g in map(_generators, elements)]
+    given = [_given_generators(e) * scale for e in elements]
+    generators = list(map(_unit, given))
     targets = _unit(pose[None] * scale)
     for _ in range(ROUNDS):
         best = np.full(1, np.inf)
@@ -210,12 +211,19 @@ def find_joints(
             for _ in range(LAST_STEPS):
                 _, rest, slopes = _across_poses(generators, found, targets)
                 found = _step(found, rest, slopes)
-            return [w[0] for w in found]
+            return [w[0] / np.linalg.norm(g, axis=1) for w, g in zip(found, given, strict=True)]
     return None
 
 
-def _generators(element: Element) -> np.ndarray:
-    """Those of a factor, shape ``(k, 8)``."""
+def _generators(element: Element, scale: np.ndarray) -> np.ndarray:
+    """Those of a factor in comparable units, each of size one, shape ``(k, 8)``.
+
+    Random coordinates are then as likely to be those of a slide as long as the chain as of none.
+    """
+    return _unit(_given_generators(element) * scale)
+
+
+def _given_generators(element: Element) -> np.ndarray:
     return np.array([[float(c) for part in g for c in part] for g in element.generators])
 
 
