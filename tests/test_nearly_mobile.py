@@ -220,3 +220,36 @@ def test_one_joint_that_is_named_far_along_its_axis_makes_nothing_small() -> Non
     far = find_near_motion(nearly_meeting(Fraction(1), 0, 0, 10**9, 0), 1e-3)
     assert near is not None and far is not None
     assert near.size == far.size and near.gap == far.gap and not far.nearly_mobile
+
+
+TRIANGLE = (
+    (("0.1269", "-0.9141", "0.3852"), ("0", "0", "0")),
+    (("0.1739", "-1.2523", "0.5277"), ("-2.0917", "0.5819", "2.0703")),
+    (("0.2209", "-1.5905", "0.6702"), ("-2.8220", "-1.4247", "-2.4508")),
+)
+FOUR_BAR = (
+    (("0.127", "-0.914", "0.385"), ("0.000", "0.000", "0.000")),
+    (("0.174", "-1.252", "0.528"), ("-2.814", "-0.875", "-1.148")),
+    (("0.221", "-1.590", "0.670"), ("-5.611", "-0.649", "0.310")),
+    (("0.268", "-1.929", "0.813"), ("-3.486", "0.970", "3.450")),
+)
+
+
+@pytest.mark.parametrize(("lines", "near"), [(TRIANGLE, False), (FOUR_BAR, True)])
+def test_axes_that_all_but_meet_far_away_have_the_size_of_the_links(
+    lines: tuple[tuple[tuple[str, ...], tuple[str, ...]], ...], near: bool
+) -> None:
+    """Planar loops, turned and rounded: parallel axes but for the digits that are written."""
+    count = len(lines)
+    joints = (
+        Joint(f"J{k}", "revolute", (f"b{k}", f"b{(k + 1) % count}"), point, axis)
+        for k, (axis, point) in enumerate(lines)
+    )
+    found = find_near_motion(Mechanism("b0", tuple(joints)), 0.01)
+    assert found is not None
+    assert 1 < found.size < 5
+    assert found.nearly_mobile == near
+    if near:
+        # By the closure of the plane loop: from -1.95 to 3.80, open by 7.6e-4 rad and 1.6e-3.
+        assert found.driven_to == pytest.approx((-1.95, 3.80), abs=0.02)
+        assert found.gap[0] < 2e-3 and found.gap[1] < 3e-3

@@ -69,22 +69,33 @@ def _axis(line: Any, index: int) -> tuple[Sequence[Any], Sequence[Any]]:
     return tuple(x / squared for x in cross(direction, moment)), direction
 
 
-def middle_of(joints: Sequence[Joint]) -> Vector:
+def middle_of(
+    joints: Sequence[Joint], start: Vector = ORIGIN, parallel: float = PARALLEL
+) -> Vector:
     """The point with the least squared distances from axes of turns and from centres, rational.
 
     The same whatever points of their axes the joints name. Of parallel axes the one in the plane
-    through the origin across them.
+    through ``start`` across them.
+
+    Args:
+        parallel: angle below which axes are: where they all but meet may be anywhere.
     """
     placed = [joint for joint in joints if has_place(joint)]
     across = np.array([_projection(joint) for joint in placed]).reshape(-1, 3, 3)
-    middle = ORIGIN
+    middle = start
     for _ in range(REFINEMENTS):
         away = [difference(nearest_on_axis(joint, middle), middle) for joint in placed]
         values = [own @ [float(x) for x in d] for own, d in zip(across, away, strict=True)]
         rows = across.reshape(-1, 3), np.array(values).reshape(-1)
-        step = np.linalg.lstsq(*rows, rcond=PARALLEL)[0]
+        step = np.linalg.lstsq(*rows, rcond=parallel)[0]
         middle = tuple(x + Fraction(d) for x, d in zip(middle, step.tolist(), strict=True))
     return middle
+
+
+def median_of_places(joints: Sequence[Joint]) -> Vector:
+    """The median, coordinate by coordinate, of the points that joints name, rational."""
+    named = [[float(x) for x in joint.point] for joint in joints if has_place(joint)]
+    return tuple(map(Fraction, np.median(named, axis=0).tolist())) if named else ORIGIN
 
 
 def _projection(joint: Joint) -> np.ndarray:

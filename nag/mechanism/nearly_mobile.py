@@ -29,7 +29,7 @@ from nag.algebra.given import check_type
 from nag.errors import NagError
 from nag.mechanism.axes import cross, difference
 from nag.mechanism.graph import Joint, Mechanism
-from nag.mechanism.lines import middle_of, nearest_on_axis
+from nag.mechanism.lines import median_of_places, middle_of, nearest_on_axis
 from nag.mechanism.loops import Loop, loop_structure
 from nag.mechanism.overconstrained import known_linkage
 from nag.mechanism.quaternion import multiply
@@ -382,7 +382,7 @@ class Chains:
         points: list[Array] = []
         named: list[float] = []
         numbers: dict[str, range] = {}
-        middle = middle_of(structure.joints)
+        middle = middle_of(structure.joints, median_of_places(structure.joints), WIDEST_GAP)
         for i, joint in enumerate(structure.joints):
             begin = len(screws)
             near, there = (
