@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -566,3 +567,21 @@ def test_what_cannot_be_eliminated_from_is_said(
     file.write_text(NAMED)
     assert main(["eliminate", str(file), "--at", point, "--quiet"]) == 2
     assert said in capsys.readouterr().err
+
+
+def test_points_of_the_conjugate_system_are_refused_in_exports(tmp_path: Path) -> None:
+    system = nag.system(["x*y - I", "x^2 + y - 1"], imaginary="I")
+    for name, found in (("solved", nag.solve(system)), ("decomposed", nag.decompose(system))):
+        path = tmp_path / f"{name}.json"
+        nag.write(found, path)
+        text = json.loads(path.read_text())
+        places = text["solutions"] if name == "solved" else text["components"]
+        for each in places:
+            key = "point" if name == "solved" else "points"
+            points = [each[key]] if name == "solved" else each[key]
+            for point in points:
+                for entry in point:
+                    entry[1] = -entry[1]
+        path.write_text(json.dumps(text))
+        with pytest.raises(nag.NagError, match="conjugate system"):
+            nag.certify(path)

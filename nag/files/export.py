@@ -22,6 +22,7 @@ from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import PolynomialSystem
 from nag.files.json_values import (
     ExportError,
+    check_imaginary_unit,
     checked_document,
     complex_matrix,
     complex_vector,
@@ -182,6 +183,7 @@ def _component(
     b = complex_vector(table["slice"]["b"])
     a = complex_matrix(table["slice"]["A"], system.n, f"{place}.slice.A")
     points = complex_matrix(table["points"], system.n, f"{place}.points")
+    check_imaginary_unit(points, system.imaginary, f"{place}.points")
     if len(a) != len(b) or table["dimension"] != len(b):
         raise wrong(f"{place}.dimension", "the number of rows of the slice's A and b")
     if not (np.isfinite(a).all() and np.isfinite(b).all() and a.any(axis=1).all()):

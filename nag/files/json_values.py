@@ -35,6 +35,20 @@ def wrong(place: str, wanted: str) -> ExportError:
     return ExportError(f"{place}: must be {wanted}")
 
 
+def check_imaginary_unit(points: np.ndarray, imaginary: bool, place: str) -> None:
+    """Of points of complex equations the last coordinate is the imaginary unit.
+
+    Its equation has a second zero, at which all others are the conjugate ones.
+
+    Raises:
+        ExportError: if that is what it is.
+    """
+    if imaginary and (points[..., -1].imag < 0).any():
+        raise wrong(
+            place, "i in the imaginary unit's coordinate: -i is that of the conjugate system"
+        )
+
+
 def entry(table: Mapping[str, Any], key: str, place: str) -> Any:
     if key not in table:
         raise ExportError(f"{place}: the key {key!r} is missing")

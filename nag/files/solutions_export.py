@@ -11,7 +11,9 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from nag.algebra.given import check_path, check_type
+from nag.algebra.system import PolynomialSystem
 from nag.files.json_values import (
+    check_imaginary_unit,
     checked_document,
     complex_matrix,
     complex_vector,
@@ -70,10 +72,11 @@ def write_solutions(
     write_target(path, export_text(result, title, file))
 
 
-def _solution(table: dict[str, Any], n: int, place: str) -> Solution:
+def _solution(table: dict[str, Any], system: PolynomialSystem, place: str) -> Solution:
     point = complex_vector(table["point"])
-    if len(point) != n:
-        raise wrong(f"{place}.point", f"of length {n}, one entry for each variable")
+    if len(point) != system.n:
+        raise wrong(f"{place}.point", f"of length {system.n}, one entry for each variable")
+    check_imaginary_unit(point, system.imaginary, f"{place}.point")
     numbers = {key: real_number(table[key]) for key in ("residual", "accuracy", "condition")}
     facts = {key: table[key] for key in ("multiplicity", "real", "precision")}
     return Solution(point=point, **facts, **numbers)
@@ -90,9 +93,7 @@ def solutions_of(value: Any) -> SolutionsExport:
 
     def get_solutions(key: str) -> tuple[Solution, ...]:
         # Earlier files do not have all of them.
-        return tuple(
-            _solution(v, system.n, f"{key}[{i}]") for i, v in enumerate(table.get(key, []))
-        )
+        return tuple(_solution(v, system, f"{key}[{i}]") for i, v in enumerate(table.get(key, [])))
 
     result = SolveResult(
         system=system,
