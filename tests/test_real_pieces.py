@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -77,6 +78,43 @@ def test_peaucelliers_inversor_is_real_where_its_rhombus_folds() -> None:
         ends.append(np.hypot(x["x_P"], x["y_P"]))
     # The inverse of C, and C itself.
     assert sorted(ends) == pytest.approx([2, 14 / 3], abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "equations",
+    [
+        ["(x^2 - 2)^2 + 1/10^240", "y^2 - x"],
+        ["(x - 1)^2 + 1/10^120", "y^2 - x"],
+        ["(x - 1)^2 + 1/10^180", "y^2 - x"],
+        ["(x - 1)^2 + 1/10^240", "y^2 - x"],
+    ],
+)
+def test_points_that_are_not_known_to_be_real_are_not_among_the_real_ones(
+    equations: list[str],
+) -> None:
+    for component in nag.decompose(equations).components:
+        found = nag.find_real_points(component)
+        assert len(found) == 0 and found.each_piece == (found.reality is NONE)
+        with pytest.raises(nag.NagError, match="real points: none"):
+            sample_real(component, 2)
+
+
+def test_samples_say_that_points_they_are_drawn_from_may_be_missing() -> None:
+    """Two real points, and two of which that is not known, as one finite set."""
+    components = nag.decompose(["((x - 1)^2 + 1/10^120)*(x^2 - 2)", "y"]).components
+    together = replace(
+        components[0],
+        points=np.vstack([c.points for c in components]),
+        digits=np.concatenate([c.digits for c in components]),
+        radii=np.vstack([c.radii for c in components]),
+        fibres=(),
+    )
+    found = nag.find_real_points(together)
+    assert (len(found), found.reality, found.each_piece) == (2, FOUND, False)
+    samples = sample_real(together, 5)
+    assert np.abs(samples.points[:, 0] ** 2 - 2).max() < 1e-12
+    assert "whether a point is real is not known" in samples.doubt
+    assert samples.doubt in str(samples)
 
 
 @pytest.mark.parametrize("equations", [["x^2 + y^2 = 1"], ["x*y*z = 1"], ["x^2 = 2", "y = x"]])

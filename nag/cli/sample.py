@@ -51,7 +51,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
             samples = sample_real(component, options.count, run=chosen_run(options))
         else:
             samples = sample(system, component, options.count, run=chosen_run(options))
-        doubt = ""
+        doubt = samples.doubt
     except SamplingError as error:
         samples, doubt = error.found, str(error)
     more = len(samples.points) - SHOWN

@@ -327,17 +327,25 @@ def _displacement(made: Model, pose: Pose) -> GivenFrame:
 
 def isolated_assemblies(
     scene: Scene, components: Sequence[WitnessSet], run: Run
-) -> list[DrivenAssembly]:
-    """The real assemblies among components of dimension 0, in the order of their values."""
-    found = []
+) -> tuple[list[DrivenAssembly], list[str]]:
+    """The real assemblies among components of dimension 0, and what is not known of others.
+
+    They are in the order of their values.
+    """
+    found, doubtful = [], 0
     for component in components:
-        points = np.asarray(find_real_points(component, run=run).points)
+        real = find_real_points(component, run=run)
+        doubtful += not real.each_piece
+        points = np.asarray(real.points)
         poses = scene.lift(points)
         values = joint_values(scene, poses)
         for i in range(len(points)):
             here = poses.at(slice(i, i + 1))
             found.append(DrivenAssembly(None, None, values[i], here, points[i]))
-    return sorted(found, key=lambda each: tuple(np.round(each.values, DECIMALS)))
+    notes = []
+    if doubtful:
+        notes.append(f"assemblies left out as it is not known whether they are real: {doubtful}")
+    return sorted(found, key=lambda each: tuple(np.round(each.values, DECIMALS))), notes
 
 
 def find_doubts_of_held(

@@ -594,8 +594,8 @@ def _motion_on(
     isolated: list[DrivenAssembly] = []
     if holding:
         points = [c for c in others.components if c.dimension == 0]
-        isolated = isolated_assemblies(scene, points, inner)
-        notes += find_doubts_of_held(problem, isolated, points)
+        isolated, doubts = isolated_assemblies(scene, points, inner)
+        notes += [*doubts, *find_doubts_of_held(problem, isolated, points)]
     if not circuits and not notes and not holding:
         raise MotionError(_no_motion(curves, left_out))
     finished = _with_crossings(circuits, others, found, inner)

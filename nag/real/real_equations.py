@@ -150,17 +150,18 @@ def distinct_points(sets: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]
 
 
 def real_points_of(component: WitnessSet) -> tuple[np.ndarray, int]:
-    """The real points of a finite set, shape ``(k, n)``, and how many only may be real.
+    """The real points of a finite set, shape ``(k, n)``, and how many others may be real.
 
-    A point is taken for real if its imaginary parts vanish to 100 digits. Of complex equations the
-    coordinate that is the imaginary unit is left out.
+    A point is taken for real if its imaginary parts vanish to 100 digits; where that is not known,
+    as of several zeros that so many digits do not tell apart, it is not among those points. Of
+    complex equations the coordinate that is the imaginary unit is left out.
     """
     system = component._known_system()
     own = len(system.own_variables)
     off, radii = np.abs(component.points.imag[:, :own]), component.radii[:, :own]
     near = np.flatnonzero((off <= radii).all(axis=1)).tolist()
     judged = {k: _is_real(system, component, k, own) for k in near}
-    kept = [k for k in near if judged[k] is not False]
+    kept = [k for k in near if judged[k]]
     doubtful = sum(answer is None for answer in judged.values())
     return component.points[kept, :own].real, doubtful
 

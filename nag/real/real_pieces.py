@@ -149,9 +149,12 @@ def find_real_points(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealPi
 
 def _of_finite_set(component: WitnessSet) -> RealPieces:
     points, doubtful = real_points_of(component)
+    if doubtful:
+        reality = Reality.FOUND if len(points) else Reality.NONE_FOUND
+        return RealPieces(points, (0,) * len(points), reality, False, NOT_KNOWN_REAL)
     if len(points):
-        reason = NOT_KNOWN_REAL if doubtful else "points whose imaginary parts are 0 to 100 digits"
-        return RealPieces(points, (0,) * len(points), Reality.FOUND, not doubtful, reason)
+        reason = "points whose imaginary parts are 0 to 100 digits"
+        return RealPieces(points, (0,) * len(points), Reality.FOUND, True, reason)
     reason = "all points are away from their conjugates by more than their errors"
     return RealPieces(points, (), Reality.NONE, True, reason)
 

@@ -11,7 +11,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
 from nag.real.find_curve import find_real_curve
 from nag.real.real_equations import find_real_equations
-from nag.real.real_pieces import Reality, find_real_points, join_pieces
+from nag.real.real_pieces import Reality, RealPieces, find_real_points, join_pieces
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import EPS
 from nag.witness.real_points import real_points_near
@@ -59,8 +59,9 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
     system = component._known_system()
     if component.dimension and system.imaginary:
         return _of_complex_equations(component, count, rng, run)
+    doubt = ""
     if component.dimension == 1:
-        points = _of_curve(component, count, rng, run)
+        points, doubt = _of_curve(component, count, rng, run)
     else:
         found = find_real_points(component, run=run)
         if found.reality is not Reality.FOUND:
@@ -68,15 +69,25 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
         points = np.asarray(found.points)
         if component.dimension == 0:
             points = points[rng.integers(len(points), size=count)]
+            doubt = _doubt_of(found)
         else:
             points = _near(component, points, count, rng, run)
-    return _samples(system, points)
+    return _samples(system, points, doubt)
 
 
-def _samples(system: PolynomialSystem, points: np.ndarray) -> Samples:
+def _doubt_of(drawn_from: RealPieces) -> str:
+    """Why real points may be missing among those that samples are drawn from."""
+    return "" if drawn_from.each_piece else _missing(drawn_from.reason)
+
+
+def _missing(reason: str) -> str:
+    return f"real points may be missing: {reason}"
+
+
+def _samples(system: PolynomialSystem, points: np.ndarray, doubt: str = "") -> Samples:
     points = append_unit(points) if system.imaginary else points + 0j
     residual = float(Evaluator.of(system.polynomials, system.n).residuals(points).max(initial=0.0))
-    return Samples(points, residual, max(residual, EPS))
+    return Samples(points, residual, max(residual, EPS), doubt)
 
 
 def _of_complex_equations(
@@ -91,30 +102,38 @@ def _of_complex_equations(
         whole = join_pieces(component, equations, [f for _, f in found], run)
         if whole.reality is not Reality.FOUND:
             raise _why_none(whole.reality, whole.reason)
-        return _samples(system, whole.points[rng.integers(len(whole.points), size=count)])
+        drawn = whole.points[rng.integers(len(whole.points), size=count)]
+        return _samples(system, drawn, _doubt_of(whole))
     chosen = [each for each, f in found if len(f) and max(f.dimensions) == largest]
     shares = rng.multinomial(count, np.full(len(chosen), 1 / len(chosen)))
-    points = [
-        sample_real(each, int(share), run=run).points.real
+    parts = [
+        sample_real(each, int(share), run=run)
         for each, share in zip(chosen, shares, strict=True)
         if share
     ]
-    return _samples(system, rng.permutation(np.vstack(points)))
+    doubts = [_missing(equations.doubt)] if equations.doubt else []
+    doubts += [part.doubt for part in parts if part.doubt]
+    points = rng.permutation(np.vstack([part.points.real for part in parts]))
+    return _samples(system, points, "; ".join(dict.fromkeys(doubts)))
 
 
-def _of_curve(component: WitnessSet, count: int, rng: np.random.Generator, run: Run) -> np.ndarray:
+def _of_curve(
+    component: WitnessSet, count: int, rng: np.random.Generator, run: Run
+) -> tuple[np.ndarray, str]:
+    """Points of the arcs, isolated ones where there is none, and why others may be missing."""
     curve = find_real_curve(component, run=run)
+    doubt = "" if curve.complete else _missing(curve.reason)
     if curve.edges:
         steps = [np.linalg.norm(np.diff(e.chart, axis=0), axis=1) for e in curve.edges]
         # An arc's points but for the first; they are on the curve to rounding.
         points = np.vstack([e.points[1:] for e in curve.edges])
         lengths = np.concatenate(steps)
-        return points[rng.choice(len(points), size=count, p=lengths / lengths.sum())]
+        return points[rng.choice(len(points), size=count, p=lengths / lengths.sum())], doubt
     isolated = [v.point for v in curve.vertices]
     if not isolated:
         none = Reality.NONE if curve.complete else Reality.NONE_FOUND
         raise _why_none(none, curve.reason)
-    return np.array(isolated)[rng.integers(len(isolated), size=count)]
+    return np.array(isolated)[rng.integers(len(isolated), size=count)], doubt
 
 
 def _near(

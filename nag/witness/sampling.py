@@ -38,11 +38,13 @@ class Samples:
         points: complex, shape ``(count, n)``.
         residual: largest relative residual of the equations at the points.
         accuracy: largest estimated relative error of a point.
+        doubt: why the set that they are drawn from may not be whole; empty if it is.
     """
 
     points: np.ndarray
     residual: float
     accuracy: float
+    doubt: str = ""
 
     __eq__ = equal_values
 

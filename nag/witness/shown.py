@@ -268,6 +268,7 @@ def _samples_rest(samples: Samples) -> str:
 def samples_text(samples: Samples) -> str:
     """Points of a component in three lines."""
     rows = [("points", _first_point(samples.points)), ("rests on", _samples_rest(samples))]
+    rows += [("open", samples.doubt)] if samples.doubt else []
     return lines_of(_samples_title(samples), rows)
 
 
@@ -288,7 +289,8 @@ def sample_rows(samples: Samples, variables: Sequence[str]) -> list[list[str]]:
 
 def samples_html(samples: Samples) -> str:
     """Points of a component as a table."""
-    return _point_table(_samples_title(samples), samples.points, {}, _samples_rest(samples))
+    note = _samples_rest(samples) + (f"; open: {samples.doubt}" if samples.doubt else "")
+    return _point_table(_samples_title(samples), samples.points, {}, note)
 
 
 def _real_points_title(found: RealPoints) -> str:
