@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 
+import jsonschema
 import numpy as np
 import pytest
 
 import nag
 from nag.cli import main
+from nag.files.json_schema import schema
 from nag.mechanism.framework_model import cartesian_model
 from nag.real.real_pieces import Reality
 from nag.real.real_samples import NoRealPointsError, sample_real
@@ -138,9 +140,25 @@ def test_real_samples_are_asked_for_at_the_prompt(tmp_path, capsys) -> None:
     assert np.abs((points[..., 0] ** 2).sum(axis=1) - 1).max() < 1e-12
     assert not points[..., 1].any()
     file.write_text(text.format(-1))
+    # Not a mistake: that there are none is an answer.
     capsys.readouterr()
-    assert main(["sample", str(file), "--real"]) == 2
-    assert "real points: none, proved" in capsys.readouterr().err
+    assert main(["sample", str(file), "--real", "--quiet", "--json", str(out)]) == 0
+    told = capsys.readouterr()
+    assert "answer     real points: none, proved" in told.out and not told.err
+    document = json.loads(out.read_text())
+    assert document["points"] == [] and document["complete"]
+    jsonschema.validate(document, schema("nag-samples"))
+
+
+def test_where_none_is_found_the_command_says_so_and_is_not_complete(tmp_path, capsys) -> None:
+    file, out = tmp_path / "none.txt", tmp_path / "out.json"
+    listed = 'variables = ["x", "y"]\nequations = ["(x - 1)^2 + 1/10^120", "y^2 - x"]\n'
+    file.write_text(f'title = "t"\nkind = "system"\n{listed}')
+    assert main(["sample", str(file), "--real", "--quiet", "--json", str(out)]) == 1
+    told = capsys.readouterr()
+    assert "open       real points: none found" in told.out and not told.err
+    document = json.loads(out.read_text())
+    assert document["points"] == [] and not document["complete"]
 
 
 def test_none_is_drawn_where_there_is_none() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
 from nag.cli.arguments import whole
 from nag.cli.running import CommandAnswer, answer_of, chosen_run
@@ -14,6 +15,11 @@ from nag.cli.witness_input import (
     numbered_row,
     read_components,
 )
+
+if TYPE_CHECKING:
+    from nag.algebra.system import PolynomialSystem
+    from nag.witness.sampling import Samples
+    from nag.witness.witness import WitnessSet
 
 FORMAT = "nag-samples"
 MOST_SAMPLES = 1_000_000
@@ -38,33 +44,46 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """Points of a component."""
     from nag.text.table import align, magnitude
-    from nag.witness.sampling import SamplingError, sample
     from nag.witness.shown import MOST_SAMPLES as SHOWN
 
     found = read_components(options)
     component = component_of(found, options.component, "--component")
     system = found.decomposition.system
-    try:
-        if options.real:
-            from nag.real.real_samples import sample_real
-
-            samples = sample_real(component, options.count, run=chosen_run(options))
-        else:
-            samples = sample(system, component, options.count, run=chosen_run(options))
-        doubt = samples.doubt
-    except SamplingError as error:
-        samples, doubt = error.found, str(error)
-    more = len(samples.points) - SHOWN
-    tail = [("points", f"{len(samples.points)}, the first {SHOWN} are shown")] * (more > 0)
+    samples, none, doubt = _draw(system, component, options)
+    count = len(samples.points)
+    tail = [("points", f"{count}, the first {SHOWN} are shown")] * (count > SHOWN)
     accuracy = f"{magnitude(samples.residual)}, accuracy {magnitude(samples.accuracy)}"
-    tail += [("residual", accuracy), *([("open", doubt)] if doubt else []), *doubt_rows(found)]
+    tail += [("residual", accuracy)] * (count > 0)
+    tail += [("answer", none)] * bool(none) + [("open", doubt)] * bool(doubt)
     fields = {
         "format": FORMAT,
         "variables": list(system.variables),
         "component": component.facts(options.component),
         **samples.document(),
     }
-    blocks = [numbered_row(options.component, component)], align(samples.rows(system.own_variables))
+    table = align(samples.rows(system.own_variables)) if count else ()
+    blocks = [numbered_row(options.component, component)], table
     # A point of a component needs no other component to be known.
     complete = str(component.status) == "irreducible" and not doubt
-    return answer_of(options, found.case, blocks, tail, fields, complete)
+    return answer_of(options, found.case, blocks, [*tail, *doubt_rows(found)], fields, complete)
+
+
+def _draw(
+    system: PolynomialSystem, component: WitnessSet, options: argparse.Namespace
+) -> tuple[Samples, str, str]:
+    """Points that are asked for, that there are none if that is proved, and what is not known."""
+    from nag.witness.sampling import NoRealPointsError, SamplingError, sample
+
+    how = chosen_run(options)
+    try:
+        if options.real:
+            from nag.real.real_samples import sample_real
+
+            samples = sample_real(component, options.count, run=how)
+        else:
+            samples = sample(system, component, options.count, run=how)
+    except NoRealPointsError as none:
+        return none.found, str(none), ""
+    except SamplingError as error:
+        return error.found, "", str(error)
+    return samples, "", samples.doubt

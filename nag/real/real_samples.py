@@ -8,14 +8,14 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_type, check_whole
 from nag.algebra.imaginary_unit import append_unit
 from nag.algebra.system import PolynomialSystem
-from nag.errors import ComponentError, NagError
+from nag.errors import NagError
 from nag.real.find_curve import find_real_curve
 from nag.real.real_equations import find_real_equations
 from nag.real.real_pieces import Reality, RealPieces, find_real_points, join_pieces
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import EPS
 from nag.witness.real_points import real_points_near
-from nag.witness.sampling import Samples
+from nag.witness.sampling import NoRealPointsError, Samples, SamplingError
 from nag.witness.witness import WitnessSet
 
 # Random points, in sizes of the component's real points, that real ones are looked for beside; and
@@ -23,13 +23,10 @@ from nag.witness.witness import WitnessSet
 SPREAD, TRIES = 1.0, 4
 
 
-class NoRealPointsError(NagError):
-    """Real points were asked of a component that has none."""
-
-
-def _why_none(reality: Reality, reason: str) -> NagError:
-    kind = NoRealPointsError if reality is Reality.NONE else ComponentError
-    return kind(f"real points: {reality}{reason and ': '}{reason}")
+def _why_none(system: PolynomialSystem, reality: Reality, reason: str) -> NagError:
+    kind = NoRealPointsError if reality is Reality.NONE else SamplingError
+    nothing = _samples(system, np.zeros((0, len(system.own_variables))))
+    return kind(f"real points: {reality}{reason and ': '}{reason}", nothing)
 
 
 @takes_run
@@ -51,7 +48,7 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
 
     Raises:
         NoRealPointsError: if there are none.
-        ComponentError: if none, or not as many, were found.
+        SamplingError: if none, or not as many, were found; it has those that were.
     """
     check_type(component, WitnessSet, "component", "one of the components of a nag.Decomposition")
     check_whole(count, "count")
@@ -65,7 +62,7 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
     else:
         found = find_real_points(component, run=run)
         if found.reality is not Reality.FOUND:
-            raise _why_none(found.reality, found.reason)
+            raise _why_none(system, found.reality, found.reason)
         points = np.asarray(found.points)
         if component.dimension == 0:
             points = points[rng.integers(len(points), size=count)]
@@ -101,13 +98,13 @@ def _of_complex_equations(
     if largest <= 0:
         whole = join_pieces(component, equations, [f for _, f in found], run)
         if whole.reality is not Reality.FOUND:
-            raise _why_none(whole.reality, whole.reason)
+            raise _why_none(system, whole.reality, whole.reason)
         drawn = whole.points[rng.integers(len(whole.points), size=count)]
         return _samples(system, drawn, _doubt_of(whole))
     chosen = [each for each, f in found if len(f) and max(f.dimensions) == largest]
     shares = rng.multinomial(count, np.full(len(chosen), 1 / len(chosen)))
     parts = [
-        sample_real(each, int(share), run=run)
+        _sample_part(system, each, int(share), run)
         for each, share in zip(chosen, shares, strict=True)
         if share
     ]
@@ -115,6 +112,19 @@ def _of_complex_equations(
     doubts += [part.doubt for part in parts if part.doubt]
     points = rng.permutation(np.vstack([part.points.real for part in parts]))
     return _samples(system, points, "; ".join(dict.fromkeys(doubts)))
+
+
+def _sample_part(system: PolynomialSystem, part: WitnessSet, count: int, run: Run) -> Samples:
+    """Points of a component of real parts; those of an error are points of the complex equations.
+
+    Raises:
+        SamplingError: as `sample_real` does.
+    """
+    try:
+        return sample_real(part, count, run=run)
+    except SamplingError as error:
+        some = _samples(system, error.found.points.real)
+        raise SamplingError(str(error), some) from None
 
 
 def _of_curve(
@@ -132,7 +142,7 @@ def _of_curve(
     isolated = [v.point for v in curve.vertices]
     if not isolated:
         none = Reality.NONE if curve.complete else Reality.NONE_FOUND
-        raise _why_none(none, curve.reason)
+        raise _why_none(component._known_system(), none, curve.reason)
     return np.array(isolated)[rng.integers(len(isolated), size=count)], doubt
 
 
@@ -154,5 +164,6 @@ def _near(
         if len(points):
             found.append(np.asarray(points.points)[0])
     if len(found) < count:
-        raise ComponentError(f"{len(found)} of {count} random real points were found")
+        some = _samples(system, np.array(found).reshape(-1, system.n))
+        raise SamplingError(f"{len(found)} of {count} random real points were found", some)
     return np.array(found).reshape(count, system.n)

@@ -90,6 +90,18 @@ class SamplingError(ComponentError):
         super().__init__(reason)
 
 
+class NoRealPointsError(NagError):
+    """Real points were asked of a component that has none, which is proved.
+
+    Attributes:
+        found: no points.
+    """
+
+    def __init__(self, reason: str, found: Samples) -> None:
+        self.found = found
+        super().__init__(reason)
+
+
 @takes_run
 @np.errstate(over="ignore", invalid="ignore")
 def sample(
