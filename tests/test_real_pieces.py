@@ -1,4 +1,4 @@
-"""Whether components have real points: one on each piece, none found, or none at all."""
+"""Whether components have real points: at least one on each piece, none found, or none at all."""
 
 from __future__ import annotations
 
@@ -56,6 +56,14 @@ def test_a_point_that_is_nearest_because_it_is_singular_is_not_left_out_silently
     assert cone.reality is FOUND and not cone.each_piece
     (point,) = pieces("x^2 + y^2 + z^2*(1 + z^2) = 0")
     assert point.reality is not NONE
+
+
+def test_several_points_of_a_piece_are_not_told_as_one_on_each() -> None:
+    (sphere,) = pieces("x^2 + y^2 + z^2 = 1")
+    assert len(sphere) == 2
+    assert "2 real points, at least one on each connected piece" in str(sphere)
+    (cone,) = pieces("x^2 + y^2 = z^2")
+    assert "perhaps not on each connected piece" in str(cone)
 
 
 def test_the_finite_and_the_one_dimensional_are_complete() -> None:

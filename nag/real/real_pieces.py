@@ -1,4 +1,4 @@
-"""Real points of a component: whether there are any, and one on each connected piece.
+"""Real points of a component: whether there are any, and at least one on each connected piece.
 
 Of a finite set they are those of its points that are real, of a curve what the complete picture of
 it says. On each connected piece of the real part of a larger set, which is closed, some point is
@@ -79,7 +79,7 @@ class RealPieces:
         points: real, shape ``(k, n)``.
         dimensions: of the real part round each, or -1 where it is not known.
         reality: whether there are any.
-        each_piece: whether one on each connected piece is among them.
+        each_piece: whether at least one on each connected piece is among them.
         reason: what that rests on, or what is not known.
     """
 
@@ -110,13 +110,15 @@ def answer_text(found: RealPieces) -> str:
     if found.reality is not Reality.FOUND:
         return f"real points: {found.reality}"
     number = len(found)
-    pieces = "one on each connected piece" if found.each_piece else "perhaps not on each piece"
-    return f"{number} real point{'s' * (number > 1)}, {pieces}"
+    pieces = "at least one" if found.each_piece else "perhaps not"
+    return f"{number} real point{'s' * (number > 1)}, {pieces} on each connected piece"
 
 
 @takes_run
 def find_real_points(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealPieces:
-    """Real points of a component of any dimension, one on each connected piece where they are had.
+    """Real points of a component of any dimension, on each connected piece where they are had.
+
+    Of finite sets and curves they are one on each piece, of larger sets at least one.
 
     Args:
         component: one of the components of a `nag.Decomposition`.
