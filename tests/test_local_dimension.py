@@ -227,6 +227,27 @@ def test_the_command_takes_rounded_points_and_refuses_others(case, capsys) -> No
     assert "has no point 'other'" in capsys.readouterr().err
 
 
+def test_complex_points_that_are_no_solutions_are_refused_as_real_ones_are(
+    tmp_path, capsys
+) -> None:
+    equations = ["(x^2 + y^2 - 1)*(x - 2)", "(x^2 + y^2 - 1)*(y - 3)"]
+    file = tmp_path / "case.toml"
+    listed = f'variables = ["x", "y"]\nequations = {json.dumps(equations)}\n'
+    file.write_text(f'title = "t"\nkind = "system"\n{listed}')
+    for at, k in (("x = 2, y = 7", 2), ("x = 2 + I, y = 7", 1), ("x = 2 + I/10^6, y = 3", 1)):
+        assert main(["local", str(file), "--at", at]) == 2
+        told = capsys.readouterr()
+        assert f"equation {k} does not vanish at the point" in told.err and not told.out
+    # Solutions are answered, rounded ones too.
+    known = {(2, 3): 0, ("2*I", "sqrt(5)"): 1, ("2*I", 2.236067977): 1, (2 + 1e-10j, 3): 0}
+    assert {at: nag.local(equations, at).dimension for at in known} == known
+    # Where coefficients are complex, so is every point.
+    line = nag.system(["x + I*y"], imaginary="I")
+    assert nag.local(line, (0, 0)).dimension == 1
+    with pytest.raises(NoSolution, match="equation 1 does not vanish"):
+        nag.local(line, (1, 2))
+
+
 def squares(count: int) -> str:
     """x of the last number is the first one squared so many times."""
     return ", ".join(f"x{i + 1} - x{i}^2" for i in range(count))

@@ -14,6 +14,7 @@ References:
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import log10
@@ -219,18 +220,23 @@ def local_dimension_near(
 
     Raises:
         ValueError: if an argument makes no sense; the message says which, and what would.
-        NoSolution: if an exact point does not satisfy the equations, not even to rounding.
+        NoSolution: if the point, real or complex, does not satisfy the equations, not even to
+            rounding.
     """
-    try:
-        return local_dimension(system, point, seed=seed)
-    except NoSolution as reason:
-        at = np.array([complex(float(x)) for x in coordinates(point, system.variables)])
-        residual = float(Evaluator.of(system.polynomials, system.n).residuals(at[None]).max())
-        if not residual < ROUGH:
-            text = f"{reason}; its relative residual is {residual:.1e}"
-            raise NoSolution(text) from None
-        # The error of a double zero is the square root of what is left of the equations.
-        return local_dimension(system, at, accuracy=max(ROUGH, residual**0.5), seed=seed)
+    check_type(system, PolynomialSystem, "system", "a nag.PolynomialSystem: nag.system(equations)")
+    given = coordinates(point, system.variables, system.imaginary)
+    if exact_numbers(given) is not None:
+        with contextlib.suppress(NoSolution):
+            return local_dimension(system, point, seed=seed)
+    at = np.array([x if isinstance(x, complex) else complex(float(x)) for x in given])
+    residuals = Evaluator.of(system.polynomials, system.n).residuals(at[None])[0]
+    wrong = np.flatnonzero(~(residuals < ROUGH)).tolist()
+    if wrong:
+        text = f"equation {wrong[0] + 1} does not vanish at the point"
+        raise NoSolution(f"{text}; its relative residual is {residuals[wrong[0]]:.1e}")
+    # The error of a double zero is the square root of what is left of the equations.
+    accuracy = max(ROUGH, float(residuals.max(initial=0.0)) ** 0.5)
+    return local_dimension(system, at, accuracy=accuracy, seed=seed)
 
 
 def exact_numbers(point: Sequence[Any] | np.ndarray) -> tuple[Number, ...] | None:
