@@ -445,6 +445,69 @@ def test_phcpack_reads_what_is_written(tmp_path: Path) -> None:
     assert "THE SOLUTIONS :\n6 2" in out.read_text()
 
 
+# Words of the programs, names that they have for numbers, and some that a change could meet.
+AWKWARD = """
+I i ii iv Iv vI ice i1 E e e1 end exp Pi ring ringv poly list matrix vector ideal gens number
+string int std link def proc map module resolution qring intvec intmat bigint if for while throw
+break return step wedge value time exit quit pause R K Degree ring_1 gens_2 x x_1 y y[1]
+nagring1 theta θ
+""".split()  # noqa: SIM905
+
+
+def _awkward_system() -> PolynomialSystem:
+    """A system with two solutions, 1 or -1 for each of the names."""
+    first, *rest = AWKWARD
+    equations = [f"{first}^2 - 1", *(f"{name} - {first}" for name in rest)]
+    return nag.system(equations, AWKWARD, imaginary="w")
+
+
+@pytest.mark.parametrize("format", READERS)
+def test_names_that_a_program_does_not_take_are_changed_one_to_one(format: str) -> None:
+    system = _awkward_system()
+    text = write_system(system, format)
+    read = read_text(text)
+    assert read.polynomials == system.polynomials
+    for new, old in zip(read.variables, AWKWARD, strict=True):
+        assert new == old or f"{new} is {old}" in text
+
+
+@pytest.mark.parametrize(
+    ("format", "command", "question"),
+    [
+        ("m2", ("M2", "--script"), "print degree I\n"),
+        ("singular", ("Singular", "-q", "--no-rc"), "vdim(std(nagideal));\nquit;\n"),
+    ],
+)
+def test_a_program_takes_names_that_are_its_words(
+    format: str, command: tuple[str, ...], question: str, tmp_path: Path
+) -> None:
+    if shutil.which(command[0]) is None:
+        pytest.skip(f"{command[0]} is not installed")
+    path = tmp_path / "system"
+    path.write_text(write_system(_awkward_system(), format) + question)
+    done = subprocess.run(
+        [*command, str(path)], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.stdout.split()[-1:] == ["2"], done.stdout + done.stderr
+
+
+def test_phcpack_takes_no_name_that_begins_with_its_unit_or_an_exponent(tmp_path: Path) -> None:
+    names = ["i", "I", "ii", "iv", "Iv", "ice", "e", "E1", "vi"]
+    equations = [f"{names[0]}^2 - 1", *(f"{n} - {names[0]}" for n in names[1:])]
+    text = write_system(nag.system(equations, names, imaginary="w"), "phc")
+    first = text.partition(";")[0]
+    written = re.findall(r"[A-Za-z]\w*", first)[: 2 * len(names) : 2]
+    assert len({*written}) == len(names)
+    assert not [name for name in written if name[0] in "iIeE"]
+    assert " is ii," in text
+    if shutil.which("phc") is None:
+        pytest.skip("phc is not installed")
+    path, out = tmp_path / "system", tmp_path / "out"
+    path.write_text(text)
+    subprocess.run(["phc", "-b", str(path), str(out)], check=True, timeout=60)
+    assert f"THE SOLUTIONS :\n2 {len(names)}" in out.read_text()
+
+
 def test_a_field_of_macaulay2_may_have_a_name(tmp_path: Path) -> None:
     file = tmp_path / "named.m2"
     file.write_text("k = QQ;\nR = k[a..c];\nI = ideal(a*b - c, a + b);\n")

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import count
 
 from nag.algebra.number import Number, binary, number_text
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import names_in
 from nag.errors import NagError
-from nag.files.formats import plain
+from nag.files.formats import plain, words
 
 # Digits of irrational coefficients where a program takes decimals only: some more than a double.
 DECIMALS = 20
@@ -31,10 +32,27 @@ _TAKEN = frozenset(
 )
 
 
-def _plain_names(names: Sequence[str], allowed: str) -> dict[str, str]:
-    """A name of letters and digits for each that does not match ``allowed``, no two the same."""
+def _plain_names(
+    names: Sequence[str],
+    allowed: str,
+    taken: frozenset[str] = _TAKEN,
+    reserved: frozenset[str] = frozenset(),
+) -> dict[str, str]:
+    """A name of letters and digits for each that a program does not take, no two the same.
+
+    Args:
+        allowed: the pattern of names that it takes; one of them stays so with more letters or
+            digits behind it, and with ``v`` before it.
+        taken: names that it does not take all the same.
+        reserved: names that it does not take with an index either.
+    """
     pattern = re.compile(allowed)
-    kept = {n for n in names if pattern.fullmatch(n) and n not in _TAKEN}
+
+    def fits(name: str) -> bool:
+        written = pattern.fullmatch(name) and name not in taken
+        return bool(written) and name.partition("_")[0] not in reserved
+
+    kept = {n for n in names if fits(n)}
     written: dict[str, str] = {n: n for n in kept}
     used = set(kept)
     for name in names:
@@ -42,16 +60,20 @@ def _plain_names(names: Sequence[str], allowed: str) -> dict[str, str]:
             continue
         letters = "".join(_LATIN.get(c.lower(), c) for c in name).replace("'", "p")
         base = _LETTERS.sub("_", letters).strip("_") or "x"
-        base = base.replace("_", "") if re.fullmatch(allowed, "a_1") is None else base
+        base = base.replace("_", "") if pattern.fullmatch("a_b") is None else base
         base = base if base[0].isalpha() else f"x{base}"
-        base = base if base not in _TAKEN else f"{base}v"
-        choice, k = base, 1
-        while choice in used:
-            k += 1
-            choice = f"{base}{'v' * (base[-1].isdigit())}{k}"
+        choice = next(c for c in _longer_names(base) if c not in used and fits(c))
         written[name] = choice
         used.add(choice)
     return {name: written[name] for name in names}
+
+
+def _longer_names(base: str) -> Iterator[str]:
+    """The name, and longer ones without end."""
+    stems = (base, f"{base}v", f"v{base}")
+    yield from stems
+    for k in count(2):
+        yield from (f"{stem}{'v' * stem[-1].isdigit()}{k}" for stem in stems)
 
 
 def _remarks(
@@ -171,7 +193,8 @@ def _only_rational(system: PolynomialSystem, program: str) -> None:
 def write_phc(system: PolynomialSystem, title: str) -> str:
     """The system as PHCpack reads it; irrational numbers to `DECIMALS` digits."""
     variables = _variables(system)
-    names = _plain_names(variables, r"[A-Za-z][A-Za-z0-9_]*")
+    # An e begins an exponent, an i the unit, whatever follows.
+    names = _plain_names(variables, r"[A-DF-HJ-Za-df-hj-z][A-Za-z0-9_]*")
     lines = [f"{len(_polynomials(system))} {len(variables)}"]
     # Unknowns are taken in the order of their first occurrence.
     order = "".join(f"{names[v]} - {names[v]} + " for v in variables)
@@ -201,7 +224,11 @@ def write_bertini(system: PolynomialSystem, title: str) -> str:
 def write_macaulay2(system: PolynomialSystem, title: str) -> str:
     """A ring over QQ, or over QQ with the unit i, and an ideal in it, for Macaulay2."""
     _only_rational(system, "Macaulay2")
-    names = _plain_names(_variables(system), r"[A-Za-z][A-Za-z0-9]*(?:_[0-9]+)?")
+    variables = _variables(system)
+    # Of x and x_1 the first would be the table of the others.
+    tables = {re.split(r"[_\[]", name)[0] for name in variables if not name.isalnum()}
+    pattern = r"[A-Za-z][A-Za-z0-9]*(?:_[0-9]+)?"
+    names = _plain_names(variables, pattern, _TAKEN | tables, words.MACAULAY2)
     lines = [f"-- {line}" for line in (title, *_remarks(system, names, "i"))]
     written = list(names.values())
     ring, field = (_free_name(letter, written) for letter in "RK")
@@ -224,7 +251,7 @@ def _free_name(name: str, taken: Sequence[str]) -> str:
 def write_singular(system: PolynomialSystem, title: str) -> str:
     """A ring over QQ, or over QQ with the unit i, and an ideal in it, for Singular."""
     _only_rational(system, "Singular")
-    names = _plain_names(_variables(system), r"[A-Za-z][A-Za-z0-9]*")
+    names = _plain_names(_variables(system), r"[A-Za-z][A-Za-z0-9]*", reserved=words.SINGULAR)
     lines = [f"// {line}" for line in (title, *_remarks(system, names, "i"))]
     written = list(names.values())
     texts = _texts(system, written, number_text, "^", "i")
