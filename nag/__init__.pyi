@@ -225,9 +225,9 @@ def read_decomposition(path: File) -> Decomposition: ...
 def read_solutions(path: File) -> SolutionsExport: ...
 def sample(
     given: Decomposed,
-    count: int = 10,
     component: int = 1,
     *,
+    count: int = 10,
     real: bool = False,
     **running: Unpack[RunOptions],
 ) -> Samples: ...

@@ -324,9 +324,9 @@ def member(given: Any, point: Any = None, *, run: Run = DEFAULT_RUN) -> PointMem
 @takes_run
 def sample(
     given: Any,
-    count: int = 10,
     component: int = 1,
     *,
+    count: int = 10,
     real: bool = False,
     run: Run = DEFAULT_RUN,
 ) -> Samples:
@@ -334,8 +334,8 @@ def sample(
 
     Args:
         given: components that were found, a file of them, or what is decomposed now.
-        count: how many.
         component: its number, from 1.
+        count: how many.
         real: whether they are to be real.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
@@ -347,7 +347,7 @@ def sample(
         nag.NagError: if there is no such component, or an argument makes no sense.
 
     >>> import nag
-    >>> nag.sample("x^2 + y^2 - 1", 5).points.shape
+    >>> nag.sample("x^2 + y^2 - 1", count=5).points.shape
     (5, 2)
     """
     found = find_components(given, run)

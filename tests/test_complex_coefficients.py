@@ -297,10 +297,10 @@ def real_points_of_first(*equations: str) -> nag.RealPieces:
 
 def test_real_samples_are_of_all_sets_that_have_real_points() -> None:
     surface = nag.decompose(complex_system("z + I*(x^2 + y^2 + 1)*(x^2 + y^2 - 4)"))
-    points = nag.sample(surface, 6, real=True).points[:, :3]
+    points = nag.sample(surface, count=6, real=True).points[:, :3]
     assert np.abs((points**2).sum(axis=1) - 4).max() < 1e-12
     surface = nag.decompose(complex_system("z + I*(x^2 + y^2 - 4)*(x^2 + y^2 - 1)"))
-    points = nag.sample(surface, 20, real=True).points[:, :2]
+    points = nag.sample(surface, count=20, real=True).points[:, :2]
     assert set((points**2).sum(axis=1).real.round(9)) == {1, 4}
 
 

@@ -98,7 +98,7 @@ def test_products_carry_all_that_other_components_do():
     (whole,) = decompose(mixed).components
     assert (whole.dimension, whole.degree, whole.multiplicity, whole.corank) == (2, 6, 1, 2)
     assert whole.errors.max() < 1e-15
-    points = nag.sample(decompose(mixed), 5).points
+    points = nag.sample(decompose(mixed), count=5).points
     assert np.abs(points[:, 3] - points[:, 1] ** 2).max() < 1e-8
     assert whole.contains(["3/5", 2, "4/5", 4, 8]) and not whole.contains(["3/5", 2, "4/5", 4, 9])
     assert nag.certify(decompose(mixed))

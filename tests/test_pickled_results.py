@@ -63,7 +63,7 @@ def test_results_are_one_line_at_the_prompt(name: str) -> None:
 
 def test_a_component_alone_answers_what_a_decomposition_does() -> None:
     line = next(c for c in found().components if c.degree == 1)
-    assert nag.sample(line, 3).points.shape == (3, 2)
+    assert nag.sample(line, count=3).points.shape == (3, 2)
     assert len(nag.member(line, [2, 2]).on) == 1 and not nag.member(line, [1, 0]).on
     for ask in (nag.find_real_curve, nag.find_real_points):
         with pytest.raises(nag.NagError, match="component: something of type Decomposition is"):

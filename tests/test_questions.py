@@ -52,8 +52,8 @@ def test_components_are_asked_by_their_numbers(export: Path) -> None:
     for given in (export, str(export), found, CIRCLE_AND_LINE):
         line, circle = 1, 2
         assert [c.degree for c in nag.member(given, ("3/5", "4/5")).on] == [2]
-        assert np.ptp(nag.sample(given, 4, line).points @ [1, -1]) < 1e-12
-        assert nag.sample(given, 3, circle, real=True).points.imag.max() == 0
+        assert np.ptp(nag.sample(given, line, count=4).points @ [1, -1]) < 1e-12
+        assert nag.sample(given, circle, count=3, real=True).points.imag.max() == 0
         assert [s.dimension for s in nag.singular(given, circle).sets] == [0, 0]
         assert sum(c.degree for c in nag.intersect(given, line, circle)) == 2
         assert nag.eliminate(given, component=circle, onto="x,y").equations == ("x^2 + y^2 - 1",)
@@ -76,6 +76,7 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
     [
         (lambda: nag.solve("missing.toml"), "missing.toml"),
         (lambda: nag.sample("x - y", component=2), "there is one component, number 1"),
+        (lambda: nag.sample("x - y", 2), "component: 2: there is one component, number 1"),
         (lambda: nag.sample("x - y", component=0), "component: 0"),
         (lambda: nag.intersect("x - y", 1, 2), "second: 2"),
         (lambda: nag.local("x^2 - 1"), "it has none with a name"),

@@ -75,7 +75,7 @@ def test_where_nothing_was_found_an_error_says_so() -> None:
 
 def test_errors_are_those_of_the_call_itself() -> None:
     with pytest.raises(nag.NagError, match="there are components 1 to 2"):
-        nag.sample(EQUATIONS, 1, 9, time_limit=300)
+        nag.sample(EQUATIONS, 9, count=1, time_limit=300)
     with pytest.raises(nag.NagError, match="no start system 'none'"):
         nag.solve("x^2 - 2", start="none", time_limit=300)
     with pytest.raises(nag.NagError, match="ended from outside, with status 7"):
