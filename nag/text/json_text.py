@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+_SCALARS = frozenset((str, int, float, bool, type(None)))
+
 
 def real_or_null(value: float) -> float | None:
     """The number, or None where it is not finite: JSON knows no other numbers."""
@@ -29,6 +31,24 @@ def _depth(value: Any) -> float:
     return 1 + max(map(_depth, value), default=0) if isinstance(value, list) else 0
 
 
+def _is_flat(value: Any) -> bool:
+    """Whether it is an object that has keys, and neither lists nor objects inside."""
+    return (
+        isinstance(value, dict)
+        and len(value) > 0
+        and _SCALARS.issuperset(map(type, value.values()))
+    )
+
+
+def _lay_out_flat(objects: list[dict[str, Any]], deeper: str) -> str:
+    """What `lay_out` makes of many objects that are flat, one after the other, in one call."""
+    # No text in JSON has this character: between } and { it parts objects, elsewhere keys.
+    text = json.dumps(objects, allow_nan=False, separators=("\0", ": "))[2:-2]
+    text = text.replace("}\0{", f"\n{deeper}}},\n{deeper}{{\n{deeper}  ")
+    text = text.replace("\0", f",\n{deeper}  ")
+    return f"{{\n{deeper}  {text}\n{deeper}}}"
+
+
 def lay_out(value: Any, indent: str = "") -> str:
     """JSON text with one line for each key, and one line for each point."""
     deeper = indent + "  "
@@ -36,7 +56,8 @@ def lay_out(value: Any, indent: str = "") -> str:
         parts = [f"{json.dumps(k)}: {lay_out(v, deeper)}" for k, v in value.items()]
         left, right = "{}"
     elif isinstance(value, list) and (_depth(value) > 2 or any(isinstance(v, str) for v in value)):
-        parts = [lay_out(v, deeper) for v in value]
+        flat = all(map(_is_flat, value))
+        parts = [_lay_out_flat(value, deeper)] if flat else [lay_out(v, deeper) for v in value]
         left, right = "[]"
     else:
         return json.dumps(value, allow_nan=False)
