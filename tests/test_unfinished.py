@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import pytest
 import nag
 from nag.cli import main, running
 from nag.cli.running import chosen_run, take_unfinished, unfinished_file, write_document
+from nag.text.json_text import lay_out
 from nag.tracking.run import ENDED_EARLY, UNFINISHED
 
 APART = ["(x^2 + y^2 + z^2 - 4)*(x*y - z)", "(x - y)*(x^3 + y*z - 1)"]
@@ -103,6 +105,45 @@ def test_members_circuits_modes_and_local_answers_are_told_when_they_are_known()
     assert early.local_dimension == answer.local_dimension == 1
 
 
+@pytest.mark.parametrize("threads", [1, 2])
+def test_all_members_that_are_solved_are_told_when_the_work_is_interrupted(threads: int) -> None:
+    told: list[nag.FamilySolutions] = []
+    values = [[2 + i / 1000, 1] for i in range(5000)]
+
+    def interrupt(stage: str, done: int, total: int) -> None:
+        # Not told of yet: the one before was just now.
+        if stage == "members" and done == 4000:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        nag.solve_family(
+            ["x^2 + y^2 = r", "x = a*y"],
+            ["r", "a"],
+            values,
+            threads=threads,
+            found=told.append,
+            progress=interrupt,
+        )
+    assert len(told[-1]) >= 3000 and told[-1].complete.all()
+
+
+def test_where_the_solutions_of_members_are_is_said_if_they_were_written(
+    tmp_path: Path, capsys
+) -> None:
+    case, values, target = (str(tmp_path / name) for name in ("a.toml", "a.csv", "a.json"))
+    Path(case).write_text(
+        'title = "roots"\nkind = "system"\nvariables = ["x"]\nequations = ["x^2 - a"]\n'
+        '[parameters]\na = 1\n[family]\nparameters = ["a"]\n'
+    )
+    Path(values).write_text("a\n1\n4\n")
+    ask = ["family", case, "--values", values, "--json", target, "--quiet"]
+    for more, said in (([], False), (["--points", str(tmp_path / "a.npz")], True)):
+        assert main([*ask, *more]) == 0
+        capsys.readouterr()
+        assert main(["show", target]) == 0
+        assert ("in the arrays of a.npz" in capsys.readouterr().out) is said
+
+
 @pytest.mark.parametrize(
     ("command", "case", "rest"),
     [
@@ -141,3 +182,11 @@ def test_nothing_unfinished_is_left_by_what_ends(tmp_path: Path) -> None:
     Path(unfinished_file(str(target))).write_text("of an earlier run")
     assert main(["decompose", "cases/rhombus.toml", "--json", str(target), "--quiet"]) == 0
     assert [path.name for path in tmp_path.iterdir()] == ["a.json"]
+
+
+@pytest.mark.parametrize("text", ["}", "{", "}\0{", '"', "ü", ", "])
+def test_a_list_of_flat_objects_is_laid_out_as_each_by_itself(text: str) -> None:
+    flat = {text: text, "b": 1, "c": None, "d": 0.5, "e": True}
+    one = lay_out(flat, "  ")
+    assert lay_out([flat, flat]) == f"[\n  {one},\n  {one}\n]"
+    assert json.loads(lay_out([flat, flat])) == [flat, flat]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import io
+import os
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
@@ -116,22 +117,24 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         more = " and more" if len(incomplete) > 5 else ""
         rows.append(("open", f"members {', '.join(str(k + 1) for k in incomplete[:5])}{more}"))
     complete = bool(found.complete.all())
-    return answer_of(options, name_case(case), [rows], [], _fields(found), complete)
+    fields = _fields(found)
+    if options.points is not None:
+        fields["arrays"] = os.path.basename(options.points)
+    return answer_of(options, name_case(case), [rows], [], fields, complete)
 
 
 def _fields(found: FamilySolutions) -> dict[str, Any]:
     """What the document says of the members."""
-    real, start = found.real_counts.tolist(), found.start
-    numbers = zip(found.counts, real, found.complete, found.one_by_one, strict=True)
+    columns = (found.counts, found.real_counts, found.complete, found.one_by_one)
+    numbers = zip(*(column.tolist() for column in columns), strict=True)
     return {
         "format": FORMAT,
         "notes": [],
         "variables": list(found.variables),
         "parameters": list(found.parameters),
-        "solutions": len(start.points),
+        "solutions": len(found.start.points),
         "members": [
-            {"solutions": int(n), "real": r, "complete": bool(c), "one_by_one": bool(o)}
-            for n, r, c, o in numbers
+            {"solutions": n, "real": r, "complete": c, "one_by_one": o} for n, r, c, o in numbers
         ],
     }
 

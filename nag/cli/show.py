@@ -99,6 +99,8 @@ def _describe_answer(document: dict[str, Any]) -> list[Row]:
         rows.append(("of", f"{case['title']} ({case['file']})"))
     if "complete" in document:
         rows.append(("answer", "complete" if document["complete"] else "INCOMPLETE"))
+    if isinstance(document.get("arrays"), str):
+        rows.append(("solutions", f"in the arrays of {document['arrays']}"))
     if document.get("meaning"):
         rows.append(("meaning", document["meaning"]))
     rows += [

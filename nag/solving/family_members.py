@@ -9,8 +9,9 @@ solved by itself, as `nag.solving.parameter.solve_targets` solves one.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple, overload
@@ -331,48 +332,65 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
     one_by_one = np.zeros(M, dtype=bool)
     complete = np.zeros(M, dtype=bool)
     found = FamilySolutions(solved, values, points, status, errors, one_by_one, complete)
-    tell = _FoundMembers(found, run)
     done = 0
-    for chunk, block in _track_all(solved, values, run):
-        places[chunk], errors[chunk], proved[chunk] = block
-        status[chunk][block.proved] = PathStatus.REGULAR
-        complete[chunk] = block.proved & solved.complete
-        done += len(block.proved)
-        run.tell("members", done, M)
-        tell(done, done < M or not proved.all())
-    one_by_one[:] = ~proved
-    alone = np.flatnonzero(~proved)
-    for number, member in enumerate(alone.tolist()):
-        run.tell("members one by one", number, len(alone))
-        own = _solve_alone(solved, values[member], run)
-        places[member], status[member], errors[member], complete[member] = own
-        tell(M, number + 1 < len(alone))
+    # What is under way ends before what was found is told.
+    with _FoundMembers(found, run) as tell, closing(_track_all(solved, values, run)) as tracked:
+        for chunk, block in tracked:
+            places[chunk], errors[chunk], proved[chunk] = block
+            status[chunk][block.proved] = PathStatus.REGULAR
+            complete[chunk] = block.proved & solved.complete
+            done += len(block.proved)
+            run.tell("members", done, M)
+            tell(done, done < M or not proved.all())
+        one_by_one[:] = ~proved
+        alone = np.flatnonzero(~proved)
+        for number, member in enumerate(alone.tolist()):
+            run.tell("members one by one", number, len(alone))
+            own = _solve_alone(solved, values[member], run)
+            places[member], status[member], errors[member], complete[member] = own
+            tell(M, number + 1 < len(alone))
     return found
 
 
 class _FoundMembers:
     """Tells of the members that are solved, now and then: the first ones, up to the last reached.
 
-    To copy and to keep them takes time, a tenth of the whole at the most.
+    To copy and to keep them takes time, a tenth of the whole at the most; so the last ones are not
+    told of at once. An interruption inside the block has them told before it ends the work.
     """
 
     def __init__(self, found: FamilySolutions, run: Run) -> None:
         self._found, self._run, self._next = found, run, 0.0
+        self._reached, self._untold = 0, False
+
+    def __enter__(self) -> _FoundMembers:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is not None and issubclass(kind, KeyboardInterrupt) and self._untold:
+            self._tell()
 
     def __call__(self, reached: int, more: bool) -> None:
         """Tell, if there is more to come, and it was not told just now."""
-        started = time.monotonic()
-        if self._run.found is None or not more or started < self._next:
+        self._reached, self._untold = reached, True
+        if more and time.monotonic() >= self._next:
+            self._tell()
+
+    def _tell(self) -> None:
+        if self._run.found is None:
             return
+        started = time.monotonic()
         # What is told stays as it is, while the others are solved.
         arrays = ("values", "points", "status", "errors", "one_by_one", "complete")
-        copies = {name: getattr(self._found, name)[:reached].copy() for name in arrays}
+        copies = {name: getattr(self._found, name)[: self._reached].copy() for name in arrays}
         self._run.found(replace(self._found, **copies))
         ended = time.monotonic()
-        self._next = ended + max(BETWEEN, 10 * (ended - started))
+        self._untold, self._next = False, ended + max(BETWEEN, 10 * (ended - started))
 
 
-def _track_all(solved: Solved, values: np.ndarray, run: Run) -> Iterator[tuple[slice, _Block]]:
+def _track_all(
+    solved: Solved, values: np.ndarray, run: Run
+) -> Generator[tuple[slice, _Block], None, None]:
     """All members in chunks, each the same whatever the others are."""
     S = len(solved.points)
     size = max(1, min(MEMBERS, PATHS // max(S, 1)))
@@ -392,9 +410,13 @@ def _track_all(solved: Solved, values: np.ndarray, run: Run) -> Iterator[tuple[s
     # What is made once is made before threads share it.
     chunk = chunks[0]
     yield chunk, work(values[chunk], threads=run.threads)
-    with ThreadPoolExecutor(run.threads) as pool:
+    pool = ThreadPoolExecutor(run.threads)
+    try:
         rest = chunks[1:]
         yield from zip(rest, pool.map(work, [values[chunk] for chunk in rest]), strict=True)
+    finally:
+        # Who interrupts does not wait for the chunks that are being worked out.
+        pool.shutdown(wait=False, cancel_futures=True)
 
 
 def block_of_members(

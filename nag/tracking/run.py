@@ -35,7 +35,7 @@ class Run:
         progress: called with a stage's name, the step reached and the number of steps.
         found: called now and then with what is known already, an incomplete answer, for whoever
             ends the work early: by `nag.decompose`, `nag.solve`, `nag.solve_family`, `nag.motion`,
-            `nag.modes` and `nag.mobility`.
+            `nag.modes` and `nag.mobility`; by `nag.solve_family` when it is interrupted, too.
         resume: a folder in which finished blocks of work are kept, and found again by whoever asks
             the same; answers do not depend on it.
         executor: who works blocks out: an executor of `concurrent.futures`, or ``"processes:4"``,
