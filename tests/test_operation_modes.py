@@ -792,3 +792,15 @@ def test_the_model_of_a_robot_says_that_its_platform_may_be_asked_about_alone(
     for name, said in (("robots/3-rrs", True), ("robots/tricept", True), ("bennett", False)):
         assert main(["model", str(CASES / f"{name}.toml")]) == 0
         assert ("  P: on request, the poses of" in capsys.readouterr().out) == said
+
+
+@pytest.mark.parametrize("factor", [Fraction(1, 300), Fraction(300)])
+def test_legs_reach_the_modes_of_a_robot_in_any_unit(factor: Fraction) -> None:
+    made = robot("3-rps")
+    joints = tuple(
+        replace(j, point=tuple(factor * x for x in j.point)) if j.point is not None else j
+        for j in made.joints
+    )
+    found = nag.modes(replace(made, joints=joints))
+    assert found.complete
+    assert [(m.dimension, m.degree) for m in found.modes] == [(3, 7), (3, 7)]

@@ -50,6 +50,8 @@ _LARGEST_ORDER = 420
 # Degree of a field up to which roots are looked for in it; primes that are tried in a norm; how
 # many of them are taken for the radicand of a factor.
 _LARGEST_FIELD, _PRIMES_OF_NORM, _MOST_CANDIDATES = 12, 25, 4
+# Bits of a relation that is looked for.
+_MOST_BITS = 10_000
 
 Exact = Fraction | int
 
@@ -484,6 +486,9 @@ def _root_in_field(value: Surd) -> Surd | None:
     new = [g for g in new if ramified.issuperset(generators_of(g)[:1])]
     radicands = sorted(prod(own) for k in range(len(primes) + 1) for own in combinations(primes, k))
     for g, m in product((1, *new), radicands):
+        # The norm of a square is one.
+        if g == 1 and not _is_square(norm * m ** len(basis)):
+            continue
         factor = normal_sum(multiply_sums({m: flint.fmpq(1)}, {g: flint.fmpq(1)}))
         square = factor * factor * value
         surd = isinstance(square, Surd)
@@ -495,10 +500,20 @@ def _root_in_field(value: Surd) -> Surd | None:
     return None
 
 
+def _is_square(value: Fraction) -> bool:
+    """Whether a rational number that is not negative is the square of one."""
+    return all(isqrt(n) ** 2 == n for n in value.as_integer_ratio())
+
+
 def _root_by_relation(value: Surd) -> Surd | Fraction | None:
-    """The root of a number that has one in its field, from an integer relation with the basis."""
+    """The root of a number that has one in its field, from an integer relation with the basis.
+
+    None where that takes too many digits.
+    """
     _, basis = spanning_roots(value.terms)
     bits = (len(basis) + 1) * (value.bits + _BITS // 2)
+    if len(basis) > _LARGEST_FIELD or bits > _MOST_BITS:
+        return None
     with flint.ctx.workprec(2 * bits):
         numbers = [value.ball(2 * bits).sqrt(), *map(ball_of, basis)]
         scaled = [int((x * flint.arb(2) ** bits).mid().floor().unique_fmpz()) for x in numbers]
