@@ -184,7 +184,8 @@ def write_everything(
     values = folder / "values.csv"
     values.write_text("a\n1\n2\n")
     ask("decompose", str(members), "--sweep", "a=1:3:2")
-    ask("family", str(members), "--values", str(values))
+    points = str(folder / "points.npz")
+    ask("family", str(members), "--values", str(values), "--points", points)
     ask("mobility", linkage, "--curves", "--check")
     idle = str(CASES / "robots" / "3-sps-s.toml")
     ask("mobility", str(CASES / "mobility" / "k46.toml"), "--local")
