@@ -219,7 +219,9 @@ def test_one_joint_that_is_named_far_along_its_axis_makes_nothing_small() -> Non
     near = find_near_motion(nearly_meeting(Fraction(1), 0), 1e-3)
     far = find_near_motion(nearly_meeting(Fraction(1), 0, 0, 10**9, 0), 1e-3)
     assert near is not None and far is not None
-    assert near.size == far.size and near.gap == far.gap and not far.nearly_mobile
+    assert not far.nearly_mobile
+    assert far.size == pytest.approx(near.size, rel=1e-12)
+    assert far.gap == pytest.approx(near.gap, rel=1e-12)
 
 
 TRIANGLE = (
