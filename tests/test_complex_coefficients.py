@@ -585,3 +585,23 @@ def test_points_of_the_conjugate_system_are_refused_in_exports(tmp_path: Path) -
         path.write_text(json.dumps(text))
         with pytest.raises(nag.NagError, match="conjugate system"):
             nag.certify(path)
+
+
+@pytest.mark.parametrize("digits", [14, 16, 20, 60])
+def test_nearly_real_zeros_of_complex_equations_are_not_real(digits: int) -> None:
+    off = f"I/10^{digits}"
+    for equations in (
+        [f"x - 1 - {off}", "y - x"],
+        [f"x^2 - 2 - {off}", "y^3 - x"],
+        [f"(x - 1)^2*(x - I) - {off}", "y - x"],
+    ):
+        assert not nag.solve(nag.system(equations, imaginary="I")).real
+
+
+def test_real_zeros_of_complex_equations_are_real() -> None:
+    for equations, count in (
+        (["(x^2 - 2)*(x - I)", "y^3 - x"], 2),
+        (["(x - 1)^2*(x - I)", "y - x"], 1),
+        (["x^2 + I*y - 4 - 5*I", "x*y - 10"], 1),
+    ):
+        assert len(nag.solve(nag.system(equations, imaginary="I")).real) == count

@@ -15,11 +15,13 @@ from functools import partial
 
 import numpy as np
 
-from nag.algebra.imaginary_unit import as_real, has_unit
+from nag.algebra.imaginary_unit import as_real, has_unit, real_and_imaginary_parts
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import Completeness, ZeroCount
 from nag.numerics.coincidence import SAFETY
 from nag.numerics.system_facts import SystemFacts
+from nag.numerics.zero_values import possible_zeros, vanishes_at_all
 from nag.solving.branch_solutions import solve_branches, solve_exactly
 from nag.solving.missing_zeros import find_at_lost_paths, find_by_sizes
 from nag.solving.path_search import Bound, PathSearch, SolveTask
@@ -84,9 +86,11 @@ def solve(
 def leave_out_conjugate(result: SolveResult, system: PolynomialSystem) -> SolveResult:
     """The solutions in which the imaginary unit is i; those with -i are the conjugate system's."""
 
+    parts = real_and_imaginary_parts(system).polynomials
+
     def chosen(solutions: Sequence[Solution]) -> tuple[Solution, ...]:
         kept = (s for s in solutions if s.point[-1].imag > 0)
-        return tuple(replace(s, real=_is_real(s)) for s in kept)
+        return tuple(replace(s, real=_is_real(s, system, parts)) for s in kept)
 
     def points(found: np.ndarray | None) -> np.ndarray | None:
         return None if found is None else found[has_unit(found)]
@@ -105,11 +109,20 @@ def leave_out_conjugate(result: SolveResult, system: PolynomialSystem) -> SolveR
     )
 
 
-def _is_real(solution: Solution) -> bool:
-    """Whether all coordinates but the imaginary unit are real, to within the accuracy."""
+def _is_real(solution: Solution, system: PolynomialSystem, parts: Sequence[Polynomial]) -> bool:
+    """Whether all coordinates but the imaginary unit are real.
+
+    Conjugates are no zeros here, so that a small imaginary part says nothing; at a real zero the
+    real and the imaginary parts of all equations vanish.
+    """
     x = solution.point[:-1]
     size = 1 + np.abs(x).max(initial=0.0)
-    return bool(np.abs(x.imag).max(initial=0.0) <= SAFETY * size * solution.accuracy)
+    if np.abs(x.imag).max(initial=0.0) > SAFETY * size * solution.accuracy:
+        return False
+    zeros = possible_zeros(
+        as_real(system).polynomials, solution.point, solution.accuracy, np.random.default_rng(0)
+    )
+    return all(vanishes_at_all(zeros, f) is not False for f in parts)
 
 
 def solve_without_paths(task: SolveTask) -> SolveResult | None:
