@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.exact_ranks import row_echelon
 from nag.algebra.from_python import exact_vector
 from nag.algebra.number import Number, is_zero, rounded_fraction
 from nag.errors import MechanismError
@@ -165,18 +166,21 @@ def short_links(joints: Sequence[Joint]) -> list[Vector]:
         for one in slopes
     ]
 
-    def moved(shifts: Sequence[Number]) -> list[Vector]:
+    def shift_points(shifts: Sequence[Number]) -> list[Vector]:
         points = [joint.point for joint in joints]
         for (i, way), shift in zip(free, shifts, strict=True):
             points[i] = tuple(x + shift * y for x, y in zip(points[i], way, strict=True))
         return [difference(point, points[i - 1]) for i, point in enumerate(points)]
 
-    shifts = _solve(matrix)
-    longest = max(_length(link) for link in moved(shifts))
+    shifts: list[Number] = [Fraction(0)] * len(free)
+    # Where axes are parallel some are free, and stay.
+    for row, pivot in zip(*row_echelon(matrix), strict=True):
+        shifts[pivot] = row[-1]
+    longest = max(_length(link) for link in shift_points(shifts))
     if not longest:
         return given
     sizes = [longest / _length(way) for _, way in free]
-    return moved([_round_steps(t, size) for t, size in zip(shifts, sizes, strict=True)])
+    return shift_points([_round_steps(t, size) for t, size in zip(shifts, sizes, strict=True)])
 
 
 def _length(vector: Vector) -> float:
@@ -194,29 +198,6 @@ def _free_directions(joint: Joint) -> tuple[Vector, ...]:
     if joint.of_type.slides_only:
         return UNITS
     return (joint.axis,) if turns_about_line(joint) else ()
-
-
-def _solve(rows: list[list[Number]]) -> list[Number]:
-    """A solution of equations that have one, the right sides last; what is free is zero."""
-    count = len(rows)
-    solved: list[Number] = [Fraction(0)] * count
-    left, pivots = list(rows), []
-    for k in range(count):
-        pivot = next((row for row in left if not is_zero(row[k])), None)
-        if pivot is None:
-            continue
-        left = [row for row in left if row is not pivot]
-        left = [
-            row
-            if is_zero(row[k])
-            else [x - row[k] / pivot[k] * y for x, y in zip(row, pivot, strict=True)]
-            for row in left
-        ]
-        pivots.append((k, pivot))
-    for k, row in reversed(pivots):
-        known = sum((row[j] * solved[j] for j in range(k + 1, count)), Fraction(0))
-        solved[k] = (row[-1] - known) / row[k]
-    return solved
 
 
 def lines_of(mechanism: Mechanism) -> np.ndarray:

@@ -54,9 +54,6 @@ MOST_POSITIONS = 1000
 WIDEST_GAP = 0.03
 # Slides beyond which it is not followed either.
 LONGEST_SLIDE = 10.0
-# Decides: Squared sines of angles between lines that count as parallel, where a centre is looked
-# for.
-PARALLEL = WIDEST_GAP**2
 # Positions at which the axes are fitted: more than the equations that any of their linkages has.
 FITTED = 12
 # Conditions that hold up to so many changes were meant: they are of lengths and angles together.
@@ -397,8 +394,6 @@ class Chains:
             numbers[joint.name] = range(begin, len(screws))
         axis, point = np.array(axes), np.array(points)
         turning = np.array([s.turns for s in screws])
-        centre = _nearest_point(axis[turning], point[turning])
-        point = point - centre
         feet = point - np.sum(point * axis, axis=1, keepdims=True) * axis
         for k, screw in enumerate(screws):
             # Where a joint has one axis, any of its points is as good.
@@ -610,20 +605,6 @@ def _product(loop: Loop, numbers: dict[str, range]) -> tuple[tuple[int, int], ..
 def _mean_size(vectors: Array) -> float:
     """The root of the mean of squared lengths; 0 of none."""
     return float(np.sqrt(np.mean(np.sum(vectors**2, axis=1)))) if len(vectors) else 0.0
-
-
-def _nearest_point(axis: Array, point: Array) -> Array:
-    """The point whose squared distances from lines have the least sum; their mean where it moves.
-
-    Of lines that are all but parallel it is the one nearest to the mean of their points: where they
-    meet may be anywhere.
-    """
-    if not len(axis):
-        return np.zeros(3)
-    across = np.eye(3) - axis[:, :, None] * axis[:, None, :]
-    mean = point.mean(axis=0)
-    right = np.einsum("kij,kj->i", across, point - mean)
-    return mean + np.linalg.lstsq(across.sum(axis=0), right, rcond=PARALLEL)[0]
 
 
 def _displacement(
