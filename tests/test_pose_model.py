@@ -82,6 +82,7 @@ def test_poses_beside_kept_joints_lift_to_configurations_with_these() -> None:
     for _ in range(20):
         value = np.array([f(list(point)) for f in model.system.polynomials])
         rows = np.array([[g(list(point)) for g in row] for row in model.system.jacobian])
+        # There are more equations than the codimension: what depends is rounding beside the set.
         sizes = np.linalg.norm(rows, axis=1)
         point = point - np.linalg.lstsq(rows / sizes[:, None], value / sizes, rcond=1e-6)[0]
     assert lifting_error(model, point) < 1e-10

@@ -12,7 +12,8 @@ import pytest
 import nag
 from nag.mechanism.coordinates import carry_to_euler
 from nag.mechanism.linkage import pin_model
-from nag.mechanism.problem import FormulationError, Problem, problem_of
+from nag.mechanism.parts import FormulationError
+from nag.mechanism.problem import Problem, problem_of
 
 CASES = Path(__file__).parent.parent / "cases"
 

@@ -131,9 +131,7 @@ def share_a_field(first: Iterable[Root], second: Iterable[Root]) -> bool:
 
     That is its degree over the field of all square roots; which of these there are does not matter.
     """
-    orders = {
-        q for each in (first, second) for r in each if r.__class__ is not int for q, _ in r[1]
-    }
+    orders = {q for each in (first, second) for r in each for q, _ in powers_of(r)}
     if not orders:
         return True
     towers = {g for q in orders for g in generators_of(generator(q)) if not isinstance(g, int)}

@@ -318,7 +318,8 @@ def problem_of_case(case: Case, formulation: str = "auto") -> Problem:
         UsageError: if it has no such formulation, or nothing to decompose.
     """
     from nag.errors import MechanismError
-    from nag.mechanism.problem import FormulationError, problem_of
+    from nag.mechanism.parts import FormulationError
+    from nag.mechanism.problem import problem_of
 
     try:
         return problem_of(case, formulation=formulation)

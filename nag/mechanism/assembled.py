@@ -95,17 +95,17 @@ def _of_table(names: Sequence[str], parts: Any, point: Sequence[float]) -> Mecha
     turns = _turns(parts, point)
     total, joints = UNIT, []
     for i, (number, (c, s)) in enumerate(zip(parts.loop.open, turns, strict=True)):
-        total = _rounded(dual_multiply(total, parts.loop.links[i - 1]))
+        total = _round_to_unit(dual_multiply(total, parts.loop.links[i - 1]))
         moved, size = translation(total)
         axis = [float(x) / float(size) for x in rotate(total[0], UP)]
         at = [float(x) / float(size) for x in moved]
         bodies = names[i - 1], names[i]
         joints.append(Joint(parts.loop.rows[number].name, "revolute", bodies, at, axis))
-        total = _rounded(dual_multiply(total, ((c, 0.0, 0.0, s), (0.0, 0.0, 0.0, 0.0))))
+        total = _round_to_unit(dual_multiply(total, ((c, 0.0, 0.0, s), (0.0, 0.0, 0.0, 0.0))))
     return Mechanism(names[-1], tuple(joints))
 
 
-def _rounded(given: Any) -> Any:
+def _round_to_unit(given: Any) -> Any:
     """A dual quaternion of norm 1 in doubles."""
     size = float(norm_squared([float(x) for x in given[0]])) ** 0.5
     return tuple(tuple(float(x) / size for x in part) for part in given)

@@ -55,15 +55,12 @@ def forms_about_origin(forms: Sequence[Polynomial], place: Place) -> tuple[Polyn
             beside Study's quadric and multiples of those of lower degrees.
 
     Returns:
-        These bases in those coordinates, primitive, the largest leading monomials first; of forms
-        with other numbers than sums of square roots their images only.
+        These bases in those coordinates, primitive, the largest leading monomials first.
     """
     if not any(place):
         return tuple(forms)
     images = _coordinates_about(place)
     moved = [f.compose(images) for f in forms]
-    if not all(f.algebraic for f in moved):
-        return tuple(map(primitive, moved))
     found: list[Polynomial] = []
     for degree in sorted({f.degree for f in moved}):
         lower = [f for f in (study_quadric(), *found) if f.degree <= degree]

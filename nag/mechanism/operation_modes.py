@@ -140,7 +140,7 @@ def modes(
         """Tell of the modes that are known, those that are not described yet without equations."""
         if run.found is not None:
             parts = enumerate(decomposition.components)
-            early = tuple(described.get(k) or _undescribed(c) for k, c in parts)
+            early = tuple(described.get(k) or _make_bare_mode(c) for k, c in parts)
             run.found(_told(OperationModes(model, decomposition, early, (), (), (ENDED_EARLY,))))
 
     heard = inner if run.found is None else replace(inner, found=lambda d: tell(d, {}))
@@ -391,7 +391,7 @@ def _conjugate(found: Decomposition, k: int, run: Run) -> int | None:
     return on[0] if len(on) == 1 else None
 
 
-def _undescribed(component: WitnessSet) -> OperationMode:
+def _make_bare_mode(component: WitnessSet) -> OperationMode:
     """A mode of which nothing is known but its component."""
     return OperationMode(
         component=component,
@@ -423,7 +423,7 @@ def _describe(
 ) -> OperationMode:
     """A mode, without what is asked of all of them at once."""
     mode = replace(
-        _undescribed(component),
+        _make_bare_mode(component),
         note="",
         conjugate=None if mirrored == index else mirrored,
         through_reference=through,

@@ -232,12 +232,9 @@ def _middle(legs: Sequence[Leg]) -> Place:
 def _sparsest_place(legs: Sequence[LegEquations]) -> Place:
     """Of the origin, the middle, and rational points of joints that with the fewest terms about it.
 
-    Of several the one nearest to the middle. The middle, where forms have other numbers than sums
-    of square roots: they are not reduced elsewhere.
+    Of several the one nearest to the middle.
     """
     nothing: Place = (Fraction(0),) * 3
-    if not all(f.algebraic for leg in legs for f in leg.image.forms):
-        return nothing
     points = _places([leg.leg for leg in legs])
     rational = [(x, y, z) for x, y, z in points if {type(x), type(y), type(z)} == {Fraction}]
 

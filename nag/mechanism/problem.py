@@ -20,15 +20,8 @@ from nag.algebra.system import NamedPoint, PolynomialSystem
 from nag.errors import NagError, StartError
 from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.assembly import AssemblyModel
-from nag.mechanism.parts import (
-    FormulationError,
-    check_formulation,
-    model_parts,
-    parts_in_formulation,
-)
+from nag.mechanism.parts import check_formulation, model_parts, parts_in_formulation
 from nag.tracking.run import DEFAULT_RUN, Run, answers_early
-
-__all__ = ["FormulationError", "Problem", "decompose", "problem_of", "solve"]
 
 if TYPE_CHECKING:
     from nag.algebra.symmetric_family import FamilyMember

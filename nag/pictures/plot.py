@@ -123,7 +123,7 @@ def plot_components(
         NagError: if there is no such variable or curve, or the file cannot be written.
         ComponentError: if no curve was found.
     """
-    with _writing(path):
+    with _refuse_unwritable(path):
         if kind == "tree":
             return _plot_tree(answer, title, path)
         places = variables_onto(onto or (), answer.system.own_variables)
@@ -214,7 +214,7 @@ def plot_mechanism(
 
     if problem.model is None:
         raise NagError(f"{kind}: is for mechanisms; a polynomial system is given")
-    with _writing(path):
+    with _refuse_unwritable(path):
         real = in_real_coordinates(problem)
         return _plot_mechanism(real, kind, what, title, path, run, onto, circuit)
 
@@ -307,7 +307,7 @@ def _axes(onto: Sequence[str] | None, normal: Any) -> tuple[int, int]:
 
 
 @contextlib.contextmanager
-def _writing(path: str) -> Iterator[None]:
+def _refuse_unwritable(path: str) -> Iterator[None]:
     """Say of a file that cannot be written that it is bad input.
 
     Raises:

@@ -74,10 +74,10 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
 
 def _doubt_of(drawn_from: RealPieces) -> str:
     """Why real points may be missing among those that samples are drawn from."""
-    return "" if drawn_from.each_piece else _missing(drawn_from.reason)
+    return "" if drawn_from.each_piece else _say_points_may_miss(drawn_from.reason)
 
 
-def _missing(reason: str) -> str:
+def _say_points_may_miss(reason: str) -> str:
     return f"real points may be missing: {reason}"
 
 
@@ -108,7 +108,7 @@ def _of_complex_equations(
         for each, share in zip(chosen, shares, strict=True)
         if share
     ]
-    doubts = [_missing(equations.doubt)] if equations.doubt else []
+    doubts = [_say_points_may_miss(equations.doubt)] if equations.doubt else []
     doubts += [part.doubt for part in parts if part.doubt]
     points = rng.permutation(np.vstack([part.points.real for part in parts]))
     return _samples(system, points, "; ".join(dict.fromkeys(doubts)))
@@ -132,7 +132,7 @@ def _of_curve(
 ) -> tuple[np.ndarray, str]:
     """Points of the arcs, isolated ones where there is none, and why others may be missing."""
     curve = find_real_curve(component, run=run)
-    doubt = "" if curve.complete else _missing(curve.reason)
+    doubt = "" if curve.complete else _say_points_may_miss(curve.reason)
     if curve.edges:
         steps = [np.linalg.norm(np.diff(e.chart, axis=0), axis=1) for e in curve.edges]
         # An arc's points but for the first; they are on the curve to rounding.

@@ -63,7 +63,7 @@ def call_within(
     assert child.stdin is not None and child.stdout is not None
     heard: queue.SimpleQueue[tuple[str, Any] | None] = queue.SimpleQueue()
     threading.Thread(target=_send, args=(child.stdin, sent), daemon=True).start()
-    threading.Thread(target=_listen, args=(child.stdout, heard), daemon=True).start()
+    threading.Thread(target=_take_messages, args=(child.stdout, heard), daemon=True).start()
     found = None
     try:
         while True:
@@ -118,7 +118,7 @@ def _send(stream: BinaryIO, data: bytes) -> None:
         return
 
 
-def _listen(stream: BinaryIO, heard: queue.SimpleQueue[tuple[str, Any] | None]) -> None:
+def _take_messages(stream: BinaryIO, heard: queue.SimpleQueue[tuple[str, Any] | None]) -> None:
     """Take what the process tells; None when it has ended."""
     try:
         while True:

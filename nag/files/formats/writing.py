@@ -131,10 +131,10 @@ def _polynomial_text(
         if size != "1" or not factors:
             factors.insert(0, size)
         parts.append(f" {sign} {'*'.join(factors)}")
-    return _joined(parts)
+    return _join_terms(parts)
 
 
-def _joined(terms: Sequence[str]) -> str:
+def _join_terms(terms: Sequence[str]) -> str:
     """Terms, each with its sign before it, as one text."""
     text = "".join(terms).removeprefix(" + ") or "0"
     return f"-{text[3:]}" if text.startswith(" - ") else text
@@ -165,7 +165,7 @@ def _coefficient(
         texts.append((sign, size))
     if len(texts) == 1:
         return texts[0]
-    return "+", f"({_joined([f' {sign} {size}' for sign, size in texts])})"
+    return "+", f"({_join_terms([f' {sign} {size}' for sign, size in texts])})"
 
 
 def _drop_parentheses(text: str) -> str:
@@ -293,7 +293,7 @@ def write_latex(system: PolynomialSystem, title: str) -> str:
     lines = []
     for f in _polynomials(system):
         terms = [_latex_term(e, c, names) for e, c in _terms(f, len(names))]
-        lines.append(f"  {_joined(terms)} &= 0")
+        lines.append(f"  {_join_terms(terms)} &= 0")
     remarks = _remarks(system, {n: n for n in variables}, "i")
     head = "".join(f"% {line}\n" for line in (title, *remarks))
     return f"{head}\\begin{{align*}}\n" + " \\\\\n".join(lines) + "\n\\end{align*}\n"
