@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 from linkages import CASES
 
 import nag
+from nag.cli.command_line import main
+from nag.decomposition.through import through_points
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.mobility_report import MobilityStatus
 from nag.numerics.second_order import count_real_directions
@@ -52,7 +54,9 @@ def test_a_stretched_four_bar_is_said_not_to_move(formulation: str) -> None:
     case = nag.read_case(CASES / "mobility" / "four-bar-stretched.toml")
     report = nag.mobility(case, formulation=formulation)
     assert report.status is MobilityStatus.SHAKY and "it does not move" in report.sentence
-    assert report.document()["blocked"] and report.local_dimension == 1
+    document = report.document()
+    assert document["blocked"] and report.local_dimension == 1
+    assert document["moving_unknown"] == "no real motion has all of its freedoms"
 
 
 def test_a_joint_beside_a_blocked_loop_still_moves() -> None:
@@ -124,3 +128,20 @@ def test_a_blocked_loop_beside_one_that_moves_takes_its_freedoms_away() -> None:
 def test_real_curves_leave_in_the_directions_that_no_form_sees(equations, count: int) -> None:
     system = nag.system(equations, variables="x y z")
     assert count_real_directions(system, np.zeros(3), 3) == count
+
+
+@pytest.mark.parametrize(
+    ("equations", "unreal"),
+    [("x^2 + y^2 - x^2*z", 1), ("x^2 - y^2 - x^2*z", 0), ("x^2 + y^2 + z^2 - x^3", 2)],
+)
+def test_a_decomposition_says_at_a_point_what_is_not_real(equations, unreal: int) -> None:
+    found = nag.decompose(equations, "x y z")
+    (through,) = through_points(found, [("origin", (0, 0, 0))])
+    assert (through.components, through.unreal) == ((0,), unreal)
+
+
+def test_a_decomposition_says_that_no_real_motion_leaves_a_stretched_four_bar(capsys) -> None:
+    assert main(["decompose", str(CASES / "mobility" / "four-bar-stretched.toml")]) == 0
+    assert "by terms of second order no real motion leaves it" in " ".join(
+        capsys.readouterr().out.split()
+    )

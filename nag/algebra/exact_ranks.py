@@ -445,8 +445,8 @@ def independent_polynomials(polynomials: Sequence[Polynomial]) -> list[Polynomia
     return [polynomials[i] for i in first_independent_rows(rows)]
 
 
-def jacobian_rank(polynomials: Sequence[Polynomial], point: Sequence[Fraction]) -> int:
-    """The rank of the Jacobian of exact polynomials at a rational point."""
+def jacobian_rank(polynomials: Sequence[Polynomial], point: Sequence[Number]) -> int:
+    """The rank of the Jacobian of exact polynomials at an exact point."""
     return rank([[f.derivative(i)(point) for i in range(f.n)] for f in polynomials])
 
 

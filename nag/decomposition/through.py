@@ -7,9 +7,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
+from nag.algebra.exact_ranks import jacobian_rank
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.local_dimension import LocalDimension, exact_numbers
+from nag.numerics.second_order import count_unreal_directions
 from nag.witness.frame import expand_orbits
 from nag.witness.given_component import round_point
 from nag.witness.witness import Decomposition
@@ -24,12 +26,15 @@ class Through:
         solution: whether the point satisfies the equations, at least to rounding.
         components: indices of the components through it, among all that the orbits stand for.
         doubt: why the components are not known; empty if they are.
+        unreal: how much less than the largest of their dimensions real sets through the point have
+            at least, by terms of second order; 0 where these prove nothing.
     """
 
     name: str
     solution: bool
     components: tuple[int, ...] = ()
     doubt: str = ""
+    unreal: int = 0
 
 
 def through_points(
@@ -50,7 +55,7 @@ def through_points(
                 found.append(Through(name, solution=False))
                 continue
         if "exact" in known and exact and _is_on_the_only_one(everything, exact):
-            found.append(Through(name, True, (0,)))
+            found.append(_seen_in_reals(Through(name, True, (0,)), everything, exact))
             continue
         from nag.witness.membership import components_through
 
@@ -64,10 +69,27 @@ def through_points(
                 settings=decomposition.settings,
             )
             doubt = "" if indices else "no component that was found passes through it"
-            found.append(Through(name, True, tuple(indices), doubt))
+            through = Through(name, True, tuple(indices), doubt)
+            found.append(_seen_in_reals(through, everything, known.get("exact")))
         except ValueError as error:
             found.append(Through(name, True, doubt=str(error)))
     return found
+
+
+def _seen_in_reals(
+    through: Through, everything: Decomposition, exact: Sequence[Number] | None
+) -> Through:
+    """The same, with what terms of second order say at an exact zero."""
+    equations = everything.system.polynomials
+    if exact is None or not through.components:
+        return through
+    dimension = max(everything.components[i].dimension for i in through.components)
+    corank = len(exact) - jacobian_rank(equations, exact)
+    if not dimension or corank <= dimension:
+        return through
+    at = round_point(exact)
+    unreal = count_unreal_directions(everything.system, at, corank, dimension)
+    return replace(through, unreal=unreal)
 
 
 def zero_at(

@@ -37,7 +37,7 @@ from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.quaternion import R
 from nag.mechanism.real_assemblies import real_assemblies, real_doubt
 from nag.numerics.local_dimension import local_dimension_near
-from nag.numerics.second_order import count_real_directions
+from nag.numerics.second_order import count_unreal_directions
 from nag.text.table import count_text
 from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
 from nag.witness.frame import expand_orbits
@@ -284,8 +284,7 @@ def _local_report(problem: Problem, at: Sequence[Number], run: Run) -> MobilityR
     free, tangent = problem.free, found.tangent_dimension
     unreal = 0
     if found.dimension and not found.smooth and in_real_coordinates(problem) is problem:
-        real = count_real_directions(problem.system, found.point, tangent or 0)
-        unreal = max(0, found.dimension - real)
+        unreal = count_unreal_directions(problem.system, found.point, tangent or 0, found.dimension)
     return MobilityReport(
         **_count_freedoms(problem),
         tangent_dimension=None if tangent is None else tangent + free,

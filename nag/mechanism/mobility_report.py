@@ -320,6 +320,7 @@ class MobilityReport:
             "rests_on": self.rests_on,
             "open": self.open,
             "moving": None if self.moving is None else self.moving.document(),
+            "moving_unknown": self.unclear,
             "near": None if self.near is None else self.near.document(),
             "curves": [curve.document() for curve in self.curves],
             "local": None if self.local is None else self.local.document(),

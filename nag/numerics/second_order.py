@@ -72,6 +72,21 @@ def count_real_directions(system: PolynomialSystem, point: np.ndarray, corank: i
     return corank - len(beside) if blocked else corank
 
 
+def count_unreal_directions(
+    system: PolynomialSystem, point: np.ndarray, corank: int, dimension: int
+) -> int:
+    """How much less than ``dimension`` real sets of zeros through a zero have at least.
+
+    Zero where terms of second order prove nothing; see `count_real_directions`.
+
+    Args:
+        dimension: of the complex zeros at the point.
+    """
+    if corank <= dimension:
+        return 0
+    return max(0, dimension - count_real_directions(system, point, corank))
+
+
 def _has_definite_combination(forms: np.ndarray) -> bool:
     """Whether one of these symmetric matrices' combinations, as it was found, is definite.
 

@@ -52,10 +52,20 @@ def _mobility_rows(
             largest = max(c.dimension for c in components) + sum(count for count, _ in free)
             text = f"{largest} at {point.name}{counted}: on {kinds_text(kinds(components))}"
             text += "".join(f", and {count} by {whose}" for count, whose in free)
+            if point.unreal:
+                text += _unreal_text(point.unreal, largest, made is not None)
             if any(c.status is not Status.IRREDUCIBLE for c in components):
                 text += ", not all of them decided"
         rows.append((label, text))
     return rows
+
+
+def _unreal_text(unreal: int, dimension: int, moves: bool) -> str:
+    """What real motions, or points, there are beside a point at which others end."""
+    what = "motion leaves it" if moves else "points are near by"
+    if unreal == dimension:
+        return f"; by terms of second order no real {what}"
+    return f"; by terms of second order real ones have dimension {dimension - unreal} at most"
 
 
 def _orbit_rows(decomposition: Decomposition) -> list[tuple[str, str]]:
