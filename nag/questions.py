@@ -511,11 +511,12 @@ def plot(
             that were found.
         path: the file, ending in .svg, .png or .pdf.
         onto: two variables or three, names or a text of them with commas: the real points of the
-            components of dimension one; beside ``point`` two of x, y and z.
+            components of dimension one, or where there is none, in three variables, of dimension
+            two; beside ``point`` two of x, y and z.
         joints: two joints, whose angles or slides are drawn against each other along the motion.
         point: a joint's point, or one of a framework, whose path is drawn.
         graph: the graph of bodies and joints.
-        mechanism: the mechanism at its reference configuration, or on its way.
+        mechanism: the mechanism at its reference configuration, or once on each circuit.
         tree: all components by their dimensions.
         component: the number of the one that is drawn ``onto`` variables, from 1; all by default.
         circuit, formulation: as for `nag.motion`.

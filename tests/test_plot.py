@@ -17,6 +17,7 @@ from nag.pictures import plane_curves
 from nag.pictures.curve_picture import draw_real_curves
 from nag.pictures.motion_picture import draw_joint_values, draw_point_paths
 from nag.pictures.plane_curves import Axis, CurvesInStyle
+from nag.pictures.surface_picture import find_lines
 
 CASES = Path(__file__).parent.parent / "cases"
 SYSTEM = "((x^2 + y^2)^2 - 2*(x^2 - y^2))*(y^2 - x^2*(x - 1))*(x + y - 1/2)\n"
@@ -227,3 +228,29 @@ def test_components_are_drawn_by_their_dimensions_alike_ones_together(tmp_path) 
     text = picture.read_text()
     for words in ("dimension 2", "dimension 1", "dimension 0", "3 of degree 1", "degree 3"):
         assert f">{words}<" in text
+
+
+def test_each_circuit_has_a_panel_where_links_are_not_in_line(tmp_path) -> None:
+    picture = tmp_path / "x.svg"
+    case = CASES / "planar" / "four-bars-in-a-row.toml"
+    assert ask(case, "--mechanism", "--circuit", "all", "--out", picture) == 0
+    text = picture.read_text()
+    assert all(f">circuit {k}<" in text for k in range(1, 5)) and ">circuit 5<" not in text
+
+
+def test_lines_of_a_surface_are_zeros_of_its_equation_in_planes() -> None:
+    sphere = nag.system("x^2 + y^2 + z^2 - 1", "x y z").polynomials[0]
+    lines = find_lines(sphere, np.tile(np.linspace(-1.6, 1.6, 121), (3, 1)))
+    points = np.vstack(lines)
+    assert np.abs((points**2).sum(axis=1) - 1).max() < 1e-3
+    # Eleven planes of each direction meet it, each in a circle.
+    assert len(lines) == 33 and all(np.ptp(line, axis=0).min() < 1e-12 for line in lines)
+
+
+def test_a_surface_is_drawn_in_three_variables_by_the_equation_of_its_image(tmp_path) -> None:
+    picture = tmp_path / "x.svg"
+    given = tmp_path / "curve.txt"
+    given.write_text("z - x^2 - y^2\n")
+    assert ask(given, "--onto", "x,y,z", "--out", picture) == 0
+    assert ">component 1<" in picture.read_text()
+    assert ask(given, "--onto", "x,y", "--out", picture) == 2

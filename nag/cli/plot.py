@@ -26,7 +26,7 @@ from nag.cli.witness_input import (
     read_components,
 )
 from nag.errors import ComponentError, NagError
-from nag.pictures.plot import DRAWN, KINDS, choose_picture
+from nag.pictures.plot import DRAWN, KINDS, choose_picture, find_drawn
 
 if TYPE_CHECKING:
     from nag.algebra.system import PolynomialSystem
@@ -49,7 +49,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=_pair_or_triple,
         metavar="X,Y[,Z]",
         help="two variables of the equations, or three: draw the real points of the components of "
-        "dimension one; with --point two of the coordinates x, y and z",
+        "dimension one, or where there is none, in three variables, of dimension two; with "
+        "--point two of the coordinates x, y and z",
     )
     add_component(parser, "draw that component alone, by its number (default: all)")
     parser.add_argument(
@@ -74,7 +75,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--mechanism",
         action="store_true",
-        help="draw the mechanism at its reference configuration, or where there is none on its way",
+        help="draw the mechanism at its reference configuration; where there is none, or with "
+        "--circuit, once on each circuit",
     )
     parser.add_argument(
         "--tree", action="store_true", help="draw all components by their dimensions"
@@ -144,7 +146,7 @@ def _of_components(options: argparse.Namespace, kind: str) -> CommandAnswer:
     if kind == "onto":
         numbers = [options.component] if options.component else []
         if not numbers:
-            numbers = [k for k, c in enumerate(answer.components, 1) if c.dimension == 1]
+            numbers = list(find_drawn(answer, options.onto))
         chosen = {number: component_of(found, number, "--component") for number in numbers}
     picture = plot_components(
         answer, kind, options.onto, found.title, options.out, chosen_run(options), chosen

@@ -1,7 +1,8 @@
-"""A mechanism at one configuration: bodies by lines between their joints, joints by marks."""
+"""A mechanism at some configurations: bodies by lines between their joints, joints by marks."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -21,16 +22,18 @@ AXIS = 0.09
 WIDE, THIN = 3.2, 1.8
 # Room round it all.
 MARGIN = 0.08
+# Inches: a picture of one configuration, and each of several panels.
+WHOLE, PANEL = 5.2, 2.9
 
 
-def draw_mechanism(scene: Scene, poses: Poses, title: str, path: str) -> None:
+def draw_mechanism(scene: Scene, shown: Sequence[tuple[str, Poses]], title: str, path: str) -> None:
     """Bodies, each in a style of its own, the ground black; joints with their names and axes.
 
     A planar mechanism is seen along the normal of its plane, others from a little above.
 
     Args:
         scene: the bodies and joints.
-        poses: one configuration.
+        shown: configurations, with what they are called; each has a panel of its own.
 
     Raises:
         OSError: if the file cannot be written.
@@ -38,36 +41,57 @@ def draw_mechanism(scene: Scene, poses: Poses, title: str, path: str) -> None:
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
-    frame = _frame(scene.planar)
     flat = scene.planar is not None
+    columns = math.ceil(math.sqrt(len(shown)))
+    rows = -(-len(shown) // columns)
     with rc_context(STYLE | {"font.size": 8}):
-        figure = Figure(figsize=(5.2, 5.2), layout="constrained")
-        axes = figure.add_subplot() if flat else figure.add_subplot(projection="3d")
-        places = _joint_places(scene, poses)
-        shown = [_show(point, frame, flat) for point in places]
-        for body, name in enumerate(scene.bodies):
-            ground = body == scene.ground
-            style: dict[str, Any] = {
-                "color": "black" if ground else COLOURS[body % len(COLOURS)],
-                "linestyle": "-" if ground else DASHES[body % len(DASHES)],
-                "linewidth": WIDE if ground else THIN,
-            }
-            for line in _lines(scene, poses, places, body):
-                axes.plot(*_show(line, frame, flat).T, label=name, zorder=1, **style)
-        for joint, place, at in zip(scene.joints, places, shown, strict=True):
-            if not flat and joint.axis is not None:
-                ends = _axis_ends(scene, poses, joint, place)
-                axes.plot(*_show(ends, frame, flat).T, color="#777777", linewidth=0.9, zorder=2)
-            axes.plot(*at[:, None], marker=MARKS.get(joint.type, "x"), markersize=6, zorder=3,
-                      color="white", markeredgecolor="black", linestyle="")  # fmt: skip
-            axes.text(*at, f"  {joint.name}", fontsize=7, zorder=4)
-        _set_window(axes, np.array(shown))
-        axes.set_axis_off()
-        axes.set_title(title, fontsize=9)
+        size = (PANEL * columns, PANEL * rows)
+        figure = Figure(figsize=size if len(shown) > 1 else (WHOLE, WHOLE), layout="constrained")
+        for k, (name, poses) in enumerate(shown, 1):
+            kind = {} if flat else {"projection": "3d"}
+            axes = figure.add_subplot(rows, columns, k, **kind)
+            _draw_configuration(axes, scene, poses)
+            axes.set_title(name if len(shown) > 1 else title, fontsize=9)
+        if len(shown) > 1:
+            figure.suptitle(title, fontsize=9)
         handles = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
         figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4,
                       frameon=False)  # fmt: skip
         save(figure, path)
+
+
+def choose_sample(scene: Scene, poses: Poses) -> int:
+    """The sample at which joints are as far from one line as they are anywhere on the way.
+
+    Circuits may begin, and cross each other, where links are in line.
+    """
+    places = np.array(_joint_places(scene, poses))
+    spread = places - places.mean(axis=0)
+    return int(np.linalg.svd(spread.transpose(1, 0, 2), compute_uv=False)[:, 1].argmax())
+
+
+def _draw_configuration(axes: Any, scene: Scene, poses: Poses) -> None:
+    frame, flat = _frame(scene.planar), scene.planar is not None
+    places = [place[0] for place in _joint_places(scene, poses)]
+    shown = [_show(point, frame, flat) for point in places]
+    for body, name in enumerate(scene.bodies):
+        ground = body == scene.ground
+        style: dict[str, Any] = {
+            "color": "black" if ground else COLOURS[body % len(COLOURS)],
+            "linestyle": "-" if ground else DASHES[body % len(DASHES)],
+            "linewidth": WIDE if ground else THIN,
+        }
+        for line in _lines(scene, poses, places, body):
+            axes.plot(*_show(line, frame, flat).T, label=name, zorder=1, **style)
+    for joint, place, at in zip(scene.joints, places, shown, strict=True):
+        if not flat and joint.axis is not None:
+            ends = _axis_ends(scene, poses, joint, place)
+            axes.plot(*_show(ends, frame, flat).T, color="#777777", linewidth=0.9, zorder=2)
+        axes.plot(*at[:, None], marker=MARKS.get(joint.type, "x"), markersize=6, zorder=3,
+                  color="white", markeredgecolor="black", linestyle="")  # fmt: skip
+        axes.text(*at, f"  {joint.name}", fontsize=7, zorder=4)
+    _set_window(axes, np.array(shown))
+    axes.set_axis_off()
 
 
 def _frame(normal: np.ndarray | None) -> np.ndarray:
@@ -87,10 +111,10 @@ def _show(points: np.ndarray, frame: np.ndarray, flat: bool) -> np.ndarray:
 
 
 def _joint_places(scene: Scene, poses: Poses) -> list[np.ndarray]:
-    """Where joints are drawn: those that say no place of their own, next to others."""
+    """Where joints are drawn, each of shape ``(k, 3)``: without a place of their own by others."""
     hubs = link_shapes(scene, {}).hubs
     return [
-        poses.move(joint.bodies[0], np.array(hub))[0]
+        poses.move(joint.bodies[0], np.array(hub))
         for joint, hub in zip(scene.joints, hubs, strict=True)
     ]
 

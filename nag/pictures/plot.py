@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.given import value_text
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 KINDS = (".svg", ".png", ".pdf")
 AXES = ("x", "y", "z")
+# Circuits whose configurations are drawn beside each other, at most.
+MOST_PANELS = 12
 # What a picture may be of; ``onto`` may stand beside ``point``, where it has a default.
 DRAWN = ("onto", "joints", "point", "graph", "mechanism", "tree")
 
@@ -127,7 +129,15 @@ def plot_components(
         if kind == "tree":
             return _plot_tree(answer, title, path)
         places = variables_onto(onto or (), answer.system.own_variables)
-        return _plot_curves(answer, places, title, path, run, chosen)
+        taken = chosen or find_drawn(answer, places)
+        if taken and all(c.dimension == 2 for c in taken.values()):
+            return _plot_surfaces(answer, places, title, path, run, taken)
+        picture = _plot_curves(places, title, path, run, taken)
+        left_out = 0 if chosen else sum(c.dimension != 1 for c in answer.components)
+        if not left_out:
+            return picture
+        note = ("left out", f"{left_out} of other dimensions than 1")
+        return replace(picture, rows=(*picture.rows, note))
 
 
 def _plot_tree(answer: Decomposition, title: str, path: str) -> Picture:
@@ -137,23 +147,65 @@ def _plot_tree(answer: Decomposition, title: str, path: str) -> Picture:
     return Picture(path, (("components", str(len(answer.components))),))
 
 
-def _plot_curves(
+def find_drawn(answer: Decomposition, onto: Sequence[Any]) -> dict[int, WitnessSet]:
+    """The components that are drawn where none is named: curves, or else surfaces in space."""
+    numbered = dict(enumerate(answer.components, 1))
+    for dimension in (1, 2)[: len(onto) - 1]:
+        found = {k: c for k, c in numbered.items() if c.dimension == dimension}
+        if found:
+            return found
+    return {}
+
+
+def _plot_surfaces(
     answer: Decomposition,
     onto: Sequence[int],
     title: str,
     path: str,
     run: Run,
-    chosen: Mapping[int, WitnessSet] | None = None,
+    chosen: Mapping[int, WitnessSet],
+) -> Picture:
+    """The zeros of what components of dimension two satisfy in three variables."""
+    import numpy as np
+
+    from nag.interpolation.image_ideal import eliminate_component
+    from nag.interpolation.point_cloud import AmbientVariables, Cloud
+    from nag.interpolation.precise_samples import source_of_component
+    from nag.pictures.surface_picture import draw_surface
+
+    if len(onto) != len(AXES):
+        raise NagError("onto: surfaces are drawn in three variables")
+    equations, rows = [], []
+    for number, component in chosen.items():
+        source = source_of_component(answer.system, component)
+        cloud = Cloud(source, AmbientVariables.itself(answer.system), run.random(4), run)
+        found = eliminate_component(cloud, {}, tuple(onto), None, False, run.progress)
+        if found.dimension != component.dimension or len(found.generators) != 1:
+            raise ComponentError(f"component {number}: its image is no surface there")
+        equations.append((f"component {number}", found.generators[0]))
+        degree = found.generators[0].degree
+        rows.append((f"component {number}", f"dimension 2; a surface of degree {degree}"))
+    sizes = np.vstack([np.array(c.points)[:, list(onto)] for c in chosen.values()])
+    names = [answer.system.variables[i] for i in onto]
+    draw_surface(equations, names, float(np.median(np.abs(sizes).max(axis=1))), title, path)
+    rows.append(("drawn", "lines in which planes cut the closures of the images"))
+    return Picture(path, tuple(rows))
+
+
+def _plot_curves(
+    onto: Sequence[int],
+    title: str,
+    path: str,
+    run: Run,
+    taken: Mapping[int, WitnessSet],
 ) -> Picture:
     """The real points of components of dimension one, in two or three variables."""
     from nag.pictures.curve_picture import draw_real_curves
     from nag.real.find_curve import find_real_curve
     from nag.real.shown import answer_text
 
-    numbered = dict(enumerate(answer.components, 1))
-    taken = chosen or {k: c for k, c in numbered.items() if c.dimension == 1}
     if not taken:
-        raise NagError("has no component of dimension 1 to draw")
+        raise NagError("has no component of dimension 1 to draw, and in three variables none of 2")
     curves, rows, notes = [], [], []
     for number, component in taken.items():
         if component.dimension != 1:
@@ -176,9 +228,6 @@ def _plot_curves(
     if not curves:
         why = "; ".join(text for _, text in notes) or "no component of dimension 1 has real points"
         raise (ComponentError if notes else NagError)(why)
-    left_out = [k for k, c in numbered.items() if c.dimension != 1]
-    if left_out and chosen is None:
-        rows.append(("left out", f"{len(left_out)} of other dimensions than 1"))
     draw_real_curves(curves, onto, title, path)
     return Picture(path, tuple(rows), tuple(notes))
 
@@ -268,21 +317,25 @@ def _plot_configuration(
 ) -> Picture:
     import numpy as np
 
-    from nag.pictures.mechanism_picture import draw_mechanism
+    from nag.pictures.mechanism_picture import choose_sample, draw_mechanism
+    from nag.text.table import count_text
 
-    notes: tuple[Row, ...] = ()
-    if scene.from_reference and problem.reference is not None:
+    if scene.from_reference and problem.reference is not None and circuit == "reference":
         poses = scene.lift(np.array([[float(x) for x in problem.reference]]))
-        where = "the reference configuration"
-    else:
-        found = _motion(problem, circuit, run)
-        notes = tuple(("open", note) for note in found.notes)
-        # Circuits may begin where links are in line.
-        at = len(found.circuits[0]) // 8
-        poses = found.circuits[0].poses.at(slice(at, at + 1))
-        where = f"an eighth along circuit {found.circuits[0].number}"
-    draw_mechanism(scene, poses, title, path)
-    return Picture(path, (("drawn", where),), notes)
+        draw_mechanism(scene, [("", poses)], title, path)
+        return Picture(path, (("drawn", "the reference configuration"),))
+    found = _motion(problem, circuit, run)
+    circuits = found.circuits[:MOST_PANELS]
+    shown = []
+    for each in circuits:
+        at = choose_sample(scene, each.poses)
+        shown.append((f"circuit {each.number}", each.poses.at(slice(at, at + 1))))
+    draw_mechanism(scene, shown, title, path)
+    text = count_text(len(circuits), "circuit")
+    if len(circuits) < len(found.circuits):
+        text = f"the first {len(circuits)} of {len(found.circuits)} circuits"
+    rows = (("drawn", f"{text}, each where its joints are furthest from one line"),)
+    return Picture(path, rows, tuple(("open", note) for note in found.notes))
 
 
 def _motion(problem: Problem, circuit: str | int, run: Run) -> Motion:
