@@ -203,18 +203,28 @@ def local(given: Any, point: Any = None, *, seed: int = 0) -> LocalDimension:
 # --- Components
 
 
-def find_components(given: Any, run: Run) -> Decomposition:
-    """All components of what is given, none for a whole orbit; those of an export are tested."""
-    return _find_in(given, open_file(given), run)[0]
+def find_components(given: Any, run: Run, real: bool = False) -> Decomposition:
+    """All components of what is given, none for a whole orbit; those of an export are tested.
+
+    Args:
+        real: whether real points are asked for, so that frameworks take coordinates that are real
+            where their realisations are.
+    """
+    return _find_in(given, open_file(given), run, real=real)[0]
 
 
 def _find_in(
-    given: Any, opened: Any, run: Run, check: Callable[[PolynomialSystem], object] | None = None
+    given: Any,
+    opened: Any,
+    run: Run,
+    check: Callable[[PolynomialSystem], object] | None = None,
+    real: bool = False,
 ) -> tuple[Decomposition, Mapping[str, tuple[Number, ...]]]:
     """The same of what is given, or was read from it, and the points of a problem by their names.
 
     Args:
         check: called with a problem's system before it is decomposed.
+        real: as of `find_components`.
     """
     from nag.witness.frame import expand_orbits
 
@@ -224,6 +234,10 @@ def _find_in(
         found = expand_orbits(opened)
         return (found if opened is given else check_traces(found)), {}
     problem, points = _problem_and_points(opened)
+    if real:
+        from nag.mechanism.problem import in_real_coordinates
+
+        problem = in_real_coordinates(problem)
     if check is not None:
         check(problem.system)
     return expand_orbits(problem.decompose(run=run)), points
@@ -336,7 +350,7 @@ def sample(
         given: components that were found, a file of them, or what is decomposed now.
         component: its number, from 1.
         count: how many.
-        real: whether they are to be real.
+        real: whether they are to be real; of a framework in coordinates x, y.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Returns:
@@ -350,7 +364,7 @@ def sample(
     >>> nag.sample("x^2 + y^2 - 1", count=5).points.shape
     (5, 2)
     """
-    found = find_components(given, run)
+    found = find_components(given, run, real)
     chosen = component_numbered(found, component)
     if real:
         from nag.real.real_samples import sample_real
@@ -563,7 +577,7 @@ def plot(
         if kind == "onto":
             variables_onto(onto or (), system.own_variables)
 
-    found, _ = _find_in(given, opened, run, check)
+    found, _ = _find_in(given, opened, run, check, real=kind == "onto")
     chosen = None if component is None else {component: component_numbered(found, component)}
     return plot_components(found, kind, onto, title, target, run, chosen)
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 import jsonschema
 import numpy as np
 import pytest
+from linkages import CASES
 
 import nag
 from nag.cli import main
@@ -198,3 +199,30 @@ def test_sets_that_are_not_their_conjugates_have_real_points_where_they_meet(
         found = nag.find_real_points(component)
         assert found.each_piece and sorted(found.dimensions) == dimensions
         assert (found.reality is Reality.NONE) == (not dimensions)
+
+
+def test_real_points_of_a_framework_are_those_of_its_points_not_of_isotropic_coordinates() -> None:
+    case = nag.read_case(CASES / "planar" / "peaucellier.toml")
+    found = nag.decompose(case)
+    assert found.system.isotropic
+    for ask in (nag.find_real_points, nag.find_real_curve):
+        with pytest.raises(nag.NagError, match="isotropic"):
+            ask(found.components[1])
+    drawn = nag.sample(case, 2, count=1, real=True)
+    # Bars O-A and A-C in line reach just as far as O-B and B-C folded: in units of O-A the points
+    # C, B and D are at 2, and 10/3 and 10/3.
+    assert np.abs(drawn.points[0, :6] - [10 / 3, 0, 2, 0, 10 / 3, 0]).max() < 1e-12
+
+
+def test_exports_say_that_coordinates_are_isotropic(tmp_path) -> None:
+    found = nag.decompose(nag.read_case(CASES / "planar" / "peaucellier.toml"))
+    file = tmp_path / "export.json"
+    nag.write(found, file)
+    assert nag.read(file).system.isotropic
+    assert main(["sample", str(file), "--real"]) == 2
+
+
+def test_singular_real_assemblies_are_found_on_the_components(capsys) -> None:
+    assert main(["decompose", str(CASES / "planar" / "peaucellier.toml")]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert "real ones were found on 2 components, isolated there" in text

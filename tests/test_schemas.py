@@ -207,6 +207,10 @@ def write_everything(
     for command in ("decompose", "solve"):
         ask("certify", ask(command, str(complex_case)), rest=["--quiet"])
     ask("model", str(complex_case), rest=[])
+    framework = str(CASES / "planar" / "three-prism.toml")
+    for command in ("decompose", "solve"):
+        ask("certify", ask(command, framework), rest=["--quiet"])
+    ask("model", framework, rest=[])
     ask("check", str(CASES / "four-bar.toml"))
     for name in ("bennett", "planar/four-bar-folding"):
         ask("motion", str(CASES / f"{name}.toml"), "--samples", "12")
@@ -215,7 +219,6 @@ def write_everything(
     for drive in (["A=0:30:2"], ["A=0", "--drive", "E=20"]):
         ask("motion", five_bar, "--samples", "12", "--drive", *drive)
     ask("motion", five_bar, "--samples", "12", "--pose", "rod1=0,0,0,1,0,0,0")
-    ask("solve", str(CASES / "planar" / "three-prism.toml"))
     equations = "y^2 - x^2*(x - 1)"
     for answer in (nag.decompose(equations), nag.decompose(nag.read_case(CASES / "bennett.toml"))):
         curve = nag.find_real_curve(answer.components[0])

@@ -136,6 +136,7 @@ def eliminate_linear(
             tuple(_restrict(f, order) for f in equations),
             tuple(_restrict(f, order) for f in nonzero),
             tuple(g for g in (tuple(order.index(i) for i in g if i in kept) for g in groups) if g),
+            isotropic=system.isotropic,
         ),
         original_variables=system.variables,
         kept=tuple(order),

@@ -47,6 +47,8 @@ class PolynomialSystem:
         imaginary: whether the last variable is the imaginary unit, whose square is -1 by the last
             equation: zeros where it is -i are those of the conjugate system, and left out
             (`nag.algebra.imaginary_unit`).
+        isotropic: whether variables are coordinates x + iy of points, which are not real where the
+            points are; `check_real_coordinates` refuses what asks for real zeros.
     """
 
     variables: tuple[str, ...]
@@ -54,6 +56,7 @@ class PolynomialSystem:
     nonzero: tuple[Polynomial, ...] = ()
     groups: tuple[tuple[int, ...], ...] = ()
     imaginary: bool = False
+    isotropic: bool = False
 
     def __post_init__(self) -> None:
         for name in ("variables", "polynomials", "nonzero"):
@@ -119,6 +122,18 @@ class PolynomialSystem:
             raise NagError(f"point: {value_text(point)} is given; give {self.n} numbers")
         return [f(point) for f in self.polynomials]
 
+    def check_real_coordinates(self) -> None:
+        """Refuse variables that are not real where what they describe is.
+
+        Raises:
+            nag.NagError: if they are isotropic coordinates.
+        """
+        if self.isotropic:
+            raise NagError(
+                "component: its variables are isotropic coordinates x + iy, which are not real "
+                "where the points are; ask of the framework itself, not of what was found in these"
+            )
+
     def text(self) -> list[str]:
         """The polynomials as text."""
         return [f.text(self.variables) for f in self.polynomials]
@@ -146,7 +161,8 @@ class PolynomialSystem:
 
     def document(self) -> dict[str, Any]:
         """The system as a JSON object."""
-        unit = {"imaginary": self.variables[-1]} if self.imaginary else {}
+        unit: dict[str, Any] = {"imaginary": self.variables[-1]} if self.imaginary else {}
+        unit |= {"isotropic": True} if self.isotropic else {}
         return {
             "variables": list(self.variables),
             "polynomials": self.text(),

@@ -140,7 +140,7 @@ def _of_components(options: argparse.Namespace, kind: str) -> CommandAnswer:
         if kind == "onto":
             variables_onto(options.onto, system.own_variables)
 
-    found = read_components(options, check)
+    found = read_components(options, check, real=kind == "onto")
     answer = found.decomposition
     chosen: dict[int, WitnessSet] = {}
     if kind == "onto":

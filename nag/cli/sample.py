@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.text.table import align, magnitude
     from nag.witness.shown import MOST_SAMPLES as SHOWN
 
-    found = read_components(options)
+    found = read_components(options, real=options.real)
     component = component_of(found, options.component, "--component")
     system = found.decomposition.system
     samples, none, doubt = _draw(system, component, options)

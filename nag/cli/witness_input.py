@@ -80,11 +80,15 @@ def is_export(path: str) -> bool:
         return False
 
 
-def read_components(options: argparse.Namespace, check: Check | None = None) -> ReadComponents:
+def read_components(
+    options: argparse.Namespace, check: Check | None = None, real: bool = False
+) -> ReadComponents:
     """The decomposition to work with; a case is decomposed now.
 
     Args:
         check: called with the system and the named points before a case is decomposed.
+        real: whether real points are asked for, so that a case needs coordinates that are real
+            where its configurations are.
 
     Raises:
         nag.errors.InputError: if the file cannot be read.
@@ -108,6 +112,10 @@ def read_components(options: argparse.Namespace, check: Check | None = None) -> 
         return ReadComponents(expand_orbits(export.decomposition), title, file, {}, options.case)
 
     case, problem = read_problem(options)
+    if real:
+        from nag.mechanism.problem import in_real_coordinates
+
+        problem = in_real_coordinates(problem)
     points = {point.name: point.at for point in problem.points}
     if check is not None:
         check(problem.system, points)

@@ -161,7 +161,9 @@ def parse_system(table: Mapping[str, Any], place: str) -> PolynomialSystem:
         unit = table.get("imaginary")
         if unit is not None and [unit] != variables[-1:]:
             raise ExportError(f"{place}.imaginary: {unit!r} is not the last variable")
-        return PolynomialSystem(variables, *parts, groups, imaginary=unit is not None)
+        return PolynomialSystem(
+            variables, *parts, groups, unit is not None, bool(table.get("isotropic"))
+        )
     except ValueError as error:
         raise ExportError(f"{place}: {error}") from None
 

@@ -253,7 +253,7 @@ def _by_pairs(framework: Framework) -> FrameworkModel:
         z, w = difference(places[a], places[b])
         equations.append(z * w - squared / unit)
     groups = (tuple(range(0, n, 2)), tuple(range(1, n, 2)))
-    system = PolynomialSystem(names, tuple(equations), groups=groups)
+    system = PolynomialSystem(names, tuple(equations), groups=groups, isotropic=True)
     # The reflection exchanges the groups, so it is no symmetry of multidegrees.
     return FrameworkModel(framework, pinned, "zw", system, None, ())
 

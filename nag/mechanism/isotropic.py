@@ -49,7 +49,8 @@ def isotropic_system(framework: Framework) -> PolynomialSystem | None:
             above, below = above * z + below * (squared / unit), below * z
         equations.append(above)
     nonzero = (places[b] - places[a] for a, b in _bars_to_exclude(framework, loops))
-    return PolynomialSystem(tuple(f"z_{p}" for p in free), tuple(equations), tuple(nonzero))
+    names = tuple(f"z_{p}" for p in free)
+    return PolynomialSystem(names, tuple(equations), tuple(nonzero), isotropic=True)
 
 
 def _bars_to_exclude(framework: Framework, loops: Sequence[Sequence[str]]) -> list[tuple[str, str]]:

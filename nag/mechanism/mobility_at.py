@@ -492,7 +492,7 @@ def _in_general(problem: Problem, detail: str, of: str | None, run: Run) -> Mobi
     curves = [c for c in components if c.dimension == 1] if detail == "curves" else []
     doubt = ""
     if known is not None and known.dimension and problem.parts is not None:
-        doubt = real_doubt(problem.parts, {c.corank for c in components if c.dimension})
+        doubt = real_doubt(problem, [c for c in components if c.dimension], run)
     report = MobilityReport(
         **_count_freedoms(problem),
         tangent_dimension=None if known is None else known.corank + free,

@@ -2,14 +2,16 @@
 
 A side that is longer than a way round it, over other sides, forbids real assemblies; that is exact.
 For a single loop in the plane it is also the only obstacle. Otherwise real assemblies are looked
-for by Newton's method from random real points; where none is found, nothing is proved.
+for by Newton's method from random real points, and where it finds none, as at singular ones, on
+the components themselves if these are few and small.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from math import sqrt
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,9 +20,19 @@ from nag.algebra.number import Number, square_root
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel, cartesian_model
 from nag.numerics.zero_values import ON
-from nag.text.table import join_words
+from nag.text.table import count_text, join_words
+from nag.tracking.run import Run
+from nag.witness.frame import expand_orbits
 from nag.witness.gauss_newton import IterationEnd, descend, polish
 from nag.witness.real_points import STARTS
+from nag.witness.witness import WitnessSet
+
+if TYPE_CHECKING:
+    from nag.mechanism.problem import Problem
+
+# Paths of a decomposition in real coordinates, and degrees of components, up to which their real
+# points are looked for where random starts lead to none.
+MOST_PATHS, MOST_DEGREE = 3000, 16
 
 
 def obstacle(parts: AssemblyModel) -> str:
@@ -75,18 +87,22 @@ def real_assemblies(parts: AssemblyModel, seed: int = 0) -> Iterator[IterationEn
             yield zero
 
 
-def real_doubt(parts: AssemblyModel, coranks: Collection[int]) -> str:
+def real_doubt(problem: Problem, moving: Sequence[WitnessSet], run: Run) -> str:
     """Why it is not known that assemblies move with real coordinates, in one clause.
 
-    Empty where a real one was found that is not singular: the others may be isolated among real
-    ones, as a node with complex tangents is.
+    Empty where a real one was found that is not singular, or from which a real curve leaves: others
+    may be isolated among real ones, as a node with complex tangents is.
 
     Args:
-        coranks: of the Jacobian at general points of the sets of assemblies that move.
+        problem: of parts that are not assembled.
+        moving: its components of dimension one and more.
     """
+    parts = problem.parts
+    assert parts is not None
     reason = obstacle(parts)
     if reason:
         return f"there is no real one, which is proved: {reason}"
+    coranks = {c.corank for c in moving}
     found = False
     for zero in real_assemblies(parts):
         if zero.corank in coranks:
@@ -94,13 +110,40 @@ def real_doubt(parts: AssemblyModel, coranks: Collection[int]) -> str:
         found = True
     if found:
         return "only singular real ones were found, which need not move"
-    return f"no real one was found from {STARTS} starting points, which proves nothing"
+    return _doubt_of_components(problem, moving, run)
 
 
-def real_text(parts: AssemblyModel, coranks: Collection[int]) -> str:
-    """One clause: whether there are real assemblies that move, and what that rests on.
+def _doubt_of_components(problem: Problem, moving: Sequence[WitnessSet], run: Run) -> str:
+    """The same by real points of the components, to which Newton's method does not lead."""
+    from nag.mechanism.path_estimates import fewest_estimated_paths
+    from nag.mechanism.problem import in_real_coordinates
+    from nag.real.real_pieces import Reality, find_real_points
 
-    Args:
-        coranks: as for `real_doubt`.
-    """
-    return real_doubt(parts, coranks) or "a real one was found"
+    nothing = f"no real one was found from {STARTS} starting points, which proves nothing"
+    real = in_real_coordinates(problem)
+    if fewest_estimated_paths(real.system) > MOST_PATHS:
+        return nothing
+    if real is not problem:
+        components = expand_orbits(real.decompose(run=run)).components
+        moving = [c for c in components if c.dimension]
+    if any(c.degree > MOST_DEGREE for c in moving):
+        return nothing
+    pieces = [find_real_points(c, run=run) for c in moving]
+    if any(d > 0 for each in pieces for d in each.dimensions):
+        return ""
+    count = sum(each.reality is Reality.FOUND for each in pieces)
+    proved = all(each.each_piece for each in pieces)
+    if count and proved:
+        return f"all real ones are isolated, on {count_text(count, 'component')}: they cannot move"
+    if count:
+        # An isolated real point of one component may lie on another one that moves.
+        return (
+            f"real ones were found on {count_text(count, 'component')}, isolated there; whether "
+            "they move on others is not known"
+        )
+    return "there is no real one, by all components' real points" if proved else nothing
+
+
+def real_text(problem: Problem, moving: Sequence[WitnessSet], run: Run) -> str:
+    """One clause: whether there are real assemblies that move, and what that rests on."""
+    return real_doubt(problem, moving, run) or "a real one was found"

@@ -96,6 +96,7 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
     if component.dimension != 1:
         raise NagError(f"component: it has dimension {component.dimension}; a curve has 1")
     given = component._known_system()
+    given.check_real_coordinates()
     if given.imaginary:
         return _of_complex_equations(component, run)
     natural = coordinates_of(given)

@@ -140,6 +140,7 @@ def find_real_points(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealPi
     [1, 1, 0, 0]
     """
     check_type(component, WitnessSet, "component", "one of the components of a nag.Decomposition")
+    component._known_system().check_real_coordinates()
     if component.dimension == 0:
         return _of_finite_set(component)
     if component._known_system().imaginary:

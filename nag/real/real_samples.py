@@ -54,6 +54,7 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
     check_whole(count, "count")
     rng = run.random(14)
     system = component._known_system()
+    system.check_real_coordinates()
     if component.dimension and system.imaginary:
         return _of_complex_equations(component, count, rng, run)
     doubt = ""

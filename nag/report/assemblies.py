@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from nag.report.model import Rows
 from nag.text.table import count_text
+from nag.tracking.run import Run
 from nag.witness.witness import Decomposition, WitnessSet
 
 if TYPE_CHECKING:
@@ -25,7 +26,9 @@ def assembly_rows(problem: Problem, decomposition: Decomposition) -> Rows:
     if moving:
         largest = max(c.dimension for c in moving) + problem.free
         on = count_text(sum(c.orbit for c in moving), "component")
-        texts.append(f"mobile, mobility {largest} at most, on {on}{_reality(parts, moving)}")
+        texts.append(
+            f"mobile, mobility {largest} at most, on {on}{_reality(problem, moving, decomposition)}"
+        )
     if isolated:
         each = parts.points_of_each
         count = sum(c.orbit * len(c.points) for c in isolated) // each
@@ -41,12 +44,13 @@ def assembly_rows(problem: Problem, decomposition: Decomposition) -> Rows:
     return [(_plural(parts), "; ".join(texts))]
 
 
-def _reality(parts: AssemblyModel, moving: Iterable[WitnessSet]) -> str:
+def _reality(problem: Problem, moving: Sequence[WitnessSet], decomposition: Decomposition) -> str:
     from nag.mechanism.real_assemblies import real_text
 
-    if parts.reference is not None:
+    if problem.parts is None or problem.parts.reference is not None:
         return ""
-    return f"; {real_text(parts, {c.corank for c in moving})}"
+    run = Run(seed=decomposition.seed, settings=decomposition.settings)
+    return f"; {real_text(problem, moving, run)}"
 
 
 def real_rows(problem: Problem, points: Iterable[Sequence[complex]]) -> Rows:

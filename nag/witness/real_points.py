@@ -123,6 +123,7 @@ def real_points_near(
     """
     check_component(system, component)
     check_whole(starts, "starts", 1)
+    system.check_real_coordinates()
     if system.imaginary:
         raise NagError("component: its equations have complex coefficients; use find_real_points")
     near = _real_vector(near, system.n)
