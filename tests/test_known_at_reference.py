@@ -6,6 +6,7 @@ import json
 from fractions import Fraction
 from itertools import combinations, product
 
+import numpy as np
 import pytest
 from linkages import CASES
 from solved import shipped
@@ -21,6 +22,9 @@ from nag.report.agreement import AgreementKind, compare_at_reference
 KNOWN = sorted(f"mobility/{path.stem}" for path in (CASES / "mobility").glob("*.toml"))
 STEFFEN = ["ABF", "AEF", "ABP", "BCP", "CDP", "ADP", "ADE", "CDE"]
 STEFFEN += ["EFQ", "CEQ", "CQR", "FQR", "BFR", "BCR"]
+CONNELLY = ["ABC", "BCD", "ACE", "AEF", "CDP", "CPQ", "CEQ", "DFP", "FPQ"]
+CONNELLY += ["EFQ", "BRT", "RST", "FST", "BDR", "DRS", "DFS", "AFT", "ABT"]
+FACES = {"steffen": STEFFEN, "connelly": CONNELLY}
 Point = tuple[Fraction, ...]
 
 
@@ -118,31 +122,93 @@ def may_meet(ends: list[Point], triangle: list[Point]) -> bool:
     return (not sides[0] and not sides[1]) or not {1, -1} <= turns
 
 
-def test_steffens_polyhedron_is_a_sphere_whose_faces_do_not_cross() -> None:
-    at, made = places("mobility/steffen"), framework("mobility/steffen")
-    edges = [frozenset(pair) for face in STEFFEN for pair in combinations(face, 2)]
-    assert {frozenset(bar) for bar in made.bars} == set(edges)
-    assert all(edges.count(edge) == 2 for edge in edges)
-    assert len(at) - len(made.bars) + len(STEFFEN) == 2
-    for one, other in combinations(STEFFEN, 2):
+def cross_each_other(at: dict[str, Point], faces: list[str]) -> bool:
+    """Whether two triangles have more in common than their corners and edges; also in a plane."""
+    for one, other in combinations(faces, 2):
         common = set(one) & set(other)
         if len(common) == 2:
-            assert volume(*(at[p] for p in {*one, *other})) != 0
+            if volume(*(at[p] for p in {*one, *other})) == 0:
+                return True
             continue
         for face, cut in ((one, other), (other, one)):
             for edge in combinations(face, 2):
-                if common.isdisjoint(edge):
-                    assert not may_meet([at[p] for p in edge], [at[p] for p in cut])
+                if common.isdisjoint(edge) and may_meet(
+                    [at[p] for p in edge], [at[p] for p in cut]
+                ):
+                    return True
+    return False
 
 
-@pytest.mark.parametrize(("first", "second"), [("ABP", "CDE"), ("FEQ", "CRB")])
-def test_steffens_polyhedron_has_two_line_symmetric_octahedra(first: str, second: str) -> None:
-    # A half turn exchanges opposite points: distances between all six are so.
-    at = places("mobility/steffen")
+@pytest.mark.parametrize("name", FACES)
+def test_a_flexible_polyhedron_is_a_sphere_whose_faces_do_not_cross(name: str) -> None:
+    at, made, faces = places(f"mobility/{name}"), framework(f"mobility/{name}"), FACES[name]
+    edges = [frozenset(pair) for face in faces for pair in combinations(face, 2)]
+    assert {frozenset(bar) for bar in made.bars} == set(edges)
+    assert all(edges.count(edge) == 2 for edge in edges)
+    assert len(at) - len(made.bars) + len(faces) == 2
+    assert not cross_each_other(at, faces)
+
+
+@pytest.mark.parametrize(
+    ("name", "first", "second"),
+    [
+        ("steffen", "ABP", "CDE"),
+        ("steffen", "FEQ", "CRB"),
+        ("connelly", "ABC", "DEF"),
+        # Two points in the mirror plane, two pairs of others.
+        ("connelly", "CDE", "CQP"),
+        ("connelly", "FDE", "FQP"),
+        ("connelly", "DBF", "DSR"),
+        ("connelly", "TBF", "TSR"),
+    ],
+)
+def test_octahedra_of_flexible_polyhedra_are_symmetric(name: str, first: str, second: str) -> None:
+    # A half turn or a mirror exchanges points: distances between all of them are so.
+    at = places(f"mobility/{name}")
     image = dict(zip(first + second, second + first, strict=True))
-    for p, q in combinations(first + second, 2):
+    for p, q in combinations(image, 2):
         gap, turned = difference(at[p], at[q]), difference(at[image[p]], at[image[q]])
         assert dot(gap, gap) == dot(turned, turned)
+
+
+@pytest.mark.parametrize("name", FACES)
+def test_a_flexible_polyhedron_moves_without_crossing(name: str) -> None:
+    """By Newton's method in doubles, from the reference to where a pair of points is elsewhere."""
+    made, at = framework(f"mobility/{name}"), places(f"mobility/{name}")
+    index = {point: k for k, point in enumerate(made.points)}
+    i, j = np.array([(index[a], index[b]) for a, b in made.bars]).T
+    start = np.array([[float(c) for c in at[p]] for p in made.points])
+    squares = np.sum((start[i] - start[j]) ** 2, axis=1)
+
+    def stretch(x: np.ndarray) -> np.ndarray:
+        return np.sum((x[i] - x[j]) ** 2, axis=1) - squares
+
+    def rigidity(x: np.ndarray) -> np.ndarray:
+        rows, bars = np.zeros((len(i), len(x), 3)), np.arange(len(i))
+        rows[bars, i], rows[bars, j] = 2 * (x[i] - x[j]), 2 * (x[j] - x[i])
+        return rows.reshape(len(i), -1)
+
+    def rank_of(x: np.ndarray) -> int:
+        sizes = np.linalg.svd(rigidity(x), compute_uv=False)
+        assert not ((sizes > 1e-12 * sizes[0]) & (sizes < 1e-5 * sizes[0])).any()
+        return int((sizes > 1e-8 * sizes[0]).sum())
+
+    assert rank_of(start) == 3 * len(start) - 7
+    # The one freedom besides those of a body.
+    center = start - start.mean(axis=0)
+    whole = [np.cross(e, center) for e in np.eye(3)]
+    whole += [np.tile(e, (len(start), 1)) for e in np.eye(3)]
+    _, _, directions = np.linalg.svd(np.vstack([rigidity(start), np.reshape(whole, (6, -1))]))
+    velocity = directions[-1].reshape(start.shape)
+    x = start + velocity / np.abs(velocity).max()
+    for _ in range(8):
+        step, *_ = np.linalg.lstsq(rigidity(x), stretch(x), rcond=1e-8)
+        x = x - step.reshape(x.shape)
+    assert np.abs(stretch(x)).max() < 1e-12 * squares.max()
+    assert rank_of(x) == 3 * len(start) - 7
+    gaps = [np.linalg.norm(y[:, None] - y[None], axis=2) for y in (start, x)]
+    assert np.abs(gaps[1] - gaps[0]).max() > 0.1
+    assert not cross_each_other(dict(zip(made.points, x.tolist(), strict=True)), FACES[name])
 
 
 @pytest.mark.parametrize("seed", [*range(10), 17])
