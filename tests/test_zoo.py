@@ -6,6 +6,7 @@ import pytest
 from linkages import CASES
 from solved import answer, shipped
 
+import nag
 from nag.mechanism.problem import problem_of
 from nag.report.agreement import AgreementKind, compare
 
@@ -18,6 +19,7 @@ ZOO = sorted(
 SLOW = {
     "planar/cube-graph",
     "planar/dixon-2-k44",
+    "planar/kinematotropic-square",
     "planar/roberts-cognates",
     "planar/wunderlich-12-bar",
     "spatial/general-7r",
@@ -48,3 +50,10 @@ def test_every_linkage_of_the_zoo_names_its_sources() -> None:
         truth = shipped(name).truth
         assert truth, name
         assert all(t.source for t in truth), name
+
+
+def test_motions_of_one_and_two_freedoms_meet_where_a_crank_folds_a_rhombus() -> None:
+    report = nag.mobility(shipped("planar/kinematotropic-crank"))
+    assert report.components == ((2, 4), (1, 4))
+    assert (report.tangent_dimension, report.local_dimension) == (3, 2)
+    assert "motions with 1 and 2 freedoms meet here" in report.sentence

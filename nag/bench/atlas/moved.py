@@ -136,7 +136,10 @@ SPARSE: dict[str, tuple[str, ...]] = {
         "robots/3-rps-120", "robots/3-upu-snu-120", "robots/3-upu-tsai-120",
         "robots/3-upu-tsai-sevenths",
     ),
-    "sparse-planar": ("planar/eight-bar", "planar/six-bar-placed"),
+    "sparse-planar": (
+        "planar/eight-bar", "planar/six-bar-placed", "planar/kinematotropic-crank",
+        "planar/kinematotropic-square",
+    ),
     "sparse-spatial": ("spatial/sarrus-kinematotropic", "spatial/universal-shaft"),
     "sparse-large": ("benchmarks/rhombus-chain-5",),
 }  # fmt: skip
