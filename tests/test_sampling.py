@@ -106,6 +106,20 @@ def test_the_nearest_real_point_is_found(of, near, nearest) -> None:
     assert abs(found.distances[0] - np.linalg.norm(np.subtract(near, nearest))) < 1e-8
 
 
+@pytest.mark.parametrize("near", [[0, 0, 3], [0, 0, 40], [0.1, 0, 3], [-7, 2, 5]])
+def test_points_that_have_arrived_are_stationary_to_rounding(near) -> None:
+    # Inside a paraboloid the set bends towards the given point; from its axis a circle is nearest.
+    of = system("x y z", "z - x^2 - y^2")
+    found = real_points_near(of, decompose(of).components[0], near, starts=6)
+    x, y, _ = found.points[0]
+    gap = found.points[0] - near
+    tangents = np.array([[1, 0, 2 * x], [0, 1, 2 * y]])
+    assert found.stationary.all()
+    assert np.abs(tangents @ gap).max() < 1e-9 * (1 + np.linalg.norm(near)) * (1 + abs(x) + abs(y))
+    if near[:2] == [0, 0]:
+        assert abs(found.distances[0] - np.sqrt(near[2] - 0.25)) < 1e-12 * near[2]
+
+
 def test_a_component_without_real_points_yields_none_and_says_so() -> None:
     of = system("x y", "x^2 + y^2 + 1")
     found = real_points_near(of, decompose(of).components[0], [0, 0])

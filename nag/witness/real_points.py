@@ -43,6 +43,8 @@ ALMOST = 1e-5
 # Part of such a step that is the last one tried; and directions along the component, beside the
 # longest, in which the variables do not change.
 SHORTEST, STILL = 1e-6, 1e-10
+# Rounding of distances, and of points between which derivatives are compared, relative to sizes.
+LEVEL, APART = 1e-15, 1e-5
 
 
 @dataclass(frozen=True, eq=False)
@@ -203,26 +205,57 @@ def _nearest_zeros(
 def _nearest(
     fibre: Fibre, everything: Evaluator, z: np.ndarray, near: np.ndarray
 ) -> tuple[np.ndarray, float]:
-    cut, d = fibre.cut, fibre.dimension
-    reach = 1.0
+    n, size = fibre.cut.n, 1 + float(np.linalg.norm(near))
+    reach, last = 1.0, np.inf
     for _ in range(MOST_STEPS):
-        x = z[: cut.n]
-        _, _, vh = np.linalg.svd(cut.evaluator.balanced_jacobian(z).real)
-        tangent = vh[len(z) - d :].T
-        # The distance is measured in the variables, and unknowns that deflation added follow.
-        step = tangent[: cut.n] @ np.linalg.lstsq(tangent[: cut.n], near - x, rcond=STILL)[0]
-        pull = float(np.linalg.norm(step)) / (1 + float(np.linalg.norm(near)))
-        if pull < STATIONARY:
+        x = z[:n]
+        pull, step = _step_towards(fibre, z, near)
+        # Distances do not tell short steps from none, which their lengths do.
+        if pull < STATIONARY * size or (pull < ALMOST * size and pull >= last):
             break
-        trial = _real_zero(fibre, everything, fibre.lifted(x + reach * step).real)
-        gain = np.inf if trial is None else np.linalg.norm(trial[: cut.n] - near)
-        if gain < np.linalg.norm(x - near):
-            z, reach = trial, min(1.0, 2 * reach)
-        elif reach < SHORTEST:
-            break
-        else:
+        last = pull
+        while reach >= SHORTEST:
+            trial = _real_zero(fibre, everything, fibre.lifted(x + reach * step).real)
+            gain = np.inf if trial is None else np.linalg.norm(trial[:n] - near)
+            if gain < np.linalg.norm(x - near) + LEVEL * size:
+                break
             reach /= 4
-    return z[: cut.n], pull
+        else:
+            break
+        z, reach = trial, min(1.0, 2 * reach)
+    return z[:n], pull / size
+
+
+def _step_towards(fibre: Fibre, z: np.ndarray, near: np.ndarray) -> tuple[float, np.ndarray]:
+    """The distance to the foot of ``near`` on the tangent space, and a step along that space.
+
+    The step is Newton's for a stationary distance, where that leads downhill: the curvature of the
+    set is the equations' second derivatives, each times its Lagrange multiplier. Else it leads to
+    the foot.
+    """
+    n, evaluator = fibre.cut.n, fibre.cut.evaluator
+    _, _, vh = np.linalg.svd(evaluator.balanced_jacobian(z).real)
+    tangent = vh[len(z) - fibre.dimension :].T
+    # The distance is measured in the variables, and unknowns that deflation added follow.
+    along = tangent[:n]
+    foot = along @ np.linalg.lstsq(along, near - z[:n], rcond=STILL)[0]
+    pull = float(np.linalg.norm(foot))
+    if not len(fibre.cut.polynomials) or not fibre.dimension:
+        return pull, foot
+    normal = np.concatenate([z[:n] - near, np.zeros(len(z) - n)])
+    multipliers = np.linalg.lstsq(evaluator.jacobian(z).real.T, normal, rcond=None)[0]
+    aside = APART * max(1.0, float(np.abs(z).max())) * tangent.T
+    slopes = evaluator.placed_derivatives(len(z))(np.vstack([z + aside, z - aside])).real
+    turned = (slopes[: len(aside)] - slopes[len(aside) :]).transpose(0, 2, 1) @ multipliers
+    bent = turned @ tangent / (2 * np.linalg.norm(aside, axis=1, keepdims=True))
+    curvature = along.T @ along - (bent + bent.T) / 2
+    try:
+        np.linalg.cholesky(curvature)
+    except np.linalg.LinAlgError:
+        return pull, foot
+    step = along @ np.linalg.solve(curvature, along.T @ (near - z[:n]))
+    # No point that is nearer than this one lies further from it.
+    return pull, step if np.linalg.norm(step) <= 2 * np.linalg.norm(near - z[:n]) else foot
 
 
 def _real_zero(fibre: Fibre, everything: Evaluator, z: np.ndarray) -> np.ndarray | None:
