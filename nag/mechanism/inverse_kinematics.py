@@ -129,62 +129,57 @@ def find_reached_pose(
     back = conjugate_pose(basis) * scale
     legs = [[_generators(e, scale) for e in own] for own in chains]
     one = np.eye(8)[:1]
-    first = np.linalg.lstsq(basis.T, pose, rcond=None)[0]
-    for _ in range(STARTS):
-        weights = [[_unit(_random(rng, (1, len(g)), True)) for g in own] for own in legs]
-        own = _unit(first[None])
-        for _ in range(STEPS):
-            # A leg's displacement, and the pose's back, are to be none together.
-            found = [
-                _across_poses([*generators, back], [*joints, own], one)
-                for generators, joints in zip(legs, weights, strict=True)
-            ]
-            residuals = np.array([size[0] for size, _, _ in found])
-            study = own[0] @ basis
-            values = forms.values(study[None] + 0j)[0].real
-            if max(residuals.max(), np.abs(values).max(initial=0.0)) < REACHED / 10:
-                regular = all(map(_are_displacements, legs, weights))
-                return (study, residuals) if regular and _is_pose(study, length) else None
-            own, weights = _step_together(weights, own, basis, found, values, forms)
+    slopes_of_forms = forms.placed_derivatives(8)
+    weights = [[_unit(_random(rng, (STARTS, len(g)), True)) for g in own] for own in legs]
+    own = np.repeat(_unit(np.linalg.lstsq(basis.T, pose, rcond=None)[0][None]), STARTS, axis=0)
+    for _ in range(STEPS):
+        # A leg's displacement, and the pose's back, are to be none together.
+        found = [
+            _across_poses([*generators, back], [*joints, own], one)
+            for generators, joints in zip(legs, weights, strict=True)
+        ]
+        residuals = np.array([size for size, _, _ in found])
+        studies = own @ basis
+        values = forms.values(studies).real
+        arrived = np.vstack([residuals, np.abs(values.T)]).max(axis=0) < REACHED / 10
+        regular = np.array([_are_displacements(*each) for each in zip(legs, weights, strict=True)])
+        good = arrived & regular.all(axis=0) & _are_poses(studies, length)
+        if good.any():
+            k = int(np.argmax(good))
+            return studies[k], residuals[:, k]
+        if arrived.all():
+            return None
+        slopes = slopes_of_forms(studies).real @ basis.T
+        own, weights = _step_together(weights, own, found, values, slopes)
     return None
 
 
-def _is_pose(study: np.ndarray, length: float) -> bool:
-    """Whether the real part is not zero beside the other one."""
-    scaled = study * np.array([1.0] * 4 + [1.0 / length] * 4)
-    return bool(np.linalg.norm(scaled[:4]) > LEAST_SHARE * np.linalg.norm(scaled))
+def _are_poses(studies: np.ndarray, length: float) -> np.ndarray:
+    """Where the real part is not zero beside the other one, shape ``(s,)``."""
+    scaled = studies * np.array([1.0] * 4 + [1.0 / length] * 4)
+    whole = np.linalg.norm(scaled, axis=1)
+    return np.asarray(np.linalg.norm(scaled[:, :4], axis=1) > LEAST_SHARE * whole)
 
 
 def _step_together(
     weights: Sequence[Sequence[np.ndarray]],
     own: np.ndarray,
-    basis: np.ndarray,
     found: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray]],
     values: np.ndarray,
-    forms: Evaluator,
+    slopes_of_forms: np.ndarray,
 ) -> tuple[np.ndarray, list[list[np.ndarray]]]:
-    """A step of the pose's coordinates and of all joints', see `_step`."""
-    m, sizes = len(basis), [sum(w.shape[1] for w in each) for each in weights]
-    total = 8 * len(weights) + len(values)
-    derivative, rest = np.zeros((1, total, sum(sizes) + m)), np.zeros((1, total))
-    place = 0
-    for k, (size, (_, across, slopes)) in enumerate(zip(sizes, found, strict=True)):
-        rows = slice(8 * k, 8 * k + 8)
-        rest[0, rows] = across[0]
-        derivative[0, rows, place : place + size] = slopes[0, :, :size]
-        derivative[0, rows, sum(sizes) :] = slopes[0, :, size:]
-        place += size
-    if len(values):
-        rest[0, 8 * len(weights) :] = values
-        slopes = forms.jacobian(own[0] @ basis + 0j).real @ basis.T
-        derivative[0, 8 * len(weights) :, sum(sizes) :] = slopes
-    moved = _step([w for each in weights for w in each] + [own], rest, derivative)
-    *joints, own = moved
-    together, taken = [], 0
-    for each in weights:
-        together.append(joints[taken : taken + len(each)])
-        taken += len(each)
-    return own, together
+    """A step of the pose's coordinates and of all joints' of each start, see `_step`."""
+    sizes = [sum(w.shape[1] for w in each) for each in weights]
+    shared, rows = sum(sizes), 8 * len(weights)
+    rest = np.concatenate([*(across for _, across, _ in found), values], axis=1)
+    derivative = np.zeros((*rest.shape, shared + own.shape[1]))
+    for k, (end, (_, _, slopes)) in enumerate(zip(np.cumsum(sizes), found, strict=True)):
+        derivative[:, 8 * k : 8 * k + 8, end - sizes[k] : end] = slopes[:, :, : sizes[k]]
+        derivative[:, 8 * k : 8 * k + 8, shared:] = slopes[:, :, sizes[k] :]
+    derivative[:, rows:, shared:] = slopes_of_forms
+    *joints, own = _step([w for each in weights for w in each] + [own], rest, derivative)
+    ends = np.cumsum([len(each) for each in weights])
+    return own, [joints[end - len(each) : end] for end, each in zip(ends, weights, strict=True)]
 
 
 def find_joints(

@@ -652,8 +652,10 @@ def _transition(
 ) -> Transition:
     if all(mode.is_linear for mode in pair):
         return Transition(indices, _linear_transition(*pair))
-    if _are_apart(model, pair, run):
-        return Transition(indices, ())
+    common = _common_zeros(model, pair, run)
+    if common.complete and all(_is_on_both(model, pair, c, run) for c in common.components):
+        kinds = tuple((c.dimension, c.degree) for c in common.components)
+        return Transition(indices, kinds)
     try:
         met = intersect_components(model.system, pair[0].component, pair[1].component, run=run)
         kinds = tuple(_pose_kind(model, c, run) for c in met.components)
@@ -680,10 +682,32 @@ def _linear_transition(first: OperationMode, second: OperationMode) -> tuple[tup
     return ((len(basis) - 1, 1),) if basis and norm_form().compose(point) else ()
 
 
-def _are_apart(model: PlatformModel, pair: tuple[OperationMode, OperationMode], run: Run) -> bool:
-    """Whether equations that both modes satisfy together have no displacement in common."""
+def _common_zeros(
+    model: PlatformModel, pair: tuple[OperationMode, OperationMode], run: Run
+) -> Decomposition:
+    """The zeros of the equations that both modes satisfy: where they meet, and perhaps more."""
     pose = _pose(model)
     more = [f.compose(pose) for mode in pair for f in (*mode.linear, *mode.quadratic)]
     system = replace(model.system, polynomials=(*more, *model.system.polynomials))
-    found = decompose(system, run=run)
-    return found.complete and not found.components
+    return decompose(system, run=run)
+
+
+def _is_on_both(
+    model: PlatformModel,
+    pair: tuple[OperationMode, OperationMode],
+    component: WitnessSet,
+    run: Run,
+) -> bool:
+    """Whether a component of the common zeros lies on both modes, which then meet in it.
+
+    Of models that keep joints, whose modes are images of components, it is not asked.
+    """
+    if model.charts.n:
+        return False
+    point, accuracy = component.points[0], max(LEAST, component.accuracy)
+    # Poses of a linear mode are all that satisfy its equations.
+    return all(
+        mode.is_linear
+        or membership_in(model.system, mode.component, point, accuracy, run) is Membership.MEMBER
+        for mode in pair
+    )
