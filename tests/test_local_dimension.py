@@ -248,6 +248,37 @@ def test_complex_points_that_are_no_solutions_are_refused_as_real_ones_are(
         nag.local(line, (1, 2))
 
 
+@pytest.mark.parametrize("digits", [8, 9, 12])
+@pytest.mark.parametrize(
+    "equations",
+    [
+        ["x^2 + y^2 + I*x - 2", "x*y - 1 - I"],
+        ["x^5 + y^3 + I*x - 2", "x*y^6 - 1 - I"],
+        ["x^5 + y^3 + 3*x - 2", "x*y^6 - 7"],
+    ],
+)
+def test_zeros_that_are_written_in_eight_digits_are_solutions(
+    equations: list[str], digits: int, tmp_path
+) -> None:
+    def written(z: complex) -> str:
+        return f"{z.real:.{digits - 1}e} + {z.imag:.{digits - 1}e}*I"
+
+    file = tmp_path / "case.toml"
+    head = 'kind = "system"\ntitle = "t"\nvariables = ["x", "y"]\n'
+    head += f"equations = {json.dumps(equations)}\n"
+    file.write_text(head)
+    points = [z[:2] for z in nag.solve(file).points]
+    file.write_text(
+        head
+        + "".join(
+            f'[[point]]\nname = "p{k}"\nat = {{ x = "{written(x)}", y = "{written(y)}" }}\n'
+            for k, (x, y) in enumerate(points)
+        )
+    )
+    for k in range(len(points)):
+        assert nag.local(file, f"p{k}").isolated
+
+
 def squares(count: int) -> str:
     """x of the last number is the first one squared so many times."""
     return ", ".join(f"x{i + 1} - x{i}^2" for i in range(count))

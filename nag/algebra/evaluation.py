@@ -93,6 +93,17 @@ class Evaluator:
             return result
         return np.abs(self.values(points)) / self.sizes(points)
 
+    @np.errstate(over="ignore", invalid="ignore")
+    def rounding_residuals(self, point: np.ndarray, error: float) -> np.ndarray:
+        """Residuals, shape ``(rows,)``, that rounding a zero to the point leaves, to first order.
+
+        Args:
+            error: of each coordinate relative to its size, or to one if that is larger.
+        """
+        moved = error * np.maximum(np.abs(point), 1.0)
+        left = np.abs(self.jacobian(point)) @ moved / self.sizes(np.asarray(point)[None])[0]
+        return np.where(np.isfinite(left), left, 0.0)
+
     def _far_residuals(self, point: np.ndarray) -> np.ndarray:
         """Residuals where powers of the coordinates may leave the range of doubles."""
         size = float(np.abs(point).max())

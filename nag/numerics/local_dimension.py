@@ -33,6 +33,9 @@ from nag.numerics.doubles import ROUGH
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.text.table import lines_of, one_line, point_text
 
+# Decides: Error of a coordinate that was written down, beside its size or one: half a unit of the
+# eighth digit, in its real and in its imaginary part. What that leaves of an equation is rounding.
+WRITTEN = 2**0.5 * 0.5e-7
 # More coranks of a sequence are left to the export.
 MOST_CORANKS = 12
 
@@ -220,8 +223,8 @@ def local_dimension_near(
 
     Raises:
         ValueError: if an argument makes no sense; the message says which, and what would.
-        NoSolution: if the point, real or complex, does not satisfy the equations, not even to
-            rounding.
+        NoSolution: if the point, real or complex, does not satisfy the equations, not even as well
+            as one that is rounded to eight digits.
     """
     check_type(system, PolynomialSystem, "system", "a nag.PolynomialSystem: nag.system(equations)")
     given = coordinates(point, system.variables, system.imaginary)
@@ -229,8 +232,10 @@ def local_dimension_near(
         with contextlib.suppress(NoSolution):
             return local_dimension(system, point, seed=seed)
     at = np.array([x if isinstance(x, complex) else complex(float(x)) for x in given])
-    residuals = Evaluator.of(system.polynomials, system.n).residuals(at[None])[0]
-    wrong = np.flatnonzero(~(residuals < ROUGH)).tolist()
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    residuals = evaluator.residuals(at[None])[0]
+    allowed = np.maximum(ROUGH, evaluator.rounding_residuals(at, WRITTEN))
+    wrong = np.flatnonzero(~(residuals < allowed)).tolist()
     if wrong:
         text = f"equation {wrong[0] + 1} does not vanish at the point"
         raise NoSolution(f"{text}; its relative residual is {residuals[wrong[0]]:.1e}")
