@@ -66,6 +66,17 @@ def test_exports_are_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
         assert text in capsys.readouterr().out
 
 
+def test_a_case_is_shown_with_other_values_of_its_parameters(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, export = str(CASES / "slider-crank.toml"), tmp_path / "found.json"
+    assert main([case, "--set", "L1=5/7"]) == 0
+    assert "L1 = 5/7" in capsys.readouterr().out
+    nag.write(nag.decompose("x^2 + y^2 - 1"), export)
+    assert main([str(export), "--set", "L1=5/7"]) == 2
+    assert capsys.readouterr().err == f"nag: {export}: is an export; --set is for cases\n"
+
+
 @pytest.mark.parametrize("word", ["missing.toml", "folder/missing"])
 def test_a_file_that_is_not_there_is_one_line(
     word: str, capsys: pytest.CaptureFixture[str]

@@ -21,6 +21,7 @@ import nag
 import nag.decomposition
 from nag.cli import main
 from nag.cli.command_line import COMMANDS, parser
+from nag.cli.completion import command_words
 from nag.files.export import FORMAT, VERSION
 from nag.files.json_schema import schema
 
@@ -354,3 +355,23 @@ def test_every_option_is_told_in_the_pages(command: str) -> None:
             left += action.choices.values() if isinstance(action.choices, dict) else ()
             for option in action.option_strings:
                 assert option in ("-h", "--help") or re.search(rf"{option}\b", told), option
+
+
+def test_commands_have_the_common_options_that_the_page_says() -> None:
+    head, exceptions = COMMAND_PAGE.split("| command | has none of | because |")
+    exceptions = exceptions.partition("\n## ")[0]
+    option = r"`(--[a-z-]+)"
+    rows = [row.split("|")[1] for row in head.splitlines() if row.startswith("| `--")]
+    common = {name for row in rows for name in re.findall(option, row)}
+    assert len(common) == 11
+    lacking = {}
+    for row in re.findall(r"^\| `[a-z]+` \|.*", exceptions, re.MULTILINE):
+        _, command, lacked, *_ = row.split("|")
+        lacking[command.strip(" `")] = set(re.findall(option, lacked))
+    (without,) = re.findall(r"^(`init`.*)$", exceptions, re.MULTILINE)
+    found = {name: common - set(options) for name, options in command_words().items()}
+    none_of_them, listed = re.findall(r"`(\w+)` and `(\w+)`", without)
+    assert {name: found.pop(name) for name in none_of_them} == dict.fromkeys(none_of_them, common)
+    for name in listed:
+        assert found.pop(name)
+    assert {name: options for name, options in found.items() if options} == lacking

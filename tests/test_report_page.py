@@ -30,6 +30,10 @@ def test_a_report_holds_the_answer_as_data(bennett: str, tmp_path: Path) -> None
     )
     export = tmp_path / "bennett.json"
     export.write_text(data)
+    beside = tmp_path / "beside.json"
+    words = ["report", str(CASES / "bennett.toml"), "--html", str(tmp_path / "page.html")]
+    assert main([*words, "--json", str(beside), "--quiet"]) == 0
+    assert beside.read_text() == data
     found = nag.read(export)
     assert [(c.dimension, c.degree) for c in found] == [(1, 2)] and found.complete
     assert json.loads(data)["case"]["file"] == "bennett.toml"

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import argparse
 
-from nag.cli.arguments import UsageError, add_case, add_json, add_robot, read_problem
+from nag.cli.arguments import (
+    UsageError,
+    add_case,
+    add_json,
+    add_quiet,
+    add_robot,
+    read_problem,
+)
 from nag.cli.running import CommandAnswer, document_head, name_case
 from nag.errors import NagError
 
@@ -16,6 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_case(parser)
     add_robot(parser)
     add_json(parser)
+    add_quiet(parser)
     parser.add_argument(
         "--format",
         dest="written",

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_case, add_robot, add_tracking, read_problem
+from nag.cli.arguments import UsageError, add_case, add_robot, add_running, read_problem
 from nag.cli.running import CommandAnswer, chosen_run, run_row, write_document
 from nag.errors import NagError
 
@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag report`` has besides those of every command that runs a case."""
     add_case(parser)
     add_robot(parser)
-    add_tracking(parser)
+    add_running(parser)
     parser.add_argument(
         "--html",
         metavar="FILE",
@@ -45,7 +45,12 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.text.table import sheet
     from nag.witness.shown import title_line
 
-    decomposition = problem.decompose(run=chosen_run(options))
+    head = Origin.of(case, problem).head
+
+    def document_of(early: Decomposition) -> dict[str, Any] | None:
+        return early.document(**head) if early.system == problem.system else None
+
+    decomposition = problem.decompose(run=chosen_run(options, document_of))
     points = through_points(decomposition, problem.named, options.threads)
     decomposition = note_doubts(decomposition, points)
     mobility = _mobility(options, problem)
@@ -59,7 +64,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         complete,
         moving,
         _sections(case, problem, decomposition, mobility, why_not),
-        lay_out(decomposition.document(**Origin.of(case, problem).head)) + "\n",
+        lay_out(decomposition.document(**head)) + "\n",
         os.path.basename(case.path).removesuffix(".toml"),
         f"seed {options.seed}, settings {options.settings}",
     )
@@ -70,7 +75,11 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         ("motion", why_not or "moves in the page"),
         ("page", f"{options.html}, {len(page.encode()) / BYTES_IN_A_MEGABYTE:.2f} MB"),
     ]
-    return CommandAnswer(sheet(case.title, rows, [run_row(options)]), complete)
+    return CommandAnswer(
+        sheet(case.title, rows, [run_row(options)]),
+        complete,
+        lambda: decomposition.document(**head),
+    )
 
 
 def _mobility(options: argparse.Namespace, problem: Problem) -> MobilityReport | None:

@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import read_case_file
+from nag.cli.arguments import UsageError, add_format, add_parameters, read_given_case
 from nag.cli.running import CommandAnswer
 from nag.cli.witness_input import is_export
 
@@ -50,13 +50,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="case file, system in another program's format, or what a command wrote with --json",
     )
+    add_format(parser)
+    add_parameters(parser)
 
 
 def run(options: argparse.Namespace) -> CommandAnswer:
     """What a file holds."""
     from nag.text.table import sheet
 
-    title, blocks, questions = _describe(options.case)
+    title, blocks, questions = _describe(options)
     if not questions:
         return CommandAnswer(sheet(title, *blocks))
     width = max(len(f"nag {name}") for name, _ in questions)
@@ -66,12 +68,17 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     return CommandAnswer(sheet(title, *blocks, head, asked, width=width))
 
 
-def _describe(path: str) -> tuple[str, list[list[str] | list[Row]], tuple[tuple[str, str], ...]]:
+def _describe(
+    options: argparse.Namespace,
+) -> tuple[str, list[list[str] | list[Row]], tuple[tuple[str, str], ...]]:
     """Title, what is said below it, and questions."""
     from nag.witness.witness import Decomposition
 
+    path = options.case
     if not is_export(path):
-        return _describe_case(read_case_file(path))
+        return _describe_case(read_given_case(options))
+    if options.set:
+        raise UsageError(f"{path}: is an export; --set is for cases")
     from nag.questions import read
 
     found = read(path)
