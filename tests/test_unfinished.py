@@ -6,6 +6,7 @@ import argparse
 import json
 from collections import Counter
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -84,7 +85,7 @@ def test_members_circuits_modes_and_local_answers_are_told_when_they_are_known()
     circles = ["x^2 + y^2 = r", "x = a*y"]
     values = [[2 + i / 1000, 1] for i in range(4000)]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("nag.solving.family_members.BETWEEN", 0.0)
+        patch.setattr("nag.tracking.run.BETWEEN", 0.0)
         whole = nag.solve_family(circles, ["r", "a"], values, found=members.append)
     assert [int(f.complete.sum()) for f in members] == [1000, 2000, 3000] and whole.complete.all()
     assert all(np.array_equal(f.points, whole.points[: len(f)]) for f in members)
@@ -92,6 +93,24 @@ def test_members_circuits_modes_and_local_answers_are_told_when_they_are_known()
     moving = nag.motion("cases/planar-four-bar.toml", circuit="all", found=moves.append)
     assert moves and moves[-1].notes[-1] == ENDED_EARLY and not moves[-1].complete
     assert [c.length for c in moves[-1].circuits] == [c.length for c in moving.circuits]
+
+    driven = []
+    with pytest.MonkeyPatch.context() as patch:
+        # Telling takes no time.
+        patch.setattr("nag.tracking.run.time", SimpleNamespace(monotonic=lambda: 0.0))
+        patch.setattr("nag.tracking.run.BETWEEN", 0.0)
+        through = nag.driven_motion(
+            "cases/bennett.toml", "J0", [0.2, 0.3, 0.4], found=driven.append
+        )
+    assert [len(early) for early in driven] == [1, 2] and len(through) == 3 and through.complete
+    for early in driven:
+        assert not early.complete and early.notes[0] == ENDED_EARLY
+        assert (
+            early.values == through.values[: len(early)] and early.motions == through[: len(early)]
+        )
+    held: list[Any] = []
+    nag.motion("cases/bennett.toml", drive=("J0", 0.2), found=held.append)
+    assert all(early.drive == through[0].drive and not early.complete for early in held) and held
 
     robot = nag.read_case("cases/robots/3-upu-tsai-120.toml")
     found = nag.modes(robot, found=modes.append)
@@ -148,6 +167,8 @@ def test_where_the_solutions_of_members_are_is_said_if_they_were_written(
     ("command", "case", "rest"),
     [
         ("motion", "planar-four-bar", ["--circuit", "all"]),
+        ("motion", "bennett", ["--drive", "J0=20"]),
+        ("motion", "bennett", ["--drive", "J0=20:40:3"]),
         ("modes", "robots/tripteron", []),
         ("mobility", "bennett", []),
         ("decompose", "four-bar", ["--sweep", "a=2:3:2"]),

@@ -33,6 +33,7 @@ from nag.kinematics import MOST_VALUES
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
+    from nag.kinematics.driven_motion import DrivenMotion
     from nag.kinematics.motion import Motion
     from nag.mechanism.problem import Problem
 
@@ -168,7 +169,6 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     }
     try:
         if ranges:
-            held["run"] = chosen_run(options)
             return _run_through(options, case, problem, ranges[0], held)
         return _run_once(options, case, problem, held)
     except NagError as error:
@@ -225,7 +225,19 @@ def _run_through(
 
     if options.circuit is not None:
         raise UsageError("--circuit: leave it out where a joint is driven through values")
-    found = driven_motion(problem, *drive, **held)
+
+    def document_of(early: DrivenMotion) -> dict[str, Any]:
+        return answer_document(options, name_case(case), fields_of(early), False)
+
+    def fields_of(found: DrivenMotion) -> dict[str, Any]:
+        return {
+            "format": DRIVEN_FORMAT,
+            "formulation": problem.formulation,
+            "samples": options.samples,
+            **found.document(),
+        }
+
+    found = driven_motion(problem, *drive, **held, run=chosen_run(options, document_of))
     if options.csv is not None:
         write_document(_table_text(found.table(angles=options.angles)), options.csv, "csv")
     tail = [("open", f"value {i + 1}: {note}") for i, m in enumerate(found) for note in m.notes]
@@ -236,13 +248,7 @@ def _run_through(
         write_document(page, options.html, "html")
     head = [row for row in motion_rows(found[0]) if row[0] in ("model", "mobility", "idle")]
     blocks: list[Any] = [head, driven_rows(found), continuation_rows(found)]
-    fields = {
-        "format": DRIVEN_FORMAT,
-        "formulation": problem.formulation,
-        "samples": options.samples,
-        **found.document(),
-    }
-    return answer_of(options, name_case(case), blocks, tail, fields, found.complete)
+    return answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
 
 
 def _circuit_blocks(found: Motion) -> Iterator[Any]:

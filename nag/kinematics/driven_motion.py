@@ -40,7 +40,7 @@ from nag.kinematics.scene import Scene, scene_of
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.numerics.read_only import equal_values
 from nag.text.table import one_line
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, TellFound, takes_run
 
 # Samples of a circuit that are compared with those of another one.
 COMPARED = 60
@@ -70,19 +70,21 @@ class DrivenMotion(Sequence[Motion]):
         values: in radians, or lengths.
         motions: what is left at each.
         continuations: how circuits and assemblies go on, by where they begin.
+        notes: what is not known, besides what each of the motions says.
     """
 
     coordinate: Coordinate
     values: tuple[float, ...]
     motions: tuple[Motion, ...]
     continuations: tuple[Continuation, ...]
+    notes: tuple[str, ...] = ()
 
     __eq__ = equal_values
 
     @property
     def complete(self) -> bool:
         """Whether nothing is left open at any value."""
-        return all(motion.complete for motion in self.motions)
+        return not self.notes and all(motion.complete for motion in self.motions)
 
     def __len__(self) -> int:
         return len(self.motions)
@@ -139,6 +141,7 @@ class DrivenMotion(Sequence[Motion]):
         return {
             "coordinate": self.coordinate.name,
             "kind": self.coordinate.kind,
+            "notes": list(self.notes),
             "values": list(self.values),
             "motions": [motion.document() for motion in self.motions],
             "continuations": [
@@ -197,13 +200,24 @@ def driven_motion(
     scene = scene_of(problem)
     steps = [Drive(coordinate, value) for value in numbers]
     column = check_drive(scene, steps[0])
-    motions = _motions(problem, steps, others, poses, samples, run)
-    return DrivenMotion(
-        joint_coordinates(scene)[column],
-        tuple(each.value for each in steps),
-        tuple(motions),
-        _continuations(motions),
-    )
+    motions: list[Motion] = []
+
+    def through(notes: tuple[str, ...] = ()) -> DrivenMotion:
+        own = tuple(each.value for each in steps[: len(motions)])
+        named = joint_coordinates(scene)[column]
+        return DrivenMotion(named, own, tuple(motions), _continuations(motions), notes)
+
+    def first_values() -> DrivenMotion:
+        rest = f"{len(steps) - len(motions)} of {len(steps)} values were not reached"
+        return through((ENDED_EARLY, rest))
+
+    with TellFound(run, first_values) as tell:
+        run.tell("values", 0, len(steps))
+        for motion in _motions(problem, steps, others, poses, samples, run.without_found):
+            motions.append(motion)
+            run.tell("values", len(motions), len(steps))
+            tell(len(motions) < len(steps))
+    return through()
 
 
 def _motions(
@@ -213,19 +227,16 @@ def _motions(
     poses: Sequence[Pose],
     samples: int,
     run: Run,
-) -> list[Motion]:
-    """What is left at each value."""
+) -> Iterator[Motion]:
+    """What is left at each value, one after another."""
     if not others and not poses and not has_several_freedoms(problem, run):
         try:
             return drive_circuits(problem, steps, samples=samples, run=run)
         except FreedomsError:
             pass
-    found = []
-    for i, step in enumerate(steps):
-        if run.progress is not None:
-            run.progress("values", i, len(steps))
-        found.append(held_motion(problem, (*others, step), poses, samples=samples, run=run))
-    return found
+    return (
+        held_motion(problem, (*others, step), poses, samples=samples, run=run) for step in steps
+    )
 
 
 def _continuations(motions: Sequence[Motion]) -> tuple[Continuation, ...]:

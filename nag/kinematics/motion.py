@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal, get_args
 
@@ -447,14 +447,18 @@ def held_motion(
         NagError: as `nag.kinematics.driven.hold` does.
     """
     left, scene = hold(problem, drives, poses)
-    found, _ = _motion_on(left, scene, "all", samples, run, holding=True)
+
+    def with_held(found: Motion) -> Motion:
+        return replace(found, held=tuple(drives), poses=tuple(poses))
+
+    found, _ = _motion_on(left, scene, "all", samples, run.telling(with_held), holding=True)
     notes = list(found.notes)
     if not found.circuits and not found.assemblies and found.counted < 0:
         notes.append(
             "what is held asks for more than there are freedoms, and its numbers are taken as they "
             "are written: rounded ones leave nothing"
         )
-    return replace(found, held=tuple(drives), poses=tuple(poses), notes=tuple(notes))
+    return replace(with_held(found), notes=tuple(notes))
 
 
 def motion_of(
@@ -476,7 +480,8 @@ def motion_of(
     for each in drives:
         check_drive(scene, each)
     which: Which = circuit if scene.from_reference else "all"
-    found, made = _motion_on(problem, scene, which, samples, run, curve_of=curve_of)
+    told = run.telling(lambda found: replace(found, drive=drive))
+    found, made = _motion_on(problem, scene, which, samples, told, curve_of=curve_of)
     if drive is None:
         return found
     return _at_value(problem, found, made, drive, run)
@@ -484,13 +489,16 @@ def motion_of(
 
 def drive_circuits(
     problem: Problem, drives: Sequence[Drive], *, samples: int = SAMPLES, run: Run = DEFAULT_RUN
-) -> list[Motion]:
-    """All circuits of a mechanism of one freedom, with the assemblies at each of some values."""
+) -> Iterator[Motion]:
+    """All circuits of a mechanism of one freedom, with the assemblies at each of some values.
+
+    The circuits are found now, the assemblies when they are asked for.
+    """
     scene = scene_of(problem)
     for each in drives:
         check_drive(scene, each)
     found, made = _motion_on(problem, scene, "all", samples, run)
-    return [_at_value(problem, found, made, each, run) for each in drives]
+    return (_at_value(problem, found, made, each, run) for each in drives)
 
 
 def _at_value(
@@ -513,8 +521,9 @@ def _at_value(
             "circuits only"
         )
     elif unbounded:
+        alone = run.without_found
         try:
-            rest = held_motion(problem, [drive], samples=LEAST_SAMPLES, run=run)
+            rest = held_motion(problem, [drive], samples=LEAST_SAMPLES, run=alone)
             candidates += rest.assemblies
             notes += rest.notes
         except NagError as error:

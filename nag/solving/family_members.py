@@ -8,7 +8,6 @@ solved by itself, as `nag.solving.parameter.solve_targets` solves one.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
@@ -30,7 +29,7 @@ from nag.solving.start.family_monodromy import random_values
 from nag.text.table import count_text, data_frame, lines_of, one_line
 from nag.tracking import blocks
 from nag.tracking.paths import PathStatus
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, TellFound, takes_run
 from nag.tracking.settings import Settings, find_settings
 from nag.tracking.track import track, track_members
 
@@ -40,8 +39,6 @@ __all__ = ["FamilySolutions", "solve_family", "solve_members"]
 MEMBERS, PATHS = 1000, 1 << 16
 # Bytes of the results of one call.
 MOST_BYTES = 1 << 34
-# Seconds between two times that members are told of, at least.
-BETWEEN = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -333,59 +330,29 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
     complete = np.zeros(M, dtype=bool)
     found = FamilySolutions(solved, values, points, status, errors, one_by_one, complete)
     done = 0
+
+    def first_members() -> FamilySolutions:
+        # What is told stays as it is, while the others are solved.
+        arrays = ("values", "points", "status", "errors", "one_by_one", "complete")
+        return replace(found, **{name: getattr(found, name)[:done].copy() for name in arrays})
+
     # What is under way ends before what was found is told.
-    with _FoundMembers(found, run) as tell, closing(_track_all(solved, values, run)) as tracked:
+    with TellFound(run, first_members) as tell, closing(_track_all(solved, values, run)) as tracked:
         for chunk, block in tracked:
             places[chunk], errors[chunk], proved[chunk] = block
             status[chunk][block.proved] = PathStatus.REGULAR
             complete[chunk] = block.proved & solved.complete
             done += len(block.proved)
             run.tell("members", done, M)
-            tell(done, done < M or not proved.all())
+            tell(done < M or not proved.all())
         one_by_one[:] = ~proved
         alone = np.flatnonzero(~proved)
         for number, member in enumerate(alone.tolist()):
             run.tell("members one by one", number, len(alone))
             own = _solve_alone(solved, values[member], run)
             places[member], status[member], errors[member], complete[member] = own
-            tell(M, number + 1 < len(alone))
+            tell(number + 1 < len(alone))
     return found
-
-
-class _FoundMembers:
-    """Tells of the members that are solved, now and then: the first ones, up to the last reached.
-
-    To copy and to keep them takes time, a tenth of the whole at the most; so the last ones are not
-    told of at once. An interruption inside the block has them told before it ends the work.
-    """
-
-    def __init__(self, found: FamilySolutions, run: Run) -> None:
-        self._found, self._run, self._next = found, run, 0.0
-        self._reached, self._untold = 0, False
-
-    def __enter__(self) -> _FoundMembers:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        if kind is not None and issubclass(kind, KeyboardInterrupt) and self._untold:
-            self._tell()
-
-    def __call__(self, reached: int, more: bool) -> None:
-        """Tell, if there is more to come, and it was not told just now."""
-        self._reached, self._untold = reached, True
-        if more and time.monotonic() >= self._next:
-            self._tell()
-
-    def _tell(self) -> None:
-        if self._run.found is None:
-            return
-        started = time.monotonic()
-        # What is told stays as it is, while the others are solved.
-        arrays = ("values", "points", "status", "errors", "one_by_one", "complete")
-        copies = {name: getattr(self._found, name)[: self._reached].copy() for name in arrays}
-        self._run.found(replace(self._found, **copies))
-        ended = time.monotonic()
-        self._untold, self._next = False, ended + max(BETWEEN, 10 * (ended - started))
 
 
 def _track_all(

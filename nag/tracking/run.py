@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import wraps
@@ -22,6 +23,8 @@ Progress = Callable[[str, int, int], None]
 ENDED_EARLY = "the work was ended early: this is what was known by then"
 UNFINISHED = f"{ENDED_EARLY}, some of it perhaps twice and multiplicities perhaps too low"
 Found = Callable[[Any], None]
+# Seconds between two times that what grows is told of, at least.
+BETWEEN = 1.0
 
 
 @dataclass(frozen=True)
@@ -35,7 +38,8 @@ class Run:
         progress: called with a stage's name, the step reached and the number of steps.
         found: called now and then with what is known already, an incomplete answer, for whoever
             ends the work early: by `nag.decompose`, `nag.solve`, `nag.solve_family`, `nag.motion`,
-            `nag.modes` and `nag.mobility`; by `nag.solve_family` when it is interrupted, too.
+            `nag.driven_motion`, `nag.modes` and `nag.mobility`; by `nag.solve_family` and
+            `nag.driven_motion` when they are interrupted, too.
         resume: a folder in which finished blocks of work are kept, and found again by whoever asks
             the same; answers do not depend on it.
         executor: who works blocks out: an executor of `concurrent.futures`, or ``"processes:4"``,
@@ -83,6 +87,11 @@ class Run:
         """The same for a part of the work, whose answers are not those that are asked for."""
         return self if self.found is None else replace(self, found=None)
 
+    def telling(self, answer_of: Callable[[Any], Any]) -> Run:
+        """The same for what leads to the answer, which ``answer_of`` makes of what that tells."""
+        tell = self.found
+        return self if tell is None else replace(self, found=lambda part: tell(answer_of(part)))
+
     @property
     def short(self) -> dict[str, Any]:
         """The fields by their names, as calls take them one by one."""
@@ -101,6 +110,39 @@ class Run:
         """Tell of the step ``done`` of ``total``; 0 if their number is not known."""
         if self.progress is not None:
             self.progress(stage, done, total)
+
+
+class TellFound:
+    """Tells of an answer that grows, now and then, to whoever ends the work early.
+
+    To make and to keep it takes time, a tenth of the whole at the most; so what was found last is
+    not told of at once. An interruption inside the block has it told before it ends the work.
+    """
+
+    def __init__(self, run: Run, make_answer: Callable[[], Any]) -> None:
+        self._found, self._make_answer = run.found, make_answer
+        self._next, self._untold = 0.0, False
+
+    def __enter__(self) -> TellFound:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is not None and issubclass(kind, KeyboardInterrupt) and self._untold:
+            self._tell()
+
+    def __call__(self, more: bool) -> None:
+        """Tell, if there is more to come, and it was not told just now."""
+        self._untold = True
+        if more and time.monotonic() >= self._next:
+            self._tell()
+
+    def _tell(self) -> None:
+        if self._found is None:
+            return
+        started = time.monotonic()
+        self._found(self._make_answer())
+        ended = time.monotonic()
+        self._untold, self._next = False, ended + max(BETWEEN, 10 * (ended - started))
 
 
 Answer = TypeVar("Answer")
