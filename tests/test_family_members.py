@@ -15,6 +15,7 @@ from systems import family
 
 import nag
 from nag.cli import main
+from nag.files.member_values import read_member_values
 from nag.numerics.double_sums import ComplexSums, RealSums
 from nag.solving.family_members import solve_members
 from nag.solving.member_lines import MemberLines
@@ -197,6 +198,22 @@ def test_the_command_writes_arrays_and_counts(
     assert "1 member has fewer than 2 solutions" in capsys.readouterr().out
 
 
+def test_values_in_a_table_are_read_as_in_a_case(tmp_path: Path) -> None:
+    texts = {
+        "1/3": 1 / 3,
+        "sqrt(2)": 2**0.5,
+        "0.1": 0.1,
+        " -7e-3": -7e-3,
+        "2*cos(pi/3)": 1.0,
+        "(1+2j)": 1 + 2j,
+        "1/3 + I/2": 1 / 3 + 0.5j,
+        "1 + 2*I": 1 + 2j,
+    }
+    table = tmp_path / "values.csv"
+    table.write_text("".join(f"{text}\n" for text in ["a", *texts]))
+    assert read_member_values(table, ["a"], [0])[:, 0].tolist() == list(texts.values())
+
+
 @pytest.mark.parametrize(
     ("content", "message"),
     [
@@ -204,7 +221,9 @@ def test_the_command_writes_arrays_and_counts(
         ("r,b\n1,2\n", "line 1: 'b' is no parameter of the family"),
         ("r,r\n1,2\n", "line 1: 'r' is there twice"),
         ("r,a\n1\n", "line 2: 1 values, not 2"),
-        ("r\nx\n", "line 2: 'x' is no number"),
+        ("r\nx\n", "line 2: 'x' is no number; write 0.5, or as in a case 1/3, sqrt(2), 1 + 2*I"),
+        ("r\n1/0\n", "line 2: '1/0' is no number"),
+        ("r,a\n1,9^9^9^9\n", "line 2: '9^9^9^9' is no number"),
         ("r\n", "has no values below its first line"),
         ("r\ninf\n", "those of member 1 are not all finite"),
     ],

@@ -11,6 +11,7 @@ from typing import NoReturn
 
 import numpy as np
 
+from nag.algebra.from_python import exact_complex
 from nag.algebra.tokens import nearest, quote
 from nag.errors import InputError
 
@@ -92,7 +93,11 @@ def _read_table(
             rows.append([_number(text) for text in line])
         except ValueError:
             wrong = next(text for text in line if not _is_number(text))
-            _fail(file, f"line {lines.line_num}: {quote(wrong)} is no number")
+            _fail(
+                file,
+                f"line {lines.line_num}: {quote(wrong)} is no number; write 0.5, or as in a case "
+                "1/3, sqrt(2), 1 + 2*I",
+            )
     if not rows:
         _fail(file, "has no values below its first line")
     found = np.tile(np.array(given, dtype=complex), (len(rows), 1))
@@ -101,7 +106,9 @@ def _read_table(
 
 
 def _number(text: str) -> complex:
-    """A number as programs write it: 1.5, (1+2j), 1 + 2*I.
+    """A number as programs write it, 1.5, (1+2j), 1 + 2*I, or as a case does, 1/3, sqrt(2).
+
+    Expressions are worked out exactly, and then rounded to doubles.
 
     Raises:
         ValueError: if it is none.
@@ -110,7 +117,10 @@ def _number(text: str) -> complex:
         return float(text)
     except ValueError:
         plain = re.sub(r"\s*([+-])\s*", r"\1", text.strip())
+    try:
         return complex(_UNIT.sub(lambda m: "j" if m[1] else "1j", plain))
+    except ValueError:
+        return complex(exact_complex(text, "value"))
 
 
 def _is_number(text: str) -> bool:
