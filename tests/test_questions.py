@@ -7,6 +7,8 @@ import copy
 import inspect
 import json
 import pickle
+import pkgutil
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -105,11 +107,24 @@ def test_an_export_with_a_point_left_out_is_refused(export: Path, tmp_path: Path
         nag.member(changed, (1, 0))
 
 
+def test_what_has_a_length_is_false_where_that_is_zero() -> None:
+    assert not nag.solve("x^2 + y^2 - 1") and nag.solve("x^2 - 1")
+    assert not nag.decompose(["1"]) and nag.decompose("x^2 + y^2 - 1")
+    assert not nag.system([], variables="x") and nag.system(["x"])
+    never_real = nag.find_real_points(nag.decompose("x^2 + 1", variables="x").components[0])
+    assert len(never_real) == 0 and not never_real
+    for module in pkgutil.walk_packages(nag.__path__, "nag."):
+        if module.name.endswith("__main__"):
+            continue
+        for kind in vars(import_module(module.name)).values():
+            if isinstance(kind, type) and kind.__module__ == module.name:
+                assert not vars(kind).keys() >= {"__len__", "__bool__"}, kind
+
+
 def test_results_are_sequences_and_tables() -> None:
     solved, found = nag.solve(["x^2 - 2", "y - x"]), nag.decompose(CIRCLE_AND_LINE)
     assert len(solved) == 2 and list(solved) == list(solved.solutions) == [solved[0], solved[-1]]
     assert len(found) == 2 and found[:1] == found.components[:1] and [*found] == [*found.components]
-    assert bool(nag.solve("x^2 + y^2 - 1")) and not len(nag.decompose(["1"]))
     assert solved.to_numpy().shape == (2, 2) and solved.to_numpy().flags.writeable
     for result in (solved, found):
         again = pickle.loads(pickle.dumps(result))

@@ -144,10 +144,6 @@ class PolynomialSystem:
     def __len__(self) -> int:
         return len(self.polynomials)
 
-    def __bool__(self) -> bool:
-        """True, also of no equations."""
-        return True
-
     def to_sympy(self) -> list[Any]:
         """The polynomials as sympy's expressions, exact, in symbols of the variables' names.
 

@@ -87,7 +87,7 @@ def intersect_components(
     """
     check_component(system, first, "first")
     check_type(second, WitnessSet, "second", "a component, as nag.decompose finds them")
-    other = second.system or system
+    other = system if second.system is None else second.system
     _check_variables(system, other)
     factors = Operand.in_branch(system, first), Operand.in_branch(other, second)
     answer = intersect_factors(*factors, run=run)

@@ -96,7 +96,8 @@ def _settle(
     # Whether all doubts are about isolated points.
     only_points = superset.only_points and not found.notes
     if not answer.complete and answer.dimension > 0 and only_points:
-        answer = solve_for_points(answer, task) or answer
+        again = solve_for_points(answer, task)
+        answer = answer if again is None else again
     if not answer.complete and answer.dimension <= 0:
         isolated = solve_at_once(task)
         if isolated is not None and contains_points(isolated, answer):

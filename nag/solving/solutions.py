@@ -298,10 +298,6 @@ class SolveResult(Sequence[Solution]):
     def __getitem__(self, index: int | slice) -> Solution | tuple[Solution, ...]:
         return self.solutions[index]
 
-    def __bool__(self) -> bool:
-        """True, also where nothing was found: whether there is a result, not solutions."""
-        return True
-
     def to_numpy(self) -> np.ndarray:
         """The isolated solutions, complex, shape ``(k, n)``, to be written to."""
         return self.points

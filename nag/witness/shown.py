@@ -228,7 +228,8 @@ def witness_set_text(component: WitnessSet) -> str:
 def witness_set_html(component: WitnessSet) -> str:
     """A component's witness points as a table."""
     n = component.points.shape[1]
-    names = component.system.variables if component.system else [f"x{i}" for i in range(n)]
+    system = component.system
+    names = [f"x{i}" for i in range(n)] if system is None else system.variables
     rows = [["point", *names, "error"]]
     errors = np.linalg.norm(component.radii, axis=1)
     for i, point in enumerate(component.points[:MOST_POINTS]):

@@ -506,10 +506,6 @@ class Decomposition(Sequence[WitnessSet]):
     def __getitem__(self, index: int | slice) -> WitnessSet | tuple[WitnessSet, ...]:
         return self.components[index]
 
-    def __bool__(self) -> bool:
-        """True, also of the empty set: whether there is an answer, not components."""
-        return True
-
     def to_dataframe(self) -> Any:
         """A row for each component: number, dimension, degree, multiplicity, status, orbit.
 
