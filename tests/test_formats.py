@@ -18,7 +18,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.files.cases import CaseError, read_case
-from nag.files.formats import READ, ROBOTS, WRITTEN
+from nag.files.formats import READ, ROBOTS, WRITTEN, words
 from nag.files.formats.reading import READERS, read_system_text, recognise_format
 from nag.files.formats.writing import WRITERS, write_system
 from nag.mechanism.problem import problem_of
@@ -450,7 +450,8 @@ AWKWARD = """
 I i ii iv Iv vI ice i1 E e e1 end exp Pi ring ringv poly list matrix vector ideal gens number
 string int std link def proc map module resolution qring intvec intmat bigint if for while throw
 break return step wedge value time exit quit pause R K Degree ring_1 gens_2 x x_1 y y[1]
-nagring1 theta θ
+nagring1 theta θ constant function random pow tan variable_group END INPUT CONFIG where in isa let
+begin eval System F F1 True None lambda class equations Symbol S Base x[0] x' function_1
 """.split()  # noqa: SIM905
 
 
@@ -469,6 +470,44 @@ def test_names_that_a_program_does_not_take_are_changed_one_to_one(format: str) 
     assert read.polynomials == system.polynomials
     for new, old in zip(read.variables, AWKWARD, strict=True):
         assert new == old or f"{new} is {old}" in text
+    if format == "bertini":
+        assert not {*read.variables} & words.BERTINI
+        assert "x[0]" in read.variables
+
+
+def test_python_takes_names_that_are_its_words() -> None:
+    system = _awkward_system()
+    lines: dict[str, object] = {}
+    text = write_system(system, "sympy")
+    exec(text, lines)
+    equations = lines["equations"]
+    assert isinstance(equations, list) and len(equations) == len(system.polynomials)
+    # The symbols themselves have the names that were given.
+    assert {str(s) for s in set().union(*(f.free_symbols for f in equations))} == {*AWKWARD}
+    assert "lambdav is lambda" in text
+
+
+def test_julia_gets_no_name_that_is_a_word_of_its_own() -> None:
+    text = write_system(_awkward_system(), "hc")
+    (declared,) = re.findall(r"^@var (.*)$", text, re.MULTILINE)
+    names = declared.split()
+    assert len({*names}) == len(AWKWARD) and not {*names} & words.JULIA
+    (made,) = re.findall(r"^(\w+) = System", text, re.MULTILINE)
+    assert made not in names
+    for new, old in zip(names, AWKWARD, strict=True):
+        assert new == old or f"{new} is {old}" in text
+
+
+def test_julia_divides_whole_numbers_alone_into_fractions() -> None:
+    numbers = {
+        "sqrt(2)/2": "sqrt(2)/2",
+        "5/7": "5//7",
+        "cos(pi/5)": "(-1//4-sqrt(5)/4)",
+        "3*pi/7": "(-3//7)*pi",
+        "cos(2/3)": "cos(2//3)",
+    }
+    for number, written in numbers.items():
+        assert written in write_system(nag.system([f"x - {number}"]), "hc")
 
 
 @pytest.mark.parametrize(

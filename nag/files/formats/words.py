@@ -2,10 +2,15 @@
 
 Each word of a program was tried as the only variable of a ring, in whose ideal it occurs:
 Macaulay2 1.21 with all words of its dictionaries, Singular 4.3.1 with those of ``reservedName()``
-and the procedures that it begins with. These are the ones that were refused.
+and the procedures that it begins with. These are the ones that were refused. Those of the other
+programs are from their grammars: of Bertini the declarations, functions and numbers of Bertini 1
+and 2, of Julia its keywords and what a module is born with, of Python its keywords; besides, what a
+written file uses itself.
 """
 
 from __future__ import annotations
+
+from keyword import kwlist
 
 # A word of Macaulay2 with an index, as in ``ring_1``, is refused as well.
 MACAULAY2 = frozenset(
@@ -185,4 +190,24 @@ status std stdfglm stdhilb string subst system syz tensor test timer TRACE trace
 type typeof univariate uressolve vandermonde var variables varstr vdim vector verbose voice waitall
 waitfirst wedge weight weightKB while whileif write
 """.split()  # noqa: SIM905
+)
+
+BERTINI = frozenset(
+    """
+CONFIG E END I INPUT Pi acos arccos arcsin arctan asin atan constant cos definedSubfunction e exp
+function hom_variable_group i implicit_parameter log parameter pathvariable pi pow random
+random_real sin sqrt subfunction tan variable variable_group
+""".split()  # noqa: SIM905
+)
+
+JULIA = frozenset(
+    """
+Base Core HomotopyContinuation Main System baremodule begin break catch ccall const continue cos do
+else elseif end eval export false finally for function global if im import in include isa let local
+macro module pi quote return sin sqrt struct true try using where while
+""".split()  # noqa: SIM905
+)
+
+SYMPY = frozenset(
+    {*kwlist, "I", "Rational", "S", "Symbol", "cos", "equations", "pi", "sin", "sqrt"}
 )

@@ -23,6 +23,8 @@ _GREEK = (
 )
 _LATIN = {chr(0x3B1 + k): name for k, name in enumerate(_GREEK.split())}
 _NUMBER = re.compile(r"(?<![\w.])[0-9]+")
+# Two whole numbers, the first of which divides nothing itself.
+_FRACTION = re.compile(r"(?<![\w./])([0-9]+)/([0-9]+)(?![\w.])")
 _INNERMOST = re.compile(r"\([^()]*\)|\{[^{}]*\}")
 # A sign that is neither the first nor an exponent's.
 _OUTER_SUM = re.compile(r"(?<=.)(?<!e)[+-]")
@@ -44,7 +46,7 @@ def _plain_names(
         allowed: the pattern of names that it takes; one of them stays so with more letters or
             digits behind it, and with ``v`` before it.
         taken: names that it does not take all the same.
-        reserved: names that it does not take with an index either.
+        reserved: names that it does not take with an index either, as in ``ring_1``.
     """
     pattern = re.compile(allowed)
 
@@ -207,7 +209,7 @@ def write_phc(system: PolynomialSystem, title: str) -> str:
 def write_bertini(system: PolynomialSystem, title: str) -> str:
     """The system as an input file of Bertini 1; irrational numbers to `DECIMALS` digits."""
     variables = _variables(system)
-    names = _plain_names(variables, r"[A-Za-z][A-Za-z0-9_\[\]]*")
+    names = _plain_names(variables, r"[A-Za-z][A-Za-z0-9_\[\]]*", _TAKEN | words.BERTINI)
     groups = [[i for i in g if i < len(variables)] for g in system.groups or [range(system.n)]]
     functions = [f"f{k}" for k in range(1, len(_polynomials(system)) + 1)]
     functions = [f if f not in names.values() else f"nag_{f}" for f in functions]
@@ -264,8 +266,8 @@ def write_singular(system: PolynomialSystem, title: str) -> str:
 
 def write_sympy(system: PolynomialSystem, title: str) -> str:
     """Lines of Python: symbols, and a list of expressions of sympy's."""
-    names = _plain_names(_variables(system), r"[A-Za-z]\w*")
-    written = [f"{n}_" if n in ("lambda", "sqrt", "Rational") else n for n in names.values()]
+    names = _plain_names(_variables(system), r"[A-Za-z]\w*", _TAKEN | words.SYMPY)
+    written = list(names.values())
     symbols = ", ".join(repr(n) for n in names)
     texts = _texts(system, written, lambda c: _NUMBER.sub(r"S(\g<0>)", number_text(c)), "**", "I")
     lines = [f"# {line}" for line in (title, *_remarks(system, names, "I"))]
@@ -276,14 +278,20 @@ def write_sympy(system: PolynomialSystem, title: str) -> str:
 
 def write_julia(system: PolynomialSystem, title: str) -> str:
     """Lines of Julia for HomotopyContinuation.jl."""
-    names = _plain_names(_variables(system), r"[A-Za-z]\w*")
+    names = _plain_names(_variables(system), r"[A-Za-z]\w*", _TAKEN | words.JULIA)
     written = list(names.values())
-    texts = _texts(system, written, lambda c: number_text(c).replace("/", "//"), "^", "im")
+    made = _free_name("F", written)
+    texts = _texts(system, written, _julia_number, "^", "im")
     lines = [f"# {line}" for line in (title, *_remarks(system, names, "im"))]
-    lines += ["using HomotopyContinuation", f"@var {' '.join(written)}", "F = System(["]
+    lines += ["using HomotopyContinuation", f"@var {' '.join(written)}", f"{made} = System(["]
     return "\n".join([*lines, *(f"    {t}," for t in texts)]) + (
         f"\n], variables = [{', '.join(written)}])\n"
     )
+
+
+def _julia_number(c: Number) -> str:
+    """A number whose fractions of whole numbers are exact; no others are in Julia."""
+    return _FRACTION.sub(r"\1//\2", number_text(c))
 
 
 def write_latex(system: PolynomialSystem, title: str) -> str:
