@@ -5,9 +5,25 @@ All are `NagError`, which is a ``ValueError``; the six below it say what the lin
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 
 class NagError(ValueError):
-    """An argument makes no sense, or a question has no answer that could be given."""
+    """An argument makes no sense, or a question has no answer that could be given.
+
+    Those of all kinds can be pickled and copied, whatever they are made of.
+    """
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restore, (type(self), self.args, vars(self))
+
+
+def _restore(kind: type[NagError], args: tuple[Any, ...], state: Mapping[str, Any]) -> NagError:
+    """The error with these arguments and attributes; what it was made of need not be known."""
+    error = kind.__new__(kind, *args)
+    vars(error).update(state)
+    return error
 
 
 class InputError(NagError):

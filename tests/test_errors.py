@@ -1,5 +1,6 @@
 """Errors for users are of one kind, and say what they are about."""
 
+import copy
 import importlib
 import inspect
 import pickle
@@ -26,6 +27,35 @@ def test_every_error_for_users_has_one_base_class() -> None:
     found = classes_of_errors()
     assert len(found) > 20
     assert [e for e in found if not issubclass(e, NagError)] == []
+
+
+def made(kind: type[Exception]) -> Exception:
+    """An error of this kind with something in each of its fields."""
+    samples = nag.sample(nag.decompose("x^2 + y^2 - 1"), count=1)
+    given = {
+        "str": "a line",
+        "str | None": "a name",
+        "int | None": 3,
+        "Sequence[int]": (1, 2),
+        "object": [0.5],
+        "Samples": samples,
+    }
+    if kind.__init__ is ValueError.__init__:
+        return kind("a line")
+    fields = list(inspect.signature(kind.__init__).parameters.values())[1:]
+    values = {each.name: given[each.annotation] for each in fields}
+    return kind(**values)
+
+
+def test_every_error_for_users_is_the_same_after_a_pickle_and_a_copy() -> None:
+    kinds = {NagError, *classes_of_errors()}
+    assert {"SamplingError", "NoRealPointsError", "TimeLimitError"} <= {k.__name__ for k in kinds}
+    for kind in kinds:
+        error = made(kind)
+        error.add_note("a note")
+        for again in (pickle.loads(pickle.dumps(error)), copy.copy(error), copy.deepcopy(error)):
+            assert type(again) is kind
+            assert (str(again), again.args, vars(again)) == (str(error), error.args, vars(error))
 
 
 @pytest.mark.parametrize("name", PUBLIC)
