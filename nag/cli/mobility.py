@@ -115,8 +115,6 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     case, problem = _read_moving(options)
     at = None if options.at is None else real_point_at(options.at, problem.system)
     others = iter(()) if problem is None or not options.check else _other_equations(problem, at)
-    from nag.mechanism.mobility_report import MobilityStatus
-
     here = at or (None if problem is None else problem.reference)
 
     def document_of(early: MobilityReport) -> dict[str, Any]:
@@ -126,8 +124,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         say_first(options, name_case(case), report.early_rows(), WIDTH)
     rows = [*report.rows(), *_unsaid_rows(options, report)]
     complete = options.of is None or report.moving is not None or report.local_dimension == 0
-    complete &= report.status is not MobilityStatus.UNDECIDED and not report.open
-    complete &= not any(curve.note for curve in report.curves)
+    complete &= report.complete
     rows += [("read", note) for note in case.notes]
     known = _beside_known(report, case) if at is None else None
     beside: dict[str, Any] | None = None

@@ -106,6 +106,11 @@ class ImageIdeal:
         return self.defines_union and self.self_conjugate is True and not self.together
 
     @property
+    def complete(self) -> bool:
+        """Whether nothing was left open."""
+        return not self.note
+
+    @property
     def missing(self) -> tuple[int, ...]:
         """Variables without a map."""
         known = {*self.coordinates, *(m.variable for m in self.maps)}

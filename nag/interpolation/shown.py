@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from nag.text.table import count_text, join_words, label_lines, shorten_text
+from nag.text.table import count_text, join_words, label_lines, named_line
 
 if TYPE_CHECKING:
     from nag.interpolation.essential import VariableMap
@@ -32,7 +32,7 @@ def ideal_line(found: ImageIdeal) -> str:
     onto = ", ".join(found.names)
     count = count_text(len(found.generators), "equation")
     maps = count_text(len(found.maps), "map")
-    return shorten_text(f"<ImageIdeal onto {onto}: dimension {found.dimension}, {count}, {maps}>")
+    return named_line(found, f" onto {onto}: dimension {found.dimension}, {count}, {maps}")
 
 
 def head_rows(found: ImageIdeal) -> list[tuple[str, str]]:

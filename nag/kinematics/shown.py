@@ -191,6 +191,7 @@ def driven_text(driven: DrivenMotion) -> str:
     """What is seen at the prompt."""
     values = count_text(len(driven), "value")
     rows = [("model", driven.motions[0].reason), *continuation_rows(driven)]
+    rows += [("open", note) for note in driven.notes]
     return lines_of(f"{driven.coordinate.name} driven through {values}", rows)
 
 
@@ -198,6 +199,7 @@ def motion_text(motion: Motion) -> str:
     """What is seen at the prompt."""
     rows = motion_rows(motion)
     rows += [(f"circuit {c.number}", circuit_text(motion, c)) for c in motion.circuits]
+    rows += [("open", note) for note in motion.notes]
     if motion.circuits or not motion.assemblies:
         return lines_of(f"Motion of {count_text(len(motion.circuits), 'circuit')}", rows)
     count = len(motion.assemblies)

@@ -19,7 +19,7 @@ from nag.mechanism.moving_parts import MovingParts
 from nag.mechanism.nearly_mobile import NearMotion
 from nag.numerics.local_dimension import LocalDimension
 from nag.numerics.read_only import equal_values
-from nag.text.table import LINE, count_text, html_table, shorten_text
+from nag.text.table import count_text, html_table, named_line
 from nag.witness.witness import WitnessSet
 
 # What must be the same of components in two formulations.
@@ -216,6 +216,12 @@ class MobilityReport:
         return MobilityStatus.OVERCONSTRAINED if self.overconstrained else MobilityStatus.MOBILE
 
     @property
+    def complete(self) -> bool:
+        """Whether the question is answered, and nothing of the components is left open."""
+        decided = self.status is not MobilityStatus.UNDECIDED and not self.open
+        return decided and not any(curve.note for curve in self.curves)
+
+    @property
     def local_text(self) -> str:
         """The dimensions at the configuration, in words."""
         if self.tangent_dimension is None:
@@ -232,7 +238,7 @@ class MobilityReport:
         return _sentence(self)
 
     def __repr__(self) -> str:
-        return shorten_text(f"<MobilityReport: {self.sentence}", LINE - 1) + ">"
+        return named_line(self, f": {self.sentence}")
 
     def _repr_html_(self) -> str:
         return html_table("MobilityReport", [["", ""], *map(list, self.rows())])

@@ -110,13 +110,20 @@ def lines_of(title: str, rows: Sequence[tuple[str, str]]) -> str:
 def one_line(shown: object) -> str:
     """What is printed in several lines, in one: its answer, or what it is and its first line."""
     title, *rows = (line.strip() for line in str(shown).splitlines())
-    name = type(shown).__name__
     answers = [row.split("  ", 1)[1].strip() for row in rows if row.startswith("answer  ")]
     if answers:
-        text = f"{name}: {answers[0]}"
-    else:
-        text = ": ".join([title if title.startswith(name) else f"{name} {title}", *rows[:1]])
-    return shorten_text(f"<{text}", LINE - 1) + ">"
+        return named_line(shown, f": {answers[0]}")
+    name = type(shown).__name__
+    about = title.removeprefix(name) if title.startswith(name) else f" {title}"
+    return named_line(shown, ": ".join([about, *rows[:1]]))
+
+
+def named_line(shown: object, text: str) -> str:
+    """What an object is at the prompt: its class, whether it is incomplete, and a text."""
+    complete: Any = getattr(shown, "complete", True)
+    whole = complete if isinstance(complete, bool) else bool(complete.all())
+    line = f"<{type(shown).__name__}{'' if whole else ' (INCOMPLETE)'}{text}"
+    return shorten_text(" ".join(line.split()), LINE - 1) + ">"
 
 
 def shorten_text(text: str, width: int = LINE) -> str:

@@ -73,6 +73,11 @@ class RealPoints:
         for name in ("points", "distances", "stationary"):
             object.__setattr__(self, name, fixed_array(getattr(self, name)))
 
+    @property
+    def complete(self) -> bool:
+        """Whether of every real zero that was found it is known if it is on the component."""
+        return not self.undecided
+
     __repr__ = one_line
 
     def __str__(self) -> str:

@@ -51,6 +51,11 @@ class Samples:
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", fixed_array(self.points))
 
+    @property
+    def complete(self) -> bool:
+        """Whether the set that they are drawn from is certain to be whole."""
+        return not self.doubt
+
     def rows(self, variables: Sequence[str]) -> list[list[str]]:
         """Headings, and a row for each of the first points, in their first coordinates."""
         from nag.witness.shown import sample_rows
