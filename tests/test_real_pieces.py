@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from fractions import Fraction
 
 import jsonschema
 import numpy as np
@@ -226,3 +227,32 @@ def test_singular_real_assemblies_are_found_on_the_components(capsys) -> None:
     assert main(["decompose", str(CASES / "planar" / "peaucellier.toml")]) == 0
     text = " ".join(capsys.readouterr().out.split())
     assert "real ones were found on 2 components, isolated there" in text
+
+
+@pytest.mark.parametrize(
+    ("equation", "singular"),
+    [
+        ("x^2 + y^2", (0, 0)),
+        ("x^2 + y^2 + z^2", (0, 0, 0)),
+        ("x^4 + y^6", (0, 0)),
+        ("(x - 1/3)^2 + (y - sqrt(2))^2", (1 / 3, 2**0.5)),
+    ],
+)
+def test_real_samples_at_a_singular_point_are_as_accurate_as_they_say(
+    equation: str, singular: tuple[float, ...]
+) -> None:
+    for component in nag.decompose(equation):
+        found = nag.sample(component, count=3, real=True)
+        away = np.linalg.norm(found.points - np.array(singular), axis=1).max()
+        # The point that is compared with is itself a rounded one.
+        assert away <= found.accuracy * (1 + np.linalg.norm(singular)) <= 1e-15
+
+
+def test_real_samples_near_a_cusp_are_as_accurate_as_they_say() -> None:
+    found = nag.sample(nag.decompose("y^2 - x^3")[0], count=200, real=True)
+    far = [
+        abs(Fraction(y) ** 2 - Fraction(x) ** 3) / Fraction(float(np.hypot(2 * y, 3 * x * x)))
+        for x, y in found.points.real
+        if x
+    ]
+    assert 0 < max(far) <= found.accuracy * (1 + np.abs(found.points).max()) < 1e-11

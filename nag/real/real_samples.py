@@ -9,11 +9,13 @@ from nag.algebra.given import check_type, check_whole
 from nag.algebra.imaginary_unit import append_unit
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
+from nag.numerics.digits import DIGITS, working_digits
+from nag.numerics.doubles import EPS, ROUGH
+from nag.numerics.located_zero import exact_zero
 from nag.real.find_curve import find_real_curve
 from nag.real.real_equations import find_real_equations
 from nag.real.real_pieces import Reality, RealPieces, find_real_points, join_pieces
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
-from nag.witness.frame import EPS
 from nag.witness.real_points import real_points_near
 from nag.witness.sampling import NoRealPointsError, Samples, SamplingError
 from nag.witness.witness import WitnessSet
@@ -21,11 +23,14 @@ from nag.witness.witness import WitnessSet
 # Random points, in sizes of the component's real points, that real ones are looked for beside; and
 # how many are tried for each that is wanted.
 SPREAD, TRIES = 1.0, 4
+# Decides: Newton's step times what the Jacobian may change over its singular value, below which a
+# point is a regular one: a half is enough by Kantorovich's theorem.
+TURN = 0.25
 
 
 def _why_none(system: PolynomialSystem, reality: Reality, reason: str) -> NagError:
     kind = NoRealPointsError if reality is Reality.NONE else SamplingError
-    nothing = _samples(system, np.zeros((0, len(system.own_variables))))
+    nothing = Samples(np.zeros((0, system.n)), 0.0, EPS)
     return kind(f"real points: {reality}{reason and ': '}{reason}", nothing)
 
 
@@ -44,7 +49,8 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
 
     Returns:
         The points, of which the imaginary parts are zero, but of the imaginary unit where
-        coefficients are complex.
+        coefficients are complex. Their accuracy is that of a regular zero near by; singular ones
+        are sharpened by deflation.
 
     Raises:
         NoRealPointsError: if there are none.
@@ -70,7 +76,7 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
             doubt = _doubt_of(found)
         else:
             points = _near(component, points, count, rng, run)
-    return _samples(system, points, doubt)
+    return _samples(component, points, doubt)
 
 
 def _doubt_of(drawn_from: RealPieces) -> str:
@@ -82,10 +88,67 @@ def _say_points_may_miss(reason: str) -> str:
     return f"real points may be missing: {reason}"
 
 
-def _samples(system: PolynomialSystem, points: np.ndarray, doubt: str = "") -> Samples:
-    points = append_unit(points) if system.imaginary else points + 0j
-    residual = float(Evaluator.of(system.polynomials, system.n).residuals(points).max(initial=0.0))
-    return Samples(points, residual, max(residual, EPS), doubt)
+def _samples(component: WitnessSet, points: np.ndarray, doubt: str = "") -> Samples:
+    """Points with how well they are known; singular ones in their stead where these are found."""
+    system = component._known_system()
+    z = append_unit(points) if system.imaginary else points + 0j
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    known, errors = z.copy(), np.zeros(len(z))
+    found: dict[bytes, tuple[np.ndarray, float]] = {}
+    for k, x in enumerate(z):
+        if x.tobytes() not in found:
+            error = _error_of_regular(evaluator, x, component.dimension)
+            found[x.tobytes()] = (x, error) if error < np.inf else _singular_point(component, x)
+        known[k], errors[k] = found[x.tobytes()]
+    residual = float(evaluator.residuals(known).max(initial=0.0))
+    return Samples(known, residual, float(errors.max(initial=EPS)), doubt)
+
+
+@np.errstate(all="ignore")
+def _error_of_regular(evaluator: Evaluator, x: np.ndarray, dimension: int) -> float:
+    """How far a zero is from a point, over one and its size; infinite where it may be singular.
+
+    Newton's step with the corank of the component, and rounding; by Kantorovich's theorem there is
+    a zero so near where the Jacobian changes little on the way.
+    """
+    rank = len(x) - dimension
+    if rank == 0:
+        return EPS
+    size = np.maximum(np.abs(x), 1.0)
+    weights = size.max(initial=1.0) ** -(evaluator.degrees - 1.0)
+    sizes, second = evaluator.term_sizes(size[None], len(x))
+    s = np.linalg.svd(evaluator.balanced_jacobian(x), compute_uv=False)
+    if len(s) < rank or not s[rank - 1] > 0:
+        return np.inf
+    left = (np.abs(evaluator.values(x[None])[0]) + EPS * sizes[0]) * weights
+    step = float(np.linalg.norm(left) / s[rank - 1])
+    turn = step * float(np.linalg.norm(second[0] * weights) / s[rank - 1])
+    return step / (1 + float(np.linalg.norm(x))) if turn < TURN else np.inf
+
+
+def _singular_point(component: WitnessSet, x: np.ndarray) -> tuple[np.ndarray, float]:
+    """The singular zero that a point stands for, and its error relative to one and its size.
+
+    Where it is not found it is the point itself, with an error as at a zero of the multiplicity of
+    the largest degree.
+    """
+    system = component._known_system()
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    residual = float(evaluator.residuals(x[None]).max(initial=0.0))
+    rng = np.random.default_rng(0)
+    with working_digits(DIGITS):
+        # The error of a double zero is the square root of what is left of the equations.
+        near, factors = exact_zero(system.polynomials, x, max(ROUGH, residual**0.5), rng)
+        if near is not None:
+            balls = [f * c for f, c in zip(factors, near.balls, strict=True)]
+            radii = np.array([float(c.rad()) for c in balls])
+            y = np.array([complex(c.mid()) for c in balls])
+            own = len(system.own_variables)
+            y[:own] = y[:own].real
+            # Rounded to doubles.
+            error = np.linalg.norm(radii) / (1 + np.linalg.norm(y)) + EPS
+            return y, float(error)
+    return x, max(residual, EPS) ** (1 / int(evaluator.degrees.max()))
 
 
 def _of_complex_equations(
@@ -101,21 +164,21 @@ def _of_complex_equations(
         if whole.reality is not Reality.FOUND:
             raise _why_none(system, whole.reality, whole.reason)
         drawn = whole.points[rng.integers(len(whole.points), size=count)]
-        return _samples(system, drawn, _doubt_of(whole))
+        return _samples(component, drawn, _doubt_of(whole))
     chosen = [each for each, f in found if len(f) and max(f.dimensions) == largest]
     shares = rng.multinomial(count, np.full(len(chosen), 1 / len(chosen)))
     parts = [
-        _sample_part(system, each, int(share), run)
+        _sample_part(component, each, int(share), run)
         for each, share in zip(chosen, shares, strict=True)
         if share
     ]
     doubts = [_say_points_may_miss(equations.doubt)] if equations.doubt else []
     doubts += [part.doubt for part in parts if part.doubt]
     points = rng.permutation(np.vstack([part.points.real for part in parts]))
-    return _samples(system, points, "; ".join(dict.fromkeys(doubts)))
+    return _samples(component, points, "; ".join(dict.fromkeys(doubts)))
 
 
-def _sample_part(system: PolynomialSystem, part: WitnessSet, count: int, run: Run) -> Samples:
+def _sample_part(component: WitnessSet, part: WitnessSet, count: int, run: Run) -> Samples:
     """Points of a component of real parts; those of an error are points of the complex equations.
 
     Raises:
@@ -124,7 +187,7 @@ def _sample_part(system: PolynomialSystem, part: WitnessSet, count: int, run: Ru
     try:
         return sample_real(part, count, run=run)
     except SamplingError as error:
-        some = _samples(system, error.found.points.real)
+        some = _samples(component, error.found.points.real)
         raise SamplingError(str(error), some) from None
 
 
@@ -165,6 +228,6 @@ def _near(
         if len(points):
             found.append(np.asarray(points.points)[0])
     if len(found) < count:
-        some = _samples(system, np.array(found).reshape(-1, system.n))
+        some = _samples(component, np.array(found).reshape(-1, system.n))
         raise SamplingError(f"{len(found)} of {count} random real points were found", some)
     return np.array(found).reshape(count, system.n)
