@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -605,3 +606,37 @@ def test_real_zeros_of_complex_equations_are_real() -> None:
         (["x^2 + I*y - 4 - 5*I", "x*y - 10"], 1),
     ):
         assert len(nag.solve(nag.system(equations, imaginary="I")).real) == count
+
+
+@pytest.mark.parametrize(
+    ("equations", "count"),
+    [
+        (["x*(x - I*y)", "x*(y - 2 + I)"], "1 end point lies on it"),
+        (
+            ["(x-1)*(y-I)*(z-2)", "(x-1)*(z+I)*(y+3)", "(y - I)*(z + I)*x"],
+            "3 end points lie on it",
+        ),
+    ],
+)
+def test_notes_count_the_points_of_the_system_and_not_those_of_its_conjugate(
+    equations: list[str], count: str
+) -> None:
+    found = nag.solve(nag.system(equations, imaginary="I"))
+    (note,) = [n for n in found.notes if "positive dimension" in n]
+    assert count in note and len(found.on_components) == int(count[0])
+
+
+@pytest.mark.parametrize(
+    "equations",
+    [
+        ["(x - I)^2*(y + x) - 1", "(y + 2*I)^2*(y + x) - I*x"],
+        ["x^3 - I*x^2*y + y^2 - 1", "x^3 - I*x^2*y + x*y - I"],
+        ["x^2*y - I", "x*y^2 - x + I"],
+    ],
+)
+def test_a_bound_counts_the_zeros_of_the_system_and_not_those_of_its_conjugate(
+    equations: list[str],
+) -> None:
+    found = nag.solve(nag.system(equations, imaginary="I"), start="total")
+    (number,) = re.findall(r"no more than (\d+)", found.reason)
+    assert int(number) == len(found) and found.complete

@@ -49,9 +49,13 @@ class ZeroCount(NamedTuple):
     bound: int
     exact: bool
 
-    def difference(self, zeros: int) -> str:
-        """What is said where it is not the number of zeros that were found."""
-        return f"{zeros} zeros were found, and there are {self.bound}"
+    def difference(self, zeros: int, sides: int = 1) -> str:
+        """What is said where it is not the number of zeros that were found.
+
+        Args:
+            sides: 2 where half of all zeros are those of the conjugate equations.
+        """
+        return f"{zeros // sides} zeros were found, and there are {self.bound // sides}"
 
 
 def judge_number(zeros: int, count: ZeroCount | None) -> Completeness:

@@ -334,8 +334,8 @@ def _join_parts(
     more = len(open_points) - sum(len(part.undecided) for part in parts)
     if more:
         doubts.append(
-            f"{more} solutions of one branch may or may not lie in another, or their multiplicity "
-            "was not found"
+            f"{-(-more // task.sides)} solutions of one branch may or may not lie in another, or "
+            "their multiplicity was not found"
         )
     return SolveResult.of(
         system,

@@ -182,7 +182,7 @@ def solve_member(
         StartError: if loops have nothing to begin with, there would be too many paths, or the
             symmetries do not fit the family.
     """
-    task = SolveTask(SystemFacts(as_real(system)), "auto", run)
+    task = SolveTask(SystemFacts(as_real(system)), "auto", run, sides=1 + system.imaginary)
     exact = solve_without_paths(task) if exact_first else None
     if exact is not None:
         return leave_out_conjugate(exact, system) if system.imaginary else exact

@@ -124,8 +124,9 @@ def sort_ends(
     n = problem.system.n
     evaluator = Evaluator.of(problem.equations, n)
     zeros, lost = _select_zeros(problem, begin, paths, evaluator)
-    roughly = "is a zero" if lost == 1 else "are zeros"
-    ends = f"{count_text(lost, 'end point')} {roughly} of the equations only roughly"
+    rough = problem.on_one_side(lost)
+    roughly = "is a zero" if rough == 1 else "are zeros"
+    ends = f"{count_text(rough, 'end point')} {roughly} of the equations only roughly"
     unclear = [ends] if lost else []
     undecided: list[np.ndarray] = []
     sets: list[tuple[np.ndarray, bool | None]] = []
@@ -158,10 +159,11 @@ def sort_ends(
             unclear.append("the solution set is not seen to be finite; other ends were left out")
             break
     if undecided:
+        open_ = problem.on_one_side(len(undecided))
         may_be = "may or may not be isolated solutions, or several that are close together"
-        if len(undecided) == 1:
+        if open_ == 1:
             may_be = "may or may not be an isolated solution, or several that are close together"
-        unclear.append(f"{count_text(len(undecided), 'end point')} {may_be}")
+        unclear.append(f"{count_text(open_, 'end point')} {may_be}")
     original = problem.target.original
     return SortedEnds(
         *_solutions(problem, isolated),
@@ -385,7 +387,8 @@ def _solutions(
     )
     notes = []
     if None in answers:
-        notes.append(f"{answers.count(None)} solutions may be such as are excluded")
+        open_ = problem.on_one_side(answers.count(None))
+        notes.append(f"{open_} solutions may be such as are excluded")
     if not paired:
         notes.append("the conjugate of a solution is missing")
     return kept, left_out, tuple(notes)

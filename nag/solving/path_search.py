@@ -34,12 +34,15 @@ class SolveTask:
     Attributes:
         start: the start system that is asked for, ``"auto"`` for the one with the least work.
         finite: whether only a finite solution set is of interest.
+        sides: 2 where the imaginary unit is an unknown, and solutions with one of its two values
+            are left out of the answer.
     """
 
     facts: SystemFacts
     start: str
     run: Run
     finite: bool = False
+    sides: int = 1
 
     @property
     def system(self) -> PolynomialSystem:
@@ -58,7 +61,8 @@ class SolveTask:
     def problem(self) -> SquareProblem:
         """The system as it is tracked."""
         equations = [f for f in self.system.polynomials if f]
-        return SquareProblem.of(self.system, equations, self.rng, self.facts.natural)
+        made = SquareProblem.of(self.system, equations, self.rng, self.facts.natural)
+        return replace(made, sides=self.sides)
 
 
 class Bound(NamedTuple):
@@ -150,11 +154,12 @@ class PathSearch:
         begin, ends, seen = self.begin, self.ends, self.completeness
         doubts, reason = list(ends.notes), self.reason
         if self.bound is not None and seen is Completeness.ALL:
-            reason = f"{reason}; {self.bound.source} no more than {self.zeros}"
+            most = self.problem.on_one_side(self.zeros)
+            reason = f"{reason}; {self.bound.source} no more than {most}"
         else:
             doubts = [*ends.unclear, *list_doubts(begin, self.paths), *doubts]
         if self.bound is not None and seen in (Completeness.MISSING, Completeness.TOO_MANY):
-            doubts.append(self.bound.count.difference(self.zeros))
+            doubts.append(self.bound.count.difference(self.zeros, self.problem.sides))
         remarks = []
         if self.problem.added and not len(ends.larger.points):
             remarks.append(

@@ -78,8 +78,8 @@ def solve(
         told = run.found
         if told is not None:
             run = replace(run, found=lambda found: told(leave_out_conjugate(found, system)))
-        result = solve(as_real(system), start=start, run=run, finite=finite)
-        return leave_out_conjugate(result, system)
+        both = SolveTask(SystemFacts(as_real(system)), start, run, finite, sides=2)
+        return leave_out_conjugate(solve_by(tuple(METHODS), both), system)
     return solve_by(tuple(METHODS), SolveTask(facts or SystemFacts(system), start, run, finite))
 
 
@@ -92,20 +92,25 @@ def leave_out_conjugate(result: SolveResult, system: PolynomialSystem) -> SolveR
         kept = (s for s in solutions if s.point[-1].imag > 0)
         return tuple(replace(s, real=_is_real(s, system, parts)) for s in kept)
 
-    def points(found: np.ndarray | None) -> np.ndarray | None:
-        return None if found is None else found[has_unit(found)]
+    def points(found: np.ndarray) -> np.ndarray:
+        return found[has_unit(found)]
 
     excluded = chosen(result.excluded_solutions)
+    larger = result.larger.map_points(points)
+    # What says how many points lie on larger sets says it of those that are kept.
+    told = result.larger.notes
+    notes = [note for note in result.notes if note not in told]
     return replace(
         result,
         system=system,
+        notes=(*notes, *larger.notes),
         solutions=chosen(result.solutions),
         excluded=len(excluded),
         excluded_solutions=excluded,
-        on_components=points(result.on_components),
+        on_components=larger.counting,
         undecided=points(result.undecided),
-        on_excluded=points(result.on_excluded),
-        on_doubtful=points(result.on_doubtful),
+        on_excluded=larger.excluded,
+        on_doubtful=larger.doubtful,
     )
 
 

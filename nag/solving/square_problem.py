@@ -39,6 +39,7 @@ class SquareProblem:
         nonzero: polynomials that must not vanish, in the scaled variables.
         added: number of random linear equations that cut a solution set of positive dimension.
         squared: whether the square system has solutions that the equations have not.
+        sides: 2 where the imaginary unit is an unknown, of whose two values one is asked for.
     """
 
     system: PolynomialSystem
@@ -47,6 +48,11 @@ class SquareProblem:
     target: Target
     added: int
     squared: bool
+    sides: int = 1
+
+    def on_one_side(self, zeros: int) -> int:
+        """How many of so many zeros are asked for: the others are their conjugates."""
+        return -(-zeros // self.sides)
 
     @classmethod
     def of(
