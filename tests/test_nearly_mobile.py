@@ -215,6 +215,32 @@ def test_axes_that_pass_a_point_are_small_beside_links_that_are_told(offset: Fra
     assert drawn is not None and drawn.nearly_mobile and drawn.radius is None
 
 
+def test_a_ball_where_axes_all_but_meet_says_nothing_of_the_size() -> None:
+    """It must be there, while the others are drawn at a distance of one."""
+    near = (("J0", "revolute", (0, 0, 1), (0, 0, 1)), ("J1", "revolute", (1, 0, 0), (1, 0, "1e-6")))
+    joints = [
+        Joint(name, kind, (f"b{i}", f"b{i + 1}"), point, axis)
+        for i, (name, kind, point, axis) in enumerate(near)
+    ]
+    ball = Joint("J2", "spherical", ("b2", "b0"), ("0", "1e-6", "0"))
+    found = find_near_motion(Mechanism("b0", (*joints, ball)), 1e-3)
+    assert found is not None and found.nearly_mobile and found.size == pytest.approx(1)
+
+
+@pytest.mark.parametrize("shift", [0, 10**6])
+def test_a_planar_joint_is_nowhere(shift: int) -> None:
+    """Where the origin lies beside it is nothing that a mechanism has."""
+    place = (1 + shift, shift, shift), (2 + shift, 1 + shift, shift)
+    joints = (
+        Joint("E", "planar", ("b0", "b1"), axis=("0", "1e-5", "1")),
+        Joint("A", "revolute", ("b1", "b2"), place[0], (0, 0, 1)),
+        Joint("B", "revolute", ("b2", "b0"), place[1], ("1e-5", "0", "1")),
+    )
+    found = find_near_motion(Mechanism("b0", joints), 1e-3)
+    assert found is not None and found.nearly_mobile
+    assert found.size == pytest.approx(1 / np.sqrt(2), rel=1e-6)
+
+
 def test_one_joint_that_is_named_far_along_its_axis_makes_nothing_small() -> None:
     near = find_near_motion(nearly_meeting(Fraction(1), 0), 1e-3)
     far = find_near_motion(nearly_meeting(Fraction(1), 0, 0, 10**9, 0), 1e-3)
@@ -255,3 +281,46 @@ def test_axes_that_all_but_meet_far_away_have_the_size_of_the_links(
         # By the closure of the plane loop: from -1.95 to 3.80, open by 7.6e-4 rad and 1.6e-3.
         assert found.driven_to == pytest.approx((-1.95, 3.80), abs=0.02)
         assert found.gap[0] < 2e-3 and found.gap[1] < 3e-3
+
+
+def test_of_several_near_freedoms_all_but_one_are_held() -> None:
+    """A planar five-bar, rounded: with one joint held its motion is that of a four-bar."""
+    corners = np.array([[0, 0, 0.3], [-1, 2, 0], [2, 3.5, -0.2], [4, 2, 0.4], [3, 0, 0]])
+    lengths = np.array([[1.0], [1.3], [0.8], [0.7], [0.9]])
+    mechanism = rounded_loop(turned((np.array([[0, 0, 1.0]] * 5) * lengths, corners)), 6)
+    found = find_near_motion(mechanism, 1e-3)
+    assert found is not None and found.nearly_mobile
+    (held,) = found.held
+    # The driven joint turns from where the two links across from it are in line to the mirror
+    # image, or through a whole turn.
+    left = [i for i in range(5) if f"J{i}" != held]
+    k = left.index(int(found.driven[1:]))
+    before, here, after, across = (corners[left[(k + i) % 4], :2] for i in (-1, 0, 1, 2))
+    own, others = (
+        [np.linalg.norm(before - middle), np.linalg.norm(after - middle)]
+        for middle in (here, across)
+    )
+    low, high = (
+        np.arccos(np.clip((own[0] ** 2 + own[1] ** 2 - d**2) / (2 * own[0] * own[1]), -1, 1))
+        for d in (abs(others[0] - others[1]), sum(others))
+    )
+    least, most = found.driven_to
+    assert most - least == pytest.approx(2 * (np.pi - low if low > 0 else high), abs=0.02)
+    assert low == 0 or high == np.pi
+
+
+def test_loops_that_nearly_move_by_themselves_are_looked_at_one_by_one() -> None:
+    first, second = (rounded_loop(posed(assembled("bennett"), seed), 6).joints for seed in (1, 2))
+    other = (
+        replace(
+            joint,
+            name=f"K{i}",
+            bodies=tuple(b if b == "B0" else f"C{b}" for b in joint.bodies),
+        )
+        for i, joint in enumerate(second)
+    )
+    both = Mechanism("B0", (*first, *other))
+    found = find_near_motion(both, 1e-4)
+    assert found is not None and found.nearly_mobile and len(found.held) == 1
+    assert found.driven[0] != found.held[0][0]
+    assert "of the next" in find_spoiled_motion(both)

@@ -109,8 +109,8 @@ def _projection(joint: Joint) -> np.ndarray:
 
 
 def has_place(joint: Joint) -> bool:
-    """Whether it matters where a joint is: of slides and rigid joints only directions do."""
-    return not joint.of_type.is_rigid and not joint.of_type.slides_only
+    """Whether it matters where a joint is: where it slides in a plane only directions do."""
+    return "point" in joint.of_type.fields
 
 
 def turns_about_line(joint: Joint) -> bool:
@@ -120,6 +120,8 @@ def turns_about_line(joint: Joint) -> bool:
 
 def nearest_on_axis(joint: Joint, to: Vector) -> Vector:
     """The point of a joint's axis that is nearest to a point, exactly; else its centre."""
+    if not has_place(joint):
+        return to
     if not turns_about_line(joint):
         return joint.point
     along = dot(difference(to, joint.point), joint.axis) / dot(joint.axis, joint.axis)

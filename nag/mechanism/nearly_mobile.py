@@ -2,8 +2,9 @@
 
 Rounded numbers make an overconstrained linkage rigid, exactly so, and uselessly. Here one joint is
 driven, all others follow by least squares, and the largest gap over the whole motion is what play
-the joints need; the least change of the axes that closes the loops at several positions says next
-to which linkage it is. Nothing of that says that the mechanism moves.
+the joints need; where it has more freedoms than one but for rounding, all but one are held. The
+least change of the axes that closes the loops at several positions says next to which linkage it
+is. Nothing of that says that the mechanism moves.
 
 Every joint is a product of turns and slides, q in all, exponentials of their screws in the
 reference configuration, q = 0. The gap of a loop is its product's quaternion and the place to which
@@ -20,6 +21,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
+from itertools import pairwise
 from math import atan2, hypot, inf, isfinite, pi
 from typing import Any
 
@@ -29,7 +31,7 @@ from nag.algebra.given import check_type
 from nag.errors import NagError
 from nag.mechanism.axes import cross, difference
 from nag.mechanism.graph import Joint, Mechanism
-from nag.mechanism.lines import median_of_places, middle_of, nearest_on_axis
+from nag.mechanism.lines import has_place, median_of_places, middle_of, nearest_on_axis
 from nag.mechanism.loops import Loop, loop_structure
 from nag.mechanism.overconstrained import known_linkage
 from nag.mechanism.quaternion import multiply
@@ -48,6 +50,8 @@ STRAIGHT = 0.998
 # Steps shorter than this are round a bend where two motions nearly meet: which of them goes on is
 # as uncertain as the numbers.
 BEND = STEP / 4
+# Steps after which motions that nearly meet have parted.
+AWAY = 3
 # Positions after which a motion is not followed further.
 MOST_POSITIONS = 1000
 # Decides: Gaps beyond which a motion is not followed, and the largest tolerance.
@@ -117,6 +121,7 @@ class NearMotion:
             meet there, that of the joints' points; 1 if these are there too.
         singular_values: the smallest and the next one of the loops' closure, in radians and sizes.
         driven: the joint that turns or slides most to first order.
+        held: joints that are held, where without that it would have more freedoms than one.
         driven_to: how far it goes either way, by radians or in length.
         slides: whether it slides.
         whole: whether that is the whole motion: it came back to where it began.
@@ -134,6 +139,7 @@ class NearMotion:
     size: float
     singular_values: tuple[float, float]
     driven: str
+    held: tuple[str, ...]
     driven_to: tuple[float, float]
     slides: bool
     whole: bool
@@ -210,7 +216,10 @@ class NearMotion:
         else:
             far = f"from {low:.3g} to {high:.3g}{unit}"
             far += ", all that it goes" if self.whole else ", where it is not followed further"
-        return f"{self.driven} driven {far}"
+        others = ""
+        if self.held:
+            others = f" with {join_words(self.held)} held"
+        return f"{self.driven} driven{others} {far}"
 
     def _linkage_texts(self) -> list[str]:
         named = [x for x in self.linkages if str(x)]
@@ -226,6 +235,7 @@ class NearMotion:
             "singular_values": list(self.singular_values),
             "first_order": self.first_order if isfinite(self.first_order) else None,
             "driven": self.driven,
+            "held": list(self.held),
             "driven_to": list(self.driven_to),
             "whole": self.whole,
             "gap": list(self.gap),
@@ -284,7 +294,8 @@ def find_near_motion(mechanism: Mechanism, tolerance: float) -> NearMotion | Non
     if chains is None:
         return None
     values, directions = chains.singular()
-    tangent = directions[-1]
+    held, tangent = _hold_but_one(chains, directions[-_near_freedoms(chains, tolerance) :])
+    chains = replace(chains, held=held)
     driven = _most_moved(chains, tangent)
     tangent = tangent if tangent[driven] > 0 else -tangent
     walk = _follow_both_ways(chains, tangent)
@@ -302,7 +313,8 @@ def find_near_motion(mechanism: Mechanism, tolerance: float) -> NearMotion | Non
         tolerance=tolerance,
         size=size,
         singular_values=(float(values[-1]), float(values[-2] if len(values) > 1 else inf)),
-        driven=chains.joints[chains.screws[driven].joint].name,
+        driven=chains.name_of(driven),
+        held=tuple(dict.fromkeys(map(chains.name_of, held))),
         driven_to=tuple(float(x) * (size if slides else 1.0) for x in (along.min(), along.max())),
         slides=slides,
         whole=walk.whole,
@@ -320,12 +332,13 @@ def find_spoiled_motion(mechanism: Mechanism) -> str:
     if chains is None:
         return ""
     values, _ = chains.singular()
-    if len(values) < 2 or not ROUNDING * HINT < values[-1] < HINT * values[-2]:
-        return ""
-    return (
-        f"the smallest singular value is {values[-1] / values[-2]:.0e} of the next: it may be that "
-        "only rounding keeps it from moving; ask for a tolerance to see how far it opens"
-    )
+    for larger, value in pairwise(values):
+        if ROUNDING * HINT < value < HINT * larger:
+            return (
+                f"a singular value is {value / larger:.0e} of the next: it may be that only "
+                "rounding keeps it from moving; ask for a tolerance to see how far it opens"
+            )
+    return ""
 
 
 @dataclass(frozen=True)
@@ -357,6 +370,7 @@ class Chains:
         products: for each loop, numbers of its turns and slides and their signs, in order.
         on_sphere: whether the axes all but meet in a point, and the size is how far from it the
             joints are named.
+        held: numbers of screws that stay where they are.
     """
 
     joints: tuple[Joint, ...]
@@ -367,6 +381,7 @@ class Chains:
     point: Array
     products: tuple[tuple[tuple[int, int], ...], ...]
     on_sphere: bool
+    held: tuple[int, ...] = ()
 
     @classmethod
     def of(cls, mechanism: Mechanism) -> Chains | None:
@@ -386,11 +401,12 @@ class Chains:
                 np.array([float(x) for x in difference(p, middle)])
                 for p in (nearest_on_axis(joint, middle), joint.point)
             )
+            if joint.of_type.keeps_line:
+                named.append(float(np.linalg.norm(there)))
             for turns, line, direction in _motions(joint):
                 screws.append(Screw(i, turns, line))
                 axes.append(direction / np.linalg.norm(direction))
                 points.append(near)
-                named.append(float(np.linalg.norm(there)))
             numbers[joint.name] = range(begin, len(screws))
         axis, point = np.array(axes), np.array(points)
         turning = np.array([s.turns for s in screws])
@@ -399,11 +415,12 @@ class Chains:
             # Where a joint has one axis, any of its points is as good.
             if len(_lines(structure.joints[screw.joint])) == 1:
                 point[k] = feet[k]
-        size = _mean_size(feet[turning])
+        placed = np.array([has_place(structure.joints[s.joint]) for s in screws])
+        size = _mean_size(feet[turning & placed])
         # Lines that all but meet in a point are drawn on a sphere about it; the lower median leaves
         # out what is named far along its axis.
-        drawn = sorted(x for x, turns in zip(named, turning, strict=True) if turns)
-        radius = drawn[(len(drawn) - 1) // 2] if drawn else 0.0
+        named.sort()
+        radius = named[(len(named) - 1) // 2] if named else 0.0
         on_sphere = size <= WIDEST_GAP * radius
         if on_sphere:
             size = radius
@@ -519,10 +536,24 @@ class Chains:
             found.append((turn, place))
         return found
 
-    def singular(self) -> tuple[Array, Array]:
-        """Singular values of the closure at the reference, one for each coordinate, and vectors."""
-        _, values, rows = np.linalg.svd(self.linearised(np.zeros(len(self.screws)))[1])
+    def singular(self, q: Array | None = None) -> tuple[Array, Array]:
+        """Singular values of the closure, one for each coordinate, and vectors.
+
+        Args:
+            q: where; the reference by default.
+        """
+        q = np.zeros(len(self.screws)) if q is None else q
+        _, values, rows = np.linalg.svd(self.linearised(q)[1])
         return np.append(values, np.zeros(len(rows) - len(values))), rows
+
+    def name_of(self, screw: int) -> str:
+        """The joint that a turn or slide is of."""
+        return self.joints[self.screws[screw].joint].name
+
+    def across(self, tangent: Array) -> Array:
+        """An orthonormal basis of what moves across a direction, as columns."""
+        rows = np.vstack([tangent, np.eye(len(tangent))[list(self.held)]])
+        return np.linalg.svd(rows)[2][len(rows) :].T
 
     @cached_property
     def changes(self) -> tuple[tuple[int, int], ...]:
@@ -764,7 +795,7 @@ def close_across(chains: Chains, q: Array, tangent: Array) -> Array:
 
     By Gauss and Newton's steps, as gaps are small.
     """
-    across = _across(tangent)
+    across = chains.across(tangent)
     for _ in range(MOST_STEPS):
         opening, rows = chains.linearised(q)
         step = across @ np.linalg.lstsq(rows @ across, -opening, rcond=None)[0]
@@ -772,11 +803,6 @@ def close_across(chains: Chains, q: Array, tangent: Array) -> Array:
         if np.linalg.norm(step) < ROUNDING:
             break
     return q
-
-
-def _across(tangent: Array) -> Array:
-    """An orthonormal basis of the plane across a direction, as columns."""
-    return np.linalg.svd(tangent[None])[2][1:].T
 
 
 @dataclass(frozen=True)
@@ -851,11 +877,12 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
         return None
     chosen = np.array(others)[np.linspace(0, len(others) - 1, FITTED).round().astype(int)]
     positions = walk.positions[chosen]
-    across = np.array([_across(t) for t in walk.tangents[chosen]])
+    across = np.array([chains.across(t) for t in walk.tangents[chosen]])
     n, m = len(chains.screws), 3 * len(chains.changes)
+    own = across.shape[-1]
 
     def parts(x: Array) -> tuple[Array, Array]:
-        z = x[m:].reshape(FITTED, n - 1)
+        z = x[m:].reshape(FITTED, own)
         return x[:m], positions + np.einsum("kij,kj->ki", across, z)
 
     def opening(x: Array) -> Array:
@@ -869,15 +896,15 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
         steps = q[:, None] + 1j * COMPLEX_STEP * np.eye(n)
         by_joints = chains.closing(steps, *chains.changed_lines(change)).imag / COMPLEX_STEP
         rows = by_change.shape[-1]
-        found = np.zeros((FITTED, rows, m + FITTED * (n - 1)))
+        found = np.zeros((FITTED, rows, m + FITTED * own))
         found[:, :, :m] = np.moveaxis(by_change, 0, -1)
         for k in range(FITTED):
-            at = m + k * (n - 1)
-            found[k, :, at : at + n - 1] = by_joints[k].T @ across[k]
+            at = m + k * own
+            found[k, :, at : at + own] = by_joints[k].T @ across[k]
         return found.reshape(FITTED * rows, -1)
 
-    unchanged = np.eye(m, m + FITTED * (n - 1))
-    x = np.zeros(m + FITTED * (n - 1))
+    unchanged = np.eye(m, m + FITTED * own)
+    x = np.zeros(m + FITTED * own)
     for weight in WEIGHTS:
         x = least_squares(
             lambda x, w=weight: np.concatenate([w * opening(x), x[:m]]),
@@ -901,6 +928,43 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
         x = x - free @ np.linalg.lstsq(free[:m], x[:m], rcond=SMALL)[0]
     closed = np.abs(opening(x)).max() < ROUNDING
     return chains.with_change(x[:m]) if closed else None
+
+
+def _near_freedoms(chains: Chains, tolerance: float) -> int:
+    """With how many freedoms loops move to first order but for rounding, one at least.
+
+    As many singular values are far smaller than the next, and below the tolerance. Where motions
+    nearly meet they are more than the freedoms, but not a few steps away.
+    """
+
+    def count(values: Array) -> int:
+        own = np.maximum(values, ROUNDING)
+        parting = np.where(own[1:] < tolerance, own[:-1] / own[1:], 0)
+        return len(values) - 1 - int(np.argmax(parting)) if parting.any() else 1
+
+    values, directions = chains.singular()
+    found = count(values)
+    if found == 1:
+        return 1
+    tangent = directions[-1]
+    away = close_across(chains, AWAY * STEP * tangent, tangent)
+    return min(found, count(chains.singular(away)[0]))
+
+
+def _hold_but_one(chains: Chains, directions: Array) -> tuple[tuple[int, ...], Array]:
+    """Screws to hold so that of several directions one is left, and that one.
+
+    Those that move most are held, as others determine them the worst.
+
+    Args:
+        directions: orthonormal, shape (k, n).
+    """
+    held: list[int] = []
+    while len(directions) > 1:
+        held.append(_most_moved(chains, np.linalg.norm(directions, axis=0)))
+        column = directions[:, held[-1]]
+        directions = np.linalg.svd(column[None])[2][1:] @ directions
+    return tuple(held), directions[0]
 
 
 def _most_moved(chains: Chains, tangent: Array) -> int:
