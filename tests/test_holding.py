@@ -319,6 +319,25 @@ def test_a_pose_that_is_singular_but_for_rounding_is_said_to_be(off: float) -> N
     assert straight_arm(4.0).complete and not straight_arm(4.0).assemblies
 
 
+def rps_robot() -> nag.Mechanism:
+    """A platform on three legs, each a hinge, a slide and a ball, over a base twice its size."""
+    joints, corners = [], [(2, 0), (-1, Fraction(17, 10)), (-1, Fraction(-17, 10))]
+    for k, (x, y) in enumerate(corners, 1):
+        low, up, top = f"low{k}", f"up{k}", (x / Fraction(2), y / Fraction(2), 3)
+        along = (-x / Fraction(2), -y / Fraction(2), 3)
+        joints += [
+            nag.Joint(f"R{k}", "revolute", ("base", low), (x, y, 0), (-y, x, 0)),
+            nag.Joint(f"P{k}", "prismatic", (low, up), None, along),
+            nag.Joint(f"S{k}", "spherical", (up, "platform"), top),
+        ]
+    return nag.Mechanism("base", tuple(joints))
+
+
+def test_a_ball_turned_to_the_end_of_its_quaternions_chart_is_not_all_but_singular() -> None:
+    motion = nag.motion(rps_robot(), drive={"P1": 0.1, "P2": 0.0, "P3": 0.0})
+    assert len(motion.assemblies) == 16 and motion.complete and not motion.notes
+
+
 def test_a_pose_that_asks_for_too_much_in_rounded_numbers_is_left_open() -> None:
     pose = (-2.998876829652815, 1.6650327512175565, 0, 0.7188563932301292, 0, 0, -0.695158604860912)
     motion = nag.motion(CASES / "planar" / "five-bar.toml", pose={"rod1": pose})

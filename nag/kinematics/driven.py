@@ -18,6 +18,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import is_a
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values
 from nag.kinematics.path import Path
@@ -382,12 +383,34 @@ def _is_among(x: np.ndarray, known: Sequence[np.ndarray]) -> bool:
 
 
 def _is_nearly_singular(problem: Problem, x: np.ndarray) -> bool:
-    """Whether a Jacobian is, to the root of rounding, each row beside the size of its terms."""
+    """Whether a Jacobian is, to the root of rounding, each row beside the size of its terms.
+
+    Changes are those of unit vectors of each group's projective space, so that a half-angle or a
+    quaternion near the infinity of its chart is no nearer to singular than elsewhere.
+    """
     n, polynomials = problem.system.n, problem.system.polynomials
+    changes = _unit_changes(problem.system, x)
     terms = [Polynomial(n, {e: abs(c) for e, c in f.terms.items()}) for f in polynomials]
-    sizes = np.abs(Evaluator.of(terms, n).jacobian(np.abs(x) + 0j)).max(axis=1)
-    rows = Evaluator.of(polynomials, n).jacobian(x + 0j) / np.where(sizes > 0, sizes, 1)[:, None]
+    slopes = Evaluator.of(terms, n).jacobian(np.abs(x) + 0j) @ np.abs(changes)
+    sizes = np.abs(slopes).max(axis=1)
+    rows = Evaluator.of(polynomials, n).jacobian(x + 0j) @ changes
+    rows = rows / np.where(sizes > 0, sizes, 1)[:, None]
     return bool(np.linalg.svd(rows, compute_uv=False)[n - 1] < NEARLY_SINGULAR)
+
+
+def _unit_changes(system: PolynomialSystem, x: np.ndarray) -> np.ndarray:
+    """Changes of the coordinates by unit steps in the spaces of the groups, as columns, ``(n, n)``.
+
+    For x in a chart of projective space, a step v from (1, x), orthogonal to it and as long as
+    (1, x), changes x by v_1 - v_0 x. Variables in no group change by 1.
+    """
+    found = np.eye(len(x), dtype=complex)
+    for group in system.groups:
+        own = list(group)
+        whole = np.array([1.0, *x[own]], dtype=complex)
+        across = np.linalg.svd(whole.conj()[None, :])[2][1:].conj().T * np.linalg.norm(whole)
+        found[np.ix_(own, own)] = across[1:] - np.outer(x[own], across[0])
+    return found
 
 
 def assemblies_on(
