@@ -418,3 +418,9 @@ def test_what_has_no_bodies_is_told_to_have_none(capsys: pytest.CaptureFixture[s
         assert main(["mobility", str(CASES / f"{name}.toml"), "--of", "stick", "--quiet"]) == 2
         (line,) = capsys.readouterr().err.splitlines()
         assert said in line
+
+
+def test_a_link_of_a_table_with_irrational_twists_is_told() -> None:
+    table = nag.DHLoop.of([{"a": "5/3", "alpha": "pi/2"}, {"a": "5/6", "alpha": "pi/6"}] * 2)
+    moving = nag.mobility(table, of="link2").moving
+    assert moving is not None and "1 freedom" in str(moving.body)

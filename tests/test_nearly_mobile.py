@@ -178,6 +178,36 @@ def test_rigid_is_the_first_word_and_a_hint_follows_where_one_is_due(capsys) -> 
     assert find_spoiled_motion(general) == ""
 
 
+ROUNDED_TABLE = [{"a": 120, "alpha": "5*pi/18"}, {"a": 75, "alpha": "28.6056*pi/180"}] * 2
+
+
+def test_a_table_in_rounded_numbers_gives_a_hint_and_is_nearly_mobile() -> None:
+    table = nag.DHLoop.of(ROUNDED_TABLE)
+    assert "rounding" in nag.mobility(table).hint
+    report = nag.mobility(table, tolerance=1e-3)
+    assert report.near is not None and report.near.nearly_mobile
+    assert [str(x) for x in report.near.linkages] == ["a Bennett linkage"]
+    assert report.sentence.startswith("no configuration moves") and "nearly" in report.sentence
+    other = nag.DHLoop.of([ROUNDED_TABLE[0], {"a": 75, "alpha": "pi/6"}] * 2)
+    general = nag.mobility(other, tolerance=1e-3)
+    assert general.near is not None and not general.near.nearly_mobile
+    assert "nor nearly so within 0.001" in general.sentence
+
+
+def test_a_drawing_in_four_digits_gives_a_hint() -> None:
+    lines = [
+        ((0, 0, 0), (0, 0, 1)),
+        (("54.4315", "106.9449", 0), ("0.6827", "-0.3475", "0.6428")),
+        (("37.4951", "36.6726", "-19.9992"), ("0.2667", "-0.3227", "0.9082")),
+        ((-75, 0, 0), (0, "0.4788", "0.8779")),
+    ]
+    joints = (
+        nag.Joint(f"J{i}", "revolute", (f"B{i}", f"B{(i + 1) % 4}"), *line)
+        for i, line in enumerate(lines)
+    )
+    assert "rounding" in find_spoiled_motion(nag.Mechanism("B0", tuple(joints)))
+
+
 def test_a_tolerance_that_makes_no_sense_is_refused(capsys) -> None:
     made = read_case(CASES / "spatial" / "bennett-rounded.toml").mechanism
     for wrong in (0, -1, 1, float("nan")):

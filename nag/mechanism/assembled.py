@@ -95,7 +95,8 @@ def _of_table(names: Sequence[str], parts: Any, point: Sequence[float]) -> Mecha
     turns = _turns(parts, point)
     total, joints = UNIT, []
     for i, (number, (c, s)) in enumerate(zip(parts.loop.open, turns, strict=True)):
-        total = _round_to_unit(dual_multiply(total, parts.loop.links[i - 1]))
+        link = _round_to_unit(parts.loop.links[i - 1])
+        total = _round_to_unit(dual_multiply(total, link))
         moved, size = translation(total)
         axis = [float(x) / float(size) for x in rotate(total[0], UP)]
         at = [float(x) / float(size) for x in moved]

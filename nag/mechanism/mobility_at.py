@@ -38,6 +38,7 @@ from nag.mechanism.quaternion import R
 from nag.mechanism.real_assemblies import real_assemblies, real_doubt
 from nag.numerics.local_dimension import local_dimension_near
 from nag.numerics.second_order import count_unreal_directions
+from nag.numerics.zero_values import ON
 from nag.text.table import count_text
 from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
 from nag.witness.frame import expand_orbits
@@ -96,8 +97,9 @@ def mobility(
             nothing is decomposed that is sure to take longer.
         of: the name of a body whose freedoms are asked for: of a mechanism, a link of a linkage or
             a table (``"link2"``), or a bar of a framework in the plane (``"A-B"``).
-        tolerance: of a mechanism that is rigid as it is given, how far its loops may open, in
-            radians and as a part of its size, for it to be called nearly mobile.
+        tolerance: of what is rigid as it is given, at its reference configuration or at a real
+            assembly of its parts: how far its loops may open, in radians and as a part of its size,
+            for it to be called nearly mobile.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
@@ -167,7 +169,7 @@ def mobility_in_steps(
     if point is not None:
         at = coordinates(point, problem.system.variables)
     if at is None:
-        yield _in_general(problem, detail, of, run)
+        yield _in_general(problem, detail, of, tolerance, run)
         return
     first = _local_report(problem, at, run)
     if made is not None:
@@ -478,7 +480,9 @@ def _with_only_component(
     )
 
 
-def _in_general(problem: Problem, detail: str, of: str | None, run: Run) -> MobilityReport:
+def _in_general(
+    problem: Problem, detail: str, of: str | None, tolerance: float | None, run: Run
+) -> MobilityReport:
     """The mobility at a general configuration of parts that may be assembled."""
     if detail == "local":
         raise NagError("the parts are not assembled; give a point, an assembly of them")
@@ -509,7 +513,11 @@ def _in_general(problem: Problem, detail: str, of: str | None, run: Run) -> Mobi
         doubt=doubt,
         rests_on=ALL_COMPONENTS if found.complete else "",
     )
-    if of is None or report.local_dimension == 0:
+    if report.local_dimension == 0:
+        if known is None or known.corank or problem.parts is None:
+            return report
+        return _with_near_motion(report, problem, components, tolerance)
+    if of is None:
         return report
     if known is None or problem.parts is None:
         return replace(report, unclear="the components are not known")
@@ -517,6 +525,36 @@ def _in_general(problem: Problem, detail: str, of: str | None, run: Run) -> Mobi
     each = found.components if problem.parts.points_of_each > 1 else components
     motions = sum(c.dimension == known.dimension for c in each)
     return _with_general_motion(report, problem, known.corank, motions, of, run)
+
+
+def _with_near_motion(
+    report: MobilityReport,
+    problem: Problem,
+    components: Sequence[WitnessSet],
+    tolerance: float | None,
+) -> MobilityReport:
+    """A report of parts that are rigid, and how they would move from a real assembly.
+
+    From the first of these at which they are nearly mobile, or give a hint that they may be; else
+    from the first of all.
+    """
+    if problem.parts is None or in_real_coordinates(problem) is not problem:
+        return report
+    points = [x for c in components for x in np.asarray(c.points)]
+    real = [x.real.tolist() for x in points if np.abs(x.imag).max(initial=0) < ON]
+    placed = (assemble_parts(problem.parts, x) for x in real)
+    if tolerance is None:
+        hint = next((text for m in placed if (text := find_spoiled_motion(m))), "")
+        return replace(report, hint=hint)
+    motions = []
+    for mechanism in placed:
+        motion = find_near_motion(mechanism, tolerance)
+        if motion is not None:
+            motions.append(motion)
+            if motion.nearly_mobile:
+                break
+    motions.sort(key=lambda motion: not motion.nearly_mobile)
+    return replace(report, near=motions[0]) if motions else report
 
 
 def _with_general_motion(

@@ -261,7 +261,7 @@ class MobilityReport:
 
         At a singular configuration that moves what the numbers mean depends on the components.
         """
-        alone = self.general is None and (self.local is None or self.local.smooth)
+        alone = self.general is not None or self.local is None or self.local.smooth
         if alone or (self.local is not None and self.local.upper == 0):
             (sentence, *rest) = self._meaning_rows()
             return [sentence, *self._local_rows(), *rest]
@@ -382,16 +382,21 @@ def _sentence(report: MobilityReport) -> str:
             return f"{asked}; the mechanism {meaning.removeprefix('it ')}"
         return f"{asked}; {meaning}"
     if status is MobilityStatus.RIGID:
-        return "no configuration moves, not even infinitesimally"
+        return f"no configuration moves, not even infinitesimally{_nearly(report)}"
     text = f"at a general configuration of those with the most freedoms {_meaning(report)}"
     return f"{text}; {report.doubt}" if report.doubt else text
+
+
+def _nearly(report: MobilityReport) -> str:
+    """What a tolerance adds to a rigid mechanism's sentence."""
+    return "" if report.near is None else f"; {report.near.sentence}"
 
 
 def _meaning(report: MobilityReport) -> str:
     status = report.status
     mobility, tangent = report.local_dimension, report.tangent_dimension
     if status is MobilityStatus.RIGID:
-        return "it does not move, not even infinitesimally"
+        return f"it does not move, not even infinitesimally{_nearly(report)}"
     if report.is_blocked and mobility:
         moves = f"moves with {count_text(report.free, 'freedom')}, {report.free_of}, and no other"
         return (

@@ -80,8 +80,9 @@ MOST_EVALUATIONS = 200
 FEWEST_CLOSING, MOST_CLOSING = 3, 12
 SMALL = 1e-8
 # Decides: Smallest singular value, beside the next, at which a rigid mechanism may be meant to
-# move.
-HINT = 1e-6
+# move: that of a linkage that moves is of the order of its numbers' rounding, and drawings have
+# four digits, or three.
+HINT = 1e-3
 
 Array = np.ndarray
 
@@ -153,6 +154,13 @@ class NearMotion:
     def nearly_mobile(self) -> bool:
         """Whether the whole motion takes gaps, and a mobile linkage changes, within tolerance."""
         return not self.obstacle
+
+    @property
+    def sentence(self) -> str:
+        """Whether it is nearly mobile, in a clause."""
+        if self.obstacle:
+            return f"nor nearly so within {self.tolerance:g}"
+        return f"but nearly does: its loops open by at most {_amount(self.gap)}"
 
     @property
     def obstacle(self) -> str:
@@ -335,8 +343,9 @@ def find_spoiled_motion(mechanism: Mechanism) -> str:
     for larger, value in pairwise(values):
         if ROUNDING * HINT < value < HINT * larger:
             return (
-                f"a singular value is {value / larger:.0e} of the next: it may be that only "
-                "rounding keeps it from moving; ask for a tolerance to see how far it opens"
+                "it may be that only rounding keeps it from moving, as a singular value is "
+                f"{value / larger:.0e} of the next; ask with a tolerance, of 0.001 say, how far "
+                "its loops would open"
             )
     return ""
 
