@@ -316,7 +316,7 @@ def member(given: Any, point: Any = None, *, run: Run = DEFAULT_RUN) -> PointMem
     Args:
         given: components that were found, a file of them, or what is decomposed now.
         point: as for `local`.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.NagError: if there is no such point, or an argument makes no sense.
@@ -351,7 +351,7 @@ def sample(
         component: its number, from 1.
         count: how many.
         real: whether they are to be real; of a framework in coordinates x, y.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         The points, complex, shape ``(count, n)``, and how accurate they are.
@@ -382,7 +382,7 @@ def singular(given: Any, component: int | None = None, *, run: Run = DEFAULT_RUN
     Args:
         given: components that were found, a file of them, or what is decomposed now.
         component: the number of the one that is asked about, from 1; all by default.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.NagError: if there is no such component, or an argument makes no sense.
@@ -406,7 +406,7 @@ def intersect(given: Any, first: int, second: int, *, run: Run = DEFAULT_RUN) ->
     Args:
         given: components that were found, a file of them, or what is decomposed now.
         first, second: which ones; they may be equal.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.NagError: if there is no such component, or an argument makes no sense.
@@ -444,7 +444,7 @@ def eliminate(
         component: its number, from 1.
         degree: all equations up to this degree; by default until they define the image.
         polynomial: whether only polynomial maps to the other variables are looked for.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.ComponentError: if coefficients are not recognised.
@@ -534,7 +534,7 @@ def plot(
         tree: all components by their dimensions.
         component: the number of the one that is drawn ``onto`` variables, from 1; all by default.
         circuit, formulation: as for `nag.motion`.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.ComponentError: if what is to be drawn was not found.

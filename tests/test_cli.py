@@ -254,7 +254,7 @@ def test_the_model_of_a_system_is_the_system(case, capsys) -> None:
         ([], "say what to do"),
         (["decompse"], "did you mean 'decompose'"),
         (["decompose"], "CASE"),
-        (["decompose", "{case}", "extra"], "unrecognized arguments"),
+        (["decompose", "{case}", "extra"], "unrecognized arguments: extra (see nag decompose -"),
         (["decompose", "{case}", "--frob"], "unrecognized arguments"),
         (["decompose", "{case}", "--see", "1"], "unrecognized arguments"),
         (["decompose", "{case}", "--seed"], "expected one argument"),

@@ -50,10 +50,26 @@ def test_a_file_alone_says_what_can_be_asked_of_it(
     assert f"nag {command} " in shown and "ask: nag COMMAND" in shown
 
 
-def test_every_question_is_a_command() -> None:
-    from nag.cli.show import LEGS, QUESTIONS
+def test_an_open_arm_is_asked_for_its_inverse_kinematics(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    links = "".join(f'<link name="{name}"/>' for name in ("base", "arm", "hand"))
+    turns = "".join(
+        f'<joint name="j{k}" type="continuous"><parent link="{a}"/><child link="{b}"/>'
+        '<origin xyz="1 0 0"/><axis xyz="0 0 1"/></joint>'
+        for k, (a, b) in enumerate([("base", "arm"), ("arm", "hand")])
+    )
+    path = tmp_path / "arm.urdf"
+    path.write_text(f'<robot name="arm">{links}{turns}</robot>')
+    assert main([str(path)]) == 0
+    shown = capsys.readouterr().out
+    assert "--pose hand=X,Y,Z" in shown and "--hold hand" in shown
 
-    asked = {name for rows in QUESTIONS.values() for name, _ in rows} | {LEGS[0]}
+
+def test_every_question_is_a_command() -> None:
+    from nag.cli.show import HAND, LEGS, QUESTIONS
+
+    asked = {name for rows in (*QUESTIONS.values(), HAND, (LEGS,)) for name, _ in rows}
     assert asked <= {row[0] for row in COMMANDS}
 
 

@@ -157,6 +157,7 @@ def test_a_superscript_is_no_part_of_a_name() -> None:
     [
         ("x^2 + y\nx*(y - 1\n", "line 2, column 3", "'(' is never closed"),
         ("x^2 + I*y\n", "line 1, column 7", "looks like the imaginary unit"),
+        ("x^2 + i*y\n", "line 1, column 7", "begin with a line 'imaginary i'"),
         ("2\nx^2 - 1;\n", "line 2, column 9", "1 of 2 polynomials end with ';'"),
         ("1 2\nx^2 - 1;\n", "line 1, column 3", "2 unknowns are said, and 1 occur"),
         ("2\nx^2 - 1;\nx/y;\n", "line 3, column 2", "the divisor contains a variable"),

@@ -319,6 +319,17 @@ def test_a_pose_that_is_singular_but_for_rounding_is_said_to_be(off: float) -> N
     assert straight_arm(4.0).complete and not straight_arm(4.0).assemblies
 
 
+def test_a_body_to_be_placed_that_is_not_there_is_named_though_nothing_else_holds() -> None:
+    with pytest.raises(nag.NagError, match=r"pose: 'claw' is no body; they are .*hand"):
+        nag.motion(open_arm(), pose={"claw": (0, 0, 0)})
+
+
+def test_half_turns_are_told_forwards() -> None:
+    motion = nag.motion(CASES / "planar" / "five-bar.toml", drive={"A": math.pi, "E": 0.0})
+    held = names_of(motion).index("A")
+    assert all(assembly.values[held] > 0 for assembly in motion.assemblies)
+
+
 def rps_robot() -> nag.Mechanism:
     """A platform on three legs, each a hinge, a slide and a ball, over a base twice its size."""
     joints, corners = [], [(2, 0), (-1, Fraction(17, 10)), (-1, Fraction(-17, 10))]

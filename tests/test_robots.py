@@ -133,7 +133,7 @@ def test_angles_in_doubles_and_in_four_decimals_are_recognised(tmp_path: Path) -
     ]
     assert all(f.matrix == frames[0].matrix for f in frames)
     assert frames[0].turned((1, 0, 0)) == (0, 0, -1)
-    assert "1.57079632679 as" in read_case(written(tmp_path, UR5)).notes[0]
+    assert "1.57079632679 as pi/2" in read_case(written(tmp_path, UR5)).notes[0]
 
 
 @pytest.mark.parametrize("text", ["0.3", "-1.2", "2.9999", "3.1", "0.001", "1.57", "-6.1"])

@@ -276,7 +276,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         try:
             check_command(words)
-            arguments = parser(words).parse_args(words)
+            arguments, rest = parser(words).parse_known_args(words)
+            if rest:
+                where = f"(see nag {arguments.command} --help)"
+                raise UsageError(f"unrecognized arguments: {' '.join(rest)} {where}")
         except SystemExit:  # after --help or --version
             _print()
             return COMPLETE

@@ -198,6 +198,7 @@ def _run_once(
     if options.csv is not None:
         write_document(_table_text(found.whole_table(angles=options.angles)), options.csv, "csv")
     tail = [("open", note) for note in found.notes]
+    tail += [("table", options.csv)] if options.csv is not None else []
     if options.html is not None and not found.circuits:
         tail.append(("page", f"{options.html} is not written: there is no motion to show"))
     elif options.html is not None:
@@ -205,6 +206,7 @@ def _run_once(
 
         page = motion_page(found, case.title, os.path.basename(case.path))
         write_document(page, options.html, "html")
+        tail.append(("page", options.html))
     blocks: list[Any] = [motion_rows(found), *_circuit_blocks(found)]
     if found.drive is not None or found.held or found.poses:
         blocks.append([("driven", drive_text(found))])
@@ -246,6 +248,7 @@ def _run_through(
 
         page = driven_page(found, case.title, os.path.basename(case.path))
         write_document(page, options.html, "html")
+        tail.append(("page", options.html))
     head = [row for row in motion_rows(found[0]) if row[0] in ("model", "mobility", "idle")]
     blocks: list[Any] = [head, driven_rows(found), continuation_rows(found)]
     return answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)

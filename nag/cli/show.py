@@ -41,6 +41,11 @@ QUESTIONS = {
     "solutions": (("certify", "are its solutions proved?"),),
 }
 LEGS = ("modes", "which operation modes has the platform of a parallel robot?")
+# Of an open chain, as an arm is, the last body stands for the hand.
+HAND = (
+    ("motion", "which postures reach a pose? (inverse kinematics; --pose {hand}=X,Y,Z)"),
+    ("mobility", "does it move with its hand held? (--hold {hand})"),
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -130,6 +135,7 @@ def _describe_case(
     case: Case,
 ) -> tuple[str, list[list[str] | list[Row]], tuple[tuple[str, str], ...]]:
     from nag.algebra.system import system_line, values_text
+    from nag.mechanism.loops import loop_structure
 
     rows: list[Row] = [("kind", case.kind)]
     if case.mechanism is not None:
@@ -152,6 +158,11 @@ def _describe_case(
     questions = QUESTIONS["mechanism" if moving else "system"]
     if case.mechanism is not None and _is_robot(case):
         questions = (*questions, LEGS)
+    if case.mechanism is not None and not loop_structure(case.mechanism).loops:
+        hand = case.mechanism.body_names[-1]
+        held = os.path.splitext(case.path)[1] != ".toml"
+        questions = tuple((name, text.format(hand=hand)) for name, text in HAND[: 1 + held])
+        questions = (QUESTIONS["mechanism"][0], *questions)
     return case.title, [rows], questions
 
 

@@ -234,7 +234,8 @@ class _Watch:
         if take_unfinished(target):
             kept = f"; {target} {_KEPT}"
         else:
-            kept = "" if target is None else f"; {target} is as it was"
+            was = "as it was" if os.path.exists(target or "") else "not written"
+            kept = "" if target is None else f"; {target} is {was}"
         folder = getattr(self._options, "resume", None)
         how = "the same command starts over"
         if "resume" in self._options:

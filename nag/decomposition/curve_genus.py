@@ -87,7 +87,7 @@ def genus(
     Args:
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         The genus of the smooth model, and what it was found from.

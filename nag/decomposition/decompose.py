@@ -52,7 +52,7 @@ def decompose(
     Args:
         system: the equations; components on which a polynomial of ``system.nonzero`` vanishes
             identically are left out.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
         symmetries: signed permutations of the variables that keep the equations. Of the components
             that they carry into each other one is worked out and reported, with the size of its
             orbit; `nag.witness.frame.expand_orbits` lists the others.

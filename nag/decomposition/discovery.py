@@ -58,7 +58,7 @@ def discover(
     Args:
         system: as for `nag.decompose`.
         starts: number of starting points.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
         symmetries: as for `nag.decompose`; what they carry a component to is found
             with it.
 

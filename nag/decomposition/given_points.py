@@ -146,7 +146,7 @@ def components_through_points(
     Args:
         system: the equations.
         starts: for each component at least one point, with the component's dimension there.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
         symmetries: signed permutations that keep the equations; of each orbit of components one is
             worked out.
 

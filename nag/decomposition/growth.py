@@ -167,7 +167,7 @@ def grow_component(
         dimension: of the component, 1 or more.
         seconds: how long loops and traces may take, counted by the evaluations that a common
             processor makes in that time; what would take longer is not begun.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
     """
     parts = independent_variables(system)
     if len(parts) > 1:

@@ -72,7 +72,7 @@ def intersect_components(
         system: the equations that ``first`` was found from.
         first: one of the components of a `nag.Decomposition`.
         second: one of the same system, or of one in the same variables that it knows.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         IntersectionError: if the variables differ, or witness points are none.
@@ -156,7 +156,7 @@ def intersect_equations(
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
         equations: further equations in the same variables.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         IntersectionError: if the variables differ, or witness points are none.

@@ -148,7 +148,7 @@ def singular_parameters(
         system: a complete intersection in its variables, for general parameters. Singular points
             where something vanishes that must not, `PolynomialSystem.nonzero`, do not count.
         count: how many of the variables are parameters.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         For each set of parameters that is irreducible over the rational numbers its equations, and

@@ -276,7 +276,7 @@ def singular_locus(
         decomposition: as `nag.decompose` returns it.
         only: indices of components of `nag.witness.frame.expand_orbits`; singular points of these
             and their intersections with all others are looked for. All of them by default.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         The sets of singular points by falling dimension, each with points of shape

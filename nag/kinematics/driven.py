@@ -339,7 +339,7 @@ def isolated_assemblies(
         doubtful += not real.each_piece
         points = np.asarray(real.points)
         poses = scene.lift(points)
-        values = joint_values(scene, poses)
+        values = _upper_half_turns(scene, joint_values(scene, poses))
         for i in range(len(points)):
             here = poses.at(slice(i, i + 1))
             found.append(DrivenAssembly(None, None, values[i], here, points[i]))
@@ -347,6 +347,13 @@ def isolated_assemblies(
     if doubtful:
         notes.append(f"assemblies left out as it is not known whether they are real: {doubtful}")
     return sorted(found, key=lambda each: tuple(np.round(each.values, DECIMALS))), notes
+
+
+def _upper_half_turns(scene: Scene, values: np.ndarray) -> np.ndarray:
+    """The same values, with half turns backwards, but for rounding, as half turns forwards."""
+    angles = [each.kind == "angle" for each in joint_coordinates(scene)]
+    backwards = np.array(angles, dtype=bool) & (values < STILL - np.pi)
+    return np.where(backwards, values + 2 * np.pi, values)
 
 
 def find_doubts_of_held(

@@ -176,7 +176,7 @@ def driven_motion(
         samples, formulation: as for `nag.motion`.
         drive: other joints that are held, as `nag.motion` takes them.
         pose: bodies that are held, as `nag.motion` takes them.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.kinematics.motion.MotionError: if with the joint held two freedoms or more are left.

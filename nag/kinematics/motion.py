@@ -377,7 +377,7 @@ def motion(
             motion's table has it, which is how far it is moved from where it is drawn: ``(x, y,
             z)``, or with a quaternion behind it 7 numbers. By ``"BODY@JOINT"`` the place of that
             joint's point instead, in the drawing's coordinates.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         MotionError: if it does not move with one freedom, or has no real motion.
@@ -661,11 +661,8 @@ def _no_motion(curves: Sequence[RealCurve], left_out: str) -> str:
     rest = f"; not looked at: {left_out}" if left_out else ""
     isolated = sum(len(curve.pieces) for curve in curves)
     if isolated:
-        points = count_text(isolated, "isolated point")
-        return (
-            f"it has no real motion: its components have {points} that are real, and no curve"
-            + rest
-        )
+        points = count_text(isolated, "real point")
+        return f"it has no real motion: its components have {points}, isolated, and no curve{rest}"
     return "it has no real motion: its components of dimension 1 have no real points" + rest
 
 

@@ -17,7 +17,8 @@ MOST_POINTS = 6
 def value_text(coordinate: Coordinate, value: float) -> str:
     """An angle in degrees, or a slide."""
     if coordinate.kind == "angle":
-        return f"{_no_zero(np.degrees(value)):.2f}\u00b0"
+        # The sum has no negative zero.
+        return f"{round(float(np.degrees(value)), 2) + 0.0:.2f}\u00b0"
     return f"{_no_zero(value):.5g}"
 
 

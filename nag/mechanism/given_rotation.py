@@ -184,12 +184,19 @@ def half_angle(angle: Number, within: Fraction | None = None) -> tuple[Number, N
         raise NagError(f"{_shown(angle)} is no angle in radians; reduce it by turns")
     known = known_multiple(angle, within)
     if known is not None:
-        exact = number_text(known * PI) if known else "0"
+        exact = _pi_text(known)
+        taken = Taken(exact if isinstance(angle, Irrational) else _shown(angle), exact)
         if known % 2 == 1:
-            return Fraction(0), Fraction(1), Taken(_shown(angle), exact)
-        return 1 + cosine(known * PI), sine(known * PI), Taken(_shown(angle), exact)
+            return Fraction(0), Fraction(1), taken
+        return 1 + cosine(known * PI), sine(known * PI), taken
     cos, sin = _rational_direction(angle, Fraction(1))
     return cos, sin, Taken(_shown(angle))
+
+
+def _pi_text(part: Fraction) -> str:
+    """A multiple of pi as people write it."""
+    above = {1: "pi", -1: "-pi"}.get(part.numerator, f"{part.numerator}*pi") if part else "0"
+    return above if part.denominator == 1 else f"{above}/{part.denominator}"
 
 
 def _rational_direction(angle: Number, length: Number) -> tuple[Fraction, Fraction]:
@@ -281,7 +288,7 @@ def given_quaternion(given: Sequence[Fraction]) -> GivenTurn:
         return GivenTurn(shortened(entries))
     axis = tuple(Fraction(int(i == axes[0])) for i in (1, 2, 3))
     found = turn_about(axis, known * PI)
-    return GivenTurn(found.quaternion, (Taken(_shown(angle), number_text(known * PI)),))
+    return GivenTurn(found.quaternion, (Taken(_shown(angle), _pi_text(known)),))
 
 
 def given_axis(given: Sequence[Fraction]) -> Vector:

@@ -103,15 +103,24 @@ def tie_bodies(mechanism: Mechanism, bodies: Sequence[str]) -> Mechanism:
 
     Args:
         mechanism: one that may have no loop yet.
-        bodies: names; what is no body, or tied already, makes no difference.
+        bodies: names; one that is tied already makes no difference.
+
+    Raises:
+        MechanismError: if there is no such body.
     """
     joints = list(mechanism.joints)
     for body in bodies:
-        moving = body in mechanism.body_names and body != mechanism.ground
-        if moving and _find_tie(joints, body, mechanism.ground) is None:
+        _check_body(mechanism, body)
+        if body != mechanism.ground and _find_tie(joints, body, mechanism.ground) is None:
             name = _new_name(f"{body} held", joints)
             joints.append(Joint(name, "rigid", (mechanism.ground, body)))
     return replace(mechanism, joints=tuple(joints))
+
+
+def _check_body(mechanism: Mechanism, body: str) -> None:
+    names = mechanism.body_names
+    if body not in names:
+        raise MechanismError(f"pose: {body[:40]!r} is no body; they are {', '.join(names)}")
 
 
 def place_body(given: HeldMechanism, body: str, place: GivenFrame) -> HeldMechanism:
@@ -126,9 +135,7 @@ def place_body(given: HeldMechanism, body: str, place: GivenFrame) -> HeldMechan
         MechanismError: if there is no such body, it is the ground, or not held.
     """
     mechanism = given.mechanism
-    names = mechanism.body_names
-    if body not in names:
-        raise MechanismError(f"pose: {body[:40]!r} is no body; they are {', '.join(names)}")
+    _check_body(mechanism, body)
     if body == mechanism.ground:
         raise MechanismError(f"pose: {body!r} is the ground, which does not move")
     tie = _find_tie(mechanism.joints, body, mechanism.ground)

@@ -281,7 +281,10 @@ def linkage_model(linkage: Linkage) -> LinkageModel:
     kept, free = _in_loops(linkage)
     loops = _loops(kept)
     if not loops:
-        raise LinkageError("the links form no loop: each turns freely, there is nothing to solve")
+        links = linkage.links
+        alone = [f"{p} of {k.name}" for k in links for p in k.pins if not _is_joined(p, k, links)]
+        text = "the links form no loop: each turns freely, there is nothing to solve"
+        raise LinkageError(f"{text}; of one link alone are the pins {', '.join(alone)}")
     moving = [link for link in kept if link.name != linkage.ground]
     if len(moving) == len(kept):
         # The ground hangs on a part that turns freely: hold another link instead.

@@ -100,7 +100,7 @@ def mobility(
         tolerance: of what is rigid as it is given, at its reference configuration or at a real
             assembly of its parts: how far its loops may open, in radians and as a part of its size,
             for it to be called nearly mobile.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.mechanism.model.ModelError: if the formulation does not cover the mechanism.

@@ -99,7 +99,7 @@ def decompose_modes(
         formulation: of the models that are decomposed.
         coordinates: ``"euler"`` for components in Euler parameters, ``"joint"`` for those in the
             coordinates of the formulation.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         ModelError: if the mechanism has too many combinations, or the formulation does not cover

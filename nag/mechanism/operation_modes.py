@@ -110,7 +110,7 @@ def modes(
         platform: name of the platform; by default the body of the most legs, three at least.
         budget: seconds; where the paths that are estimated take more at the least, none is
             tracked, and the answer has no modes and says why.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.MechanismError: if there is no such platform, or a leg is none.

@@ -283,7 +283,7 @@ def decompose(
         system: a `nag.Mechanism`, a `nag.model`, a `nag.Case`, a `nag.PolynomialSystem`, or
             equations as `nag.system` takes them: texts, sympy's expressions, one or a list.
         variables: of equations, their names in order; see `nag.system`.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
         symmetries: signed permutations of the variables that keep the equations, each a
             `nag.SignedPermutation`, a dict ``{"x": "-x", "y": "z", "z": "y"}`` or a sign for each
             variable. Of the components that they carry into each other one is reported, with the
@@ -359,7 +359,7 @@ def solve(
         start: ``"auto"`` (the family's solutions where their number is known, else the least
             work), ``"total"``, ``"multihomogeneous"``, ``"polyhedral"``, ``"monodromy"``, or
             ``"parameter"`` for loops of the parameters of a case's family.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         The solutions; ``.points`` has shape ``(k, n)``, ``.real`` are the real ones.

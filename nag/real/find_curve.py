@@ -76,7 +76,7 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
     Args:
         component: one of the components of a `nag.Decomposition`. Where coefficients are complex,
             the curve is one in the variables without the imaginary unit.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         Vertices, edges and pieces; undecided, with the reason, where a check failed.

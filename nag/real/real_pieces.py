@@ -122,7 +122,7 @@ def find_real_points(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealPi
 
     Args:
         component: one of the components of a `nag.Decomposition`.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         The points, whether there are any, and what that rests on. Where coefficients are complex,

@@ -45,7 +45,7 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
     Args:
         component: one of the components of a `nag.Decomposition`.
         count: how many.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         The points, of which the imaginary parts are zero, but of the imaginary unit where

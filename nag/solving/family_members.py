@@ -179,7 +179,7 @@ def solve_family(
             ``known`` no member is called complete without it.
         known: values of the parameters, shape ``(k,)``, and regular solutions there, shape
             ``(S, n)``, from which the family is solved instead.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.NagError: if equations, parameters or values do not fit each other.
@@ -310,7 +310,7 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
     Args:
         solved: by `nag.solving.parameter.solve_generic`.
         values: the parameters of each member, shape ``(M, k)``.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.NagError: if the values do not fit the family.

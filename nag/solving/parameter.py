@@ -86,7 +86,7 @@ def solve_generic(
             ``"auto"`` means for a symmetric family.
         count: with ``"parameter"``, the known number of solutions; without it an answer is not
             called complete, as loops prove nothing.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         StartError: if there would be too many paths, or loops have nothing to begin with.
@@ -176,7 +176,7 @@ def solve_member(
         member: which one of which family it is. Where no number of solutions is known, an answer
             is complete only if exact algebra gives it.
         exact_first: whether exact algebra is asked before paths are tracked.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         StartError: if loops have nothing to begin with, there would be too many paths, or the

@@ -63,7 +63,7 @@ def solve(
     Args:
         system: what to solve; its ``groups`` are tried among the multihomogeneous structures.
         start: one of `nag.solving.start.KINDS`, or ``"auto"`` for that of the least work.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
         finite: whether only a finite solution set is of interest; the result is incomplete, and
             quickly there, if the set proves to have positive dimension.
         facts: what is known of the system.

@@ -362,7 +362,7 @@ def memberships(
         exact: the exact coordinates that ``point`` is rounded from, if they are known: then a
             component on which an equation holds that does not hold there is told from the others
             however near it is.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         ValueError: if an argument makes no sense; the message says which, and what would.
@@ -640,7 +640,7 @@ def components_through(
         point: complex, shape ``(n,)``, in the system's variables.
         accuracy: bound of the relative error of the point.
         exact: the exact coordinates that ``point`` is rounded from, if they are known.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         UndecidedError: if the membership in a component could not be decided.

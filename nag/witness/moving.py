@@ -92,7 +92,7 @@ def witness_at(
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
         target: as many equations as the component has dimensions, in the system's variables.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         The component with other points, shape ``(degree, n)``.

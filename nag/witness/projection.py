@@ -129,7 +129,7 @@ def project(
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
         coordinates: the variables to project to, by index or name, at least one, each once.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         Dimensions and degrees, with a slice and the points on it, shape

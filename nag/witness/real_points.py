@@ -113,7 +113,7 @@ def real_points_near(
         component: one of the components of a `nag.Decomposition`.
         near: real, shape ``(n,)``.
         starts: number of starting points; the first is ``near`` itself.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         The points, real of shape ``(count, n)``, the nearest first.

@@ -126,7 +126,7 @@ def sample(
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
         count: how many.
-        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
         The points, complex of shape ``(count, n)``, with their residual and accuracy.

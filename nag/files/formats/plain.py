@@ -70,7 +70,8 @@ def _occurring(source: SourceFile, lines: list[Passage], units: tuple[str, ...])
             if token.kind != "name" or token.text in units:
                 continue
             if token.text in IMAGINARY_UNITS:
-                mend = "begin with a line 'imaginary I' if it is, or 'variables ...' that lists it"
+                mend = f"begin with a line 'imaginary {token.text}' if it is, or "
+                mend += "'variables ...' that lists it"
                 source.fail(line.offset + token.column - 1, imaginary_text(token.text, mend))
             if token.text not in RESERVED:
                 names.add(token.text)
