@@ -276,6 +276,10 @@ def test_a_frame_has_a_row_for_each_solution() -> None:
     assert list(frame.columns) == ["member", "a", "x", "real", "error"]
     assert frame["member"].tolist() == [0, 0, 1, 1, 2]
     assert frame["real"].tolist() == [True, True, False, False, True]
+    assert frame["a"].dtype == float and frame["x"].dtype == complex
+    real = found.to_dataframe(real=True)
+    assert real["member"].tolist() == [0, 0, 2] and real["x"].dtype == float
+    assert nag.solve_family("x^2 = a", ["a"], [[1j]]).to_dataframe()["a"].tolist() == [1j] * 2
     assert found.real_counts.tolist() == [2, 0, 1] == [len(found.real(k)) for k in range(3)]
     assert [len(points) for points in found] == [2, 2, 1]
     assert [len(points) for points in found[::-1]] == [1, 2, 2] and len(found[-1]) == 1

@@ -130,3 +130,22 @@ def test_scripts_for_shells_are_written(shell: str, capsys: pytest.CaptureFixtur
             ["bash", "-c", f"{script}\n{ask}"], capture_output=True, text=True, check=True
         )
         assert done.stdout == "polyhedral\n" and not done.stderr
+
+
+def test_a_table_of_values_names_the_parameters_of_a_system_in_plain_text(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    np = pytest.importorskip("numpy")
+    (tmp_path / "circles.txt").write_text("imaginary i\nx^2 + y^2 = r\nx = i*a*y\n")
+    (tmp_path / "values.csv").write_text("a,r\n2,-3\n0,4\n")
+    words = ["family", str(tmp_path / "circles.txt"), "--values", str(tmp_path / "values.csv")]
+    assert main([*words, "--points", str(tmp_path / "points.npz")]) == 0
+    points = np.load(tmp_path / "points.npz")["points"]
+    # y^2 (1 - a^2) = r, x = i a y.
+    assert np.allclose(np.sort(points[0, :, 1].real), [-1, 1]) and np.allclose(
+        points[0, :, 0], 2j * points[0, :, 1]
+    )
+    assert np.allclose(np.sort(points[1, :, 1].real), [-2, 2])
+    (tmp_path / "values.csv").write_text("b\n2\n")
+    assert main(words) == 2
+    assert "has no [family]" in capsys.readouterr().err

@@ -134,6 +134,10 @@ def test_results_are_sequences_and_tables() -> None:
 def test_results_are_frames_of_pandas() -> None:
     solved = nag.solve(["x^2 - 2", "y - x"]).to_dataframe()
     assert list(solved.columns)[:3] == ["x", "y", "multiplicity"] and len(solved) == 2
+    real = nag.solve(["x^3 - 8", "y - x"]).to_dataframe(real=True)
+    assert real["x"].tolist() == [2.0] and real["x"].dtype == float
+    gaussian = nag.solve(nag.system(["x - I"], imaginary="I")).to_dataframe()
+    assert list(gaussian.columns)[:2] == ["x", "multiplicity"] and gaussian["x"].tolist() == [1j]
     found = nag.decompose(CIRCLE_AND_LINE).to_dataframe()
     assert found["degree"].tolist() == [1, 2] and found["number"].tolist() == [1, 2]
 

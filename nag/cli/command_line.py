@@ -90,8 +90,8 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "family",
         "solve the same equations for many values of their parameters",
         "Find the isolated solutions of a case's equations for many values of the parameters that "
-        "its [family] names: solved once for random ones, from where all members are tracked "
-        "together.",
+        "its [family], or the table of the values, names: solved once for random ones, from where "
+        "all members are tracked together.",
     ),
     (
         "certify",

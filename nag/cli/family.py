@@ -26,6 +26,8 @@ from nag.cli.running import (
 )
 
 if TYPE_CHECKING:
+    from nag.algebra.family import Family
+    from nag.files.cases import Case
     from nag.solving.family_members import FamilySolutions
 
 FORMAT = "nag-family"
@@ -33,7 +35,9 @@ FORMAT = "nag-family"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag family``."""
-    parser.add_argument("case", metavar="CASE", help="case file (TOML) with a [family]")
+    parser.add_argument(
+        "case", metavar="CASE", help="case file (TOML) with a [family], or any system"
+    )
     add_format(parser)
     add_parameters(parser)
     parser.add_argument(
@@ -41,7 +45,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         required=True,
         metavar="FILE",
         help="values of the parameters: a table (CSV) whose first line names them, a member a "
-        "line; or a NumPy array (.npy), shape (members, parameters)",
+        "line, by which of a system without [family] unknowns become parameters; or a NumPy "
+        "array (.npy), shape (members, parameters)",
     )
     parser.add_argument(
         "--points", metavar="FILE", help="write all solutions to FILE as NumPy arrays (.npz)"
@@ -54,15 +59,37 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_running(parser)
 
 
+def _family_by_columns(options: argparse.Namespace, case: Case) -> Family:
+    """The family of a system without parameters: those unknowns that the values' table names.
+
+    Raises:
+        UsageError: if there is no such table, or it names something else.
+    """
+    from nag.errors import NagError
+    from nag.files.member_values import read_member_names
+    from nag.solving.family_members import family_of
+
+    system = case.system
+    names = read_member_names(options.values)
+    known = () if system is None or system.nonzero else system.own_variables
+    if system is None or not names or not set(names) <= set(known):
+        raise UsageError(
+            f"{options.case}: has no [family]; name the parameters that differ there, as in "
+            '[family] parameters = ["a"], or have the first line of --values name unknowns that '
+            "are to be parameters"
+        )
+    unknowns = [name for name in known if name not in names]
+    texts = system.text()[: len(system.polynomials) - system.imaginary]
+    unit = system.variables[-1] if system.imaginary else None
+    try:
+        return family_of(texts, names, unknowns, unit)
+    except NagError as error:
+        raise UsageError(f"{options.case}: {error}") from None
+
+
 def run(options: argparse.Namespace) -> CommandAnswer:
     """All isolated solutions of many members."""
     case = read_case_file(options.case, options.set, options.format)
-    member = case.family
-    if member is None:
-        raise UsageError(
-            f"{options.case}: has no [family]; name the parameters that differ there, as in "
-            '[family] parameters = ["a"]'
-        )
     from nag.errors import StartError
     from nag.files.member_values import read_member_values
     from nag.solving.family_members import check_values, solve_members
@@ -70,11 +97,13 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.text.table import count_text
     from nag.tracking.run import ENDED_EARLY
 
-    family = member.symmetric.original
-    given = [complex(v) for v in member.values]
+    member = case.family
+    family = _family_by_columns(options, case) if member is None else member.symmetric.original
+    own = [0] * len(family.parameters) if member is None else member.values
+    given = [complex(v) for v in own]
     values = read_member_values(options.values, family.parameters, given)
     values = check_values(family, values)
-    start, count = options.start, member.solutions
+    start, count = options.start, None if member is None else member.solutions
     if start == "auto" and count is not None:
         start = "parameter"
 

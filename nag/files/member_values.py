@@ -51,6 +51,25 @@ def read_member_values(
         _fail(path, f"is no table: {error}")
 
 
+def read_member_names(path: str | os.PathLike[str]) -> list[str]:
+    """The names in the first line of a table; none of an array.
+
+    Raises:
+        InputError: if the file cannot be read; one line.
+    """
+    if Path(path).suffix == ".npy":
+        return []
+    try:
+        with Path(path).open(encoding="utf-8", newline="") as stream:
+            return [name.strip() for name in next(csv.reader(stream), [])]
+    except OSError as error:
+        _fail(path, error.strerror or str(error))
+    except UnicodeDecodeError:
+        _fail(path, "is no text; write a table with commas, or a NumPy array named .npy")
+    except csv.Error as error:
+        _fail(path, f"is no table: {error}")
+
+
 def _fail(path: object, text: str) -> NoReturn:
     raise InputError(f"{path}: {text}")
 

@@ -108,17 +108,24 @@ class FamilySolutions:
         title = f"FamilySolutions of {', '.join(self.variables)} by {', '.join(self.parameters)}"
         return lines_of(title, rows)
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self, real: bool = False) -> Any:
         """A row for each solution: its member, from 0, parameters, coordinates, and whether real.
+
+        Args:
+            real: only the real ones, their coordinates as floats.
 
         Raises:
             nag.NagError: if pandas is not installed.
         """
-        members, places = np.nonzero(self.status <= PathStatus.SINGULAR)
+        are_real = self._is_real(slice(None))
+        members, places = np.nonzero(are_real if real else self.status <= PathStatus.SINGULAR)
+        points = self.points[members, places]
+        # Values that are all real are floats, as they were given.
+        values = self.values if self.values.imag.any() else self.values.real
         columns: dict[str, Any] = {"member": members}
-        columns |= dict(zip(self.parameters, self.values[members].T, strict=True))
-        columns |= dict(zip(self.variables, self.points[members, places].T, strict=True))
-        columns["real"] = self._is_real(slice(None))[members, places]
+        columns |= dict(zip(self.parameters, values[members].T, strict=True))
+        columns |= dict(zip(self.variables, (points.real if real else points).T, strict=True))
+        columns["real"] = are_real[members, places]
         columns["error"] = self.errors[members, places]
         return data_frame(columns)
 

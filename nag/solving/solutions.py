@@ -302,15 +302,23 @@ class SolveResult(Sequence[Solution]):
         """The isolated solutions, complex, shape ``(k, n)``, to be written to."""
         return self.points
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self, real: bool = False) -> Any:
         """A row for each isolated solution: its coordinates, complex, and what is known of it.
+
+        Args:
+            real: only the real ones, their coordinates as floats.
 
         Raises:
             nag.NagError: if pandas is not installed.
         """
-        columns: dict[str, Any] = dict(zip(self.system.variables, self.points.T, strict=True))
+        solutions = self.real if real else self.solutions
+        names = self.system.own_variables
+        points = np.array([s.point for s in solutions]).reshape(len(solutions), -1)
+        if real:
+            points = points.real
+        columns: dict[str, Any] = {name: points[:, i] for i, name in enumerate(names)}
         for name in ("multiplicity", "real", "residual", "accuracy", "condition"):
-            columns[name] = [getattr(s, name) for s in self.solutions]
+            columns[name] = [getattr(s, name) for s in solutions]
         return data_frame(columns)
 
     def to_sympy(self) -> list[dict[Any, Any]]:
