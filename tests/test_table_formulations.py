@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 from linkages import CASES, kinds
 from solved import components_of
 
+import nag
 from nag.algebra.number import is_zero
 from nag.cli import main
 from nag.files.cases import read_case
@@ -147,3 +149,21 @@ def test_parts_that_may_be_assembled_are_exported_as_a_mechanism(tmp_path) -> No
     assert main(["decompose", str(case), "--json", str(export), "--quiet"]) == 0
     origin = read_export(export).origin
     assert (origin.kind, origin.formulation) == ("mechanism", None)
+
+
+def test_long_irrational_equations_are_printed_in_decimals(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rows = ['{ a = 120, alpha = "5*pi/18" }', '{ a = 75, alpha = "28.6056*pi/180" }'] * 2
+    path = tmp_path / "table.toml"
+    path.write_text(f'title = "t"\nkind = "dh"\njoint = [{", ".join(rows)}]\n')
+    assert main(["model", str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    start = next(i for i, line in enumerate(lines) if line.startswith("equations, to 15 digits"))
+    assert max(map(len, lines)) < 200
+    printed = [line.removesuffix(" = 0") for line in lines[start + 1 : start + 3]]
+    exact = problem_of(read_case(path)).system
+    again = nag.system(printed, exact.variables)
+    for ours, theirs in zip(again.polynomials, exact.polynomials, strict=True):
+        for e, c in theirs.terms.items():
+            assert float(ours.terms[e]) == pytest.approx(float(c), rel=1e-14)

@@ -420,3 +420,14 @@ def binary(value: Surd | Irrational, digits: int) -> tuple[int, int]:
         return value.binary(int(digits * 3.33) + 4)
     negative, mantissa, exponent, _ = to_mpf(value, digits)._mpf_
     return int(-mantissa if negative else mantissa), int(exponent)
+
+
+def decimal_text(value: Number, digits: int) -> str:
+    """An irrational number to so many digits, a rational one as it is."""
+    if isinstance(value, Fraction):
+        return number_text(value)
+    import mpmath
+
+    mantissa, exponent = binary(value, digits)
+    with mpmath.workdps(digits + 5):
+        return str(mpmath.nstr(mpmath.ldexp(mantissa, exponent), digits, strip_zeros=False))

@@ -403,8 +403,13 @@ class Polynomial:
             terms[moved] = terms[moved] + c if moved in terms else c
         return Polynomial(n, terms)
 
-    def text(self, variables: Sequence[str]) -> str:
-        """The polynomial as text that `nag.algebra.expression.parse_polynomial` reads back."""
+    def text(self, variables: Sequence[str], number: Callable[[Number], str] = number_text) -> str:
+        """The polynomial as text that `nag.algebra.expression.parse_polynomial` reads back.
+
+        Args:
+            variables: their names.
+            number: how a coefficient is written, exactly if not said.
+        """
         if not self.terms:
             return "0"
         parts = []
@@ -414,7 +419,7 @@ class Polynomial:
             monomial = "*".join(
                 v if k == 1 else f"{v}^{k}" for v, k in zip(variables, e, strict=True) if k
             )
-            size = number_text(c)
+            size = number(c)
             negative = size.startswith("-")
             size = size.removeprefix("-")
             if not monomial:

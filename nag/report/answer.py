@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from nag.algebra.number import Number, decimal_text
 from nag.algebra.system import system_line, values_text
 from nag.decomposition.decompose import METHODS, ONE_EQUATION
 from nag.decomposition.one_equation import is_one_equation
@@ -21,6 +22,9 @@ from nag.witness.witness import Decomposition, Status
 if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.problem import Problem
+
+# Irrational equations that are longer than some lines are told in decimals.
+LONGEST_EQUATION, EQUATION_DIGITS = 1000, 15
 
 
 def _method_rows(decomposition: Decomposition) -> list[tuple[str, str]]:
@@ -102,6 +106,10 @@ def answer_lines(
     return sheet(case.title, head, component_table(decomposition), tail)
 
 
+def _decimals(value: Number) -> str:
+    return decimal_text(value, EQUATION_DIGITS)
+
+
 def model_lines(case: Case, problem: Problem) -> list[str]:
     """The polynomial system of a case, line by line."""
     system = problem.system
@@ -109,8 +117,12 @@ def model_lines(case: Case, problem: Problem) -> list[str]:
     if is_one_equation(Reduction.of(system, scaled=True)):
         head.append(("exact", ONE_EQUATION))
     head = model_rows(problem) + body_rows(problem) + head
+    texts = system.text()
     lines = ["equations"]
-    lines += [f"  {text} = 0" for text in system.text()] or ["  none"]
+    if not system.exact and max(map(len, texts), default=0) > LONGEST_EQUATION:
+        texts = [f.text(system.variables, _decimals) for f in system.polynomials]
+        lines = [f"equations, to {EQUATION_DIGITS} digits (exact by --format text, or --json)"]
+    lines += [f"  {text} = 0" for text in texts] or ["  none"]
     if system.nonzero:
         lines += ["not zero", *(f"  {f.text(system.variables)}" for f in system.nonzero)]
     if system.groups:

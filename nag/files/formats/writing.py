@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import count
 
-from nag.algebra.number import Number, binary, number_text
+from nag.algebra.number import Number, decimal_text, number_text
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import names_in
@@ -95,11 +95,7 @@ def _decimal(value: Number) -> str:
     """An irrational number to `DECIMALS` digits, a rational one as it is."""
     if not hasattr(value, "evaluate") and "sqrt" not in number_text(value):
         return number_text(value)
-    mantissa, exponent = binary(value, DECIMALS)
-    import mpmath
-
-    with mpmath.workdps(DECIMALS + 5):
-        return mpmath.nstr(mpmath.ldexp(mantissa, exponent), DECIMALS, strip_zeros=False)
+    return decimal_text(value, DECIMALS)
 
 
 def _variables(system: PolynomialSystem) -> tuple[str, ...]:
