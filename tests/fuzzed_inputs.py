@@ -29,7 +29,7 @@ from pathlib import Path
 
 from foreign_files import FILES
 from test_complex_coefficients import CASE as COMPLEX_CASE
-from test_formats import BERTINI, MACAULAY2, PHC, SINGULAR
+from test_formats import BERTINI, JULIA, MACAULAY2, PHC, SINGULAR
 from test_robots import BAR, BAR_CASE, DELTA, FOUR_BAR, HEXAPOD, SCARA, SRS, UR5
 
 from nag.cli import main
@@ -38,7 +38,7 @@ from nag.errors import NagError
 from nag.files.cases import read_case
 from nag.files.formats.writing import write_system
 
-FORMATS = ("toml", "bertini", "phc", "m2", "singular", "text", "urdf", "mjcf", "robot")
+FORMATS = ("toml", "bertini", "phc", "m2", "singular", "hc", "text", "urdf", "mjcf", "robot")
 SECONDS, BYTES = 2.0, 10**9
 CASES = Path(__file__).parent.parent / "cases"
 # Cases longer than this are no good start: most of what is changed is far from what is read first.
@@ -85,7 +85,13 @@ def good_files(format: str) -> list[str]:
         return [BAR_CASE]
     if format in ("urdf", "mjcf"):
         return [UR5, SRS, SCARA] if format == "urdf" else [FOUR_BAR, HEXAPOD, DELTA]
-    own = {"bertini": [BERTINI], "phc": [PHC], "m2": [MACAULAY2], "singular": [SINGULAR]}
+    own = {
+        "bertini": [BERTINI],
+        "phc": [PHC],
+        "m2": [MACAULAY2],
+        "singular": [SINGULAR],
+        "hc": [JULIA],
+    }
     return [*own.get(format, []), *FILES.get(format, []), *_written(format)]
 
 

@@ -65,6 +65,16 @@ poly f = x(1)^2 - 3;
 ideal i = f, x(1)*x(2) - y;
 primdecGTZ(i);
 """
+JULIA = """\
+using HomotopyContinuation
+@var x y[1:2]  # a name and two with an index
+@var r
+f = 2x^2 - 3//4*y[1];
+F = System([f, im*x*y[2] + 2(x -
+    1)]; variables = [x, y[1], y[2]], parameters = [r])
+p = [1, 2]
+S = solve(F; target_parameters = p)
+"""
 PLAIN = """\
 # two circles
 x^2 + y^2 = 1,
@@ -94,6 +104,12 @@ def read_text(text: str, format: str = "auto") -> PolynomialSystem:
             ["x_1^2 + x_2", "x_1*x_2 - 1/3*a", "x_3"],
         ),
         (SINGULAR, "singular", ("x[1]", "x[2]", "y"), ["x[1]^2 - 3", "x[1]*x[2] - y"]),
+        (
+            JULIA,
+            "hc",
+            ("x", "y[1]", "y[2]", "r", "I"),
+            ["2*x^2 - 3/4*y[1]", "x*y[2]*I + 2*x - 2", "I^2 + 1"],
+        ),
         (PLAIN, "text", ("x", "y"), ["x^2 + y^2 - 1", "x^2 + y^2 - 2*x + 3/4"]),
     ],
 )
@@ -157,6 +173,11 @@ def test_a_superscript_is_no_part_of_a_name() -> None:
     [
         ("x^2 + y\nx*(y - 1\n", "line 2, column 3", "'(' is never closed"),
         ("x^2 + I*y\n", "line 1, column 7", "looks like the imaginary unit"),
+        ("@var x\n[x - 1]\n[x]", "line 3, column 2", "a second list of equations"),
+        ("@var x[1:2,1:2]\n[1]", "line 1, column 6", "is not read; write indices as in x[1:3]"),
+        ("@var x y\nF = [x, y\n", "line 2, column 5", "'[' is never closed"),
+        ("@var x y\nF = [x, z]", "line 2, column 9", "unknown name 'z'"),
+        ("@var x y\nsolve(F)", "line 2, column 9", "there is no list of equations"),
         ("x^2 + i*y\n", "line 1, column 7", "begin with a line 'imaginary i'"),
         ("2\nx^2 - 1;\n", "line 2, column 9", "1 of 2 polynomials end with ';'"),
         ("1 2\nx^2 - 1;\n", "line 1, column 3", "2 unknowns are said, and 1 occur"),
@@ -272,7 +293,7 @@ def test_every_case_is_the_same_system_by_each_format(path: str) -> None:
         text = write_system(system, format, "a title")
         assert recognise_format(text) == format
         again = read_text(text)
-        if system.exact or format == "text":
+        if system.exact or format in ("text", "hc"):
             assert again.polynomials == system.polynomials
             assert again.nonzero == system.nonzero
         else:
@@ -572,6 +593,9 @@ def test_operations_of_macaulay2_are_refused_by_their_names(tmp_path: Path, name
         ("m2", "R = QQ[x];\nI = ideal(" + "x" * 300_000 + ");"),
         ("m2", "R = QQ[x];\n" + "GF " * 100_000),
         ("sing", "ring r = 0, (x), dp;\n" + "/*" * 200_000),
+        ("jl", "@var x\nF = [" + "#=" * 200_000),
+        ("jl", "@var x\nF = [" + "9" * 300_000 + "x]"),
+        ("jl", "@var x\n" + "f(" * 100_000 + "[x"),
         ("sing", "ring r = 0, (x, y(1..2)), dp;\nideal i = " + "x" * 300_000 + ";"),
     ],
 )

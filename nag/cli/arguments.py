@@ -77,7 +77,8 @@ def add_case(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "case",
         metavar="CASE",
-        help="case file (TOML); or a system in a file of Bertini, PHCpack, Macaulay2 or Singular, "
+        help="case file (TOML); or a system in a file of Bertini, PHCpack, Macaulay2, Singular or "
+        "HomotopyContinuation.jl, "
         "or of one polynomial a line; or a robot in URDF or MJCF",
     )
     add_formulation(parser)

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
-from nag.files.formats import bertini, macaulay2, phcpack, plain, singular
+from nag.files.formats import bertini, julia, macaulay2, phcpack, plain, singular
 from nag.files.formats.source import (
     GivenSystem,
     Passage,
@@ -22,12 +22,14 @@ READERS: Mapping[str, Callable[[SourceFile], GivenSystem]] = {
     "phc": phcpack.read,
     "m2": macaulay2.read,
     "singular": singular.read,
+    "hc": julia.read,
     "text": plain.read,
 }
 _RECOGNISED: Mapping[str, Callable[[str], bool]] = {
     "bertini": bertini.recognise,
     "singular": singular.recognise,
     "m2": macaulay2.recognise,
+    "hc": julia.recognise,
     "phc": phcpack.recognise,
 }
 

@@ -1,0 +1,106 @@
+"""Systems as HomotopyContinuation.jl takes them: variables by ``@var``, equations in one list."""
+
+from __future__ import annotations
+
+import re
+
+from nag.algebra.tokens import quote
+from nag.files.case_table import MAX_ENTRIES
+from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
+
+_COMMENT = re.compile(r"#=.*?(?:=#|\Z)|#[^\n]*", re.DOTALL)
+_VARIABLES = re.compile(r"@(?:poly)?var\s")
+_RECOGNISED = re.compile(r"^[ \t]*@(?:poly)?var\s", re.MULTILINE)
+_ITEM = re.compile(r"\S+")
+_RANGE = re.compile(r"(\w+)\[(?:([0-9]{1,6}):)?([0-9]{1,6})\]")
+# A list, maybe given to a function, maybe named.
+_LIST = re.compile(r"(?:\w+\s*=\s*)?((?:\w+\s*\(\s*)*)\[")
+_DEFINED = re.compile(r"(\w+)\s*=\s*")
+_CALL = re.compile(r"(?<!\w)(?!(?:sqrt|sin|cos)\b)[A-Za-z_]\w*[!.]?\s*\(")
+# 2x and 2(x + 1), but not 2e5.
+_FACTOR = re.compile(r"(?<![\w.])([0-9]+(?:\.[0-9]*)?)(?=[A-Za-z_(])(?!e[-+]?[0-9])")
+
+
+def recognise(text: str) -> bool:
+    """Whether a text declares variables as HomotopyContinuation.jl does."""
+    return _RECOGNISED.search(_COMMENT.sub("", text)) is not None
+
+
+def read(source: SourceFile) -> GivenSystem:
+    """The system of the variables and the one list of equations in a text in Julia.
+
+    Its parameters are variables like the others; what else is called or computed is left out.
+
+    Raises:
+        CaseError: if no variables are declared, or there is not one list of equations.
+    """
+    source = _lines(source.without(_COMMENT))
+    source.refuse_towers()
+    names: list[Passage] = []
+    lists: list[tuple[bool, Passage]] = []
+    definitions: dict[str, Passage] = {}
+    for statement in source.statements(separator="\n"):
+        declared = _VARIABLES.match(statement.text)
+        found = _LIST.match(statement.text)
+        defined = _DEFINED.match(statement.text)
+        if declared:
+            names += _declared(source, statement.part(declared.end(), len(statement.text)))
+        elif found:
+            inside = _inside(source, statement.part(found.end() - 1, len(statement.text)))
+            lists.append((found[1].startswith("System"), inside))
+        elif defined and not _CALL.search(statement.text, defined.end()):
+            definitions[defined[1]] = _write_out(statement.part(defined.end(), len(statement.text)))
+    if not names:
+        source.fail(0, "there are no variables; write @var x y")
+    # Of lists of values and of equations, these are the ones that a system is made of.
+    lists = [each for each in lists if each[0]] or lists
+    if not lists:
+        source.fail(len(source.text.rstrip()), "there is no list of equations; write [..., ...]")
+    if len(lists) > 1:
+        source.fail(lists[1][1].offset, "a second list of equations; leave one in the file")
+    equations = tuple(_write_out(each) for each in source.statements(lists[0][1], ","))
+    return GivenSystem(check_names(source, names), equations, {}, definitions, imaginary=("im",))
+
+
+def _lines(source: SourceFile) -> SourceFile:
+    """The same with a line's end for each semicolon, or a comma within brackets."""
+    text, depth = [], 0
+    for c in source.text:
+        depth += (c in "([{") - (c in ")]}")
+        text.append(("," if depth > 0 else "\n") if c == ";" else c)
+    return SourceFile(source.file, "".join(text))
+
+
+def _declared(source: SourceFile, listed: Passage) -> list[Passage]:
+    """The names that ``x y[1:3]`` declares."""
+    found = []
+    for item in _ITEM.finditer(listed.text):
+        name = listed.part(*item.span())
+        bounds = _RANGE.fullmatch(name.text)
+        if bounds is None:
+            if "[" in name.text:
+                message = f"{quote(name.text)} is not read; write indices as in x[1:3]"
+                source.fail(name.offset, message)
+            found.append(name)
+            continue
+        first, last = int(bounds[2] or bounds[3]), int(bounds[3])
+        if last - first >= MAX_ENTRIES:
+            source.fail(name.offset, f"more than {MAX_ENTRIES} variables; at most that many")
+        found += [Passage(f"{bounds[1]}[{k}]", name.offset) for k in range(first, last + 1)]
+    return found
+
+
+def _inside(source: SourceFile, listed: Passage) -> Passage:
+    """What is within the brackets with which a text begins."""
+    depth = 0
+    for i, c in enumerate(listed.text):
+        depth += (c in "([{") - (c in ")]}")
+        if depth == 0:
+            return listed.part(1, i)
+    source.fail(listed.offset, "'[' is never closed; write its ']'")
+
+
+def _write_out(text: Passage) -> Passage:
+    """The same with every product and quotient written as such."""
+    plain = text.text.replace("//", " /")
+    return Passage(_FACTOR.sub(r"\1*", plain), text.offset)
