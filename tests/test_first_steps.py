@@ -93,6 +93,24 @@ def test_a_case_is_shown_with_other_values_of_its_parameters(
     assert capsys.readouterr().err == f"nag: {export}: is an export; --set is for cases\n"
 
 
+def test_an_export_shows_the_numbers_of_its_components(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "found.json"
+    found = nag.decompose(["x*(x - 1)*(x^2 + y^2 - 1)*(y - 2)", "z*(x - 1)*(y - 2)"])
+    nag.write(found, path)
+    assert main([str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    start = next(i for i, line in enumerate(lines) if line.startswith("component  "))
+    rows = [line.split("  ")[0].strip() for line in lines[start + 1 :]]
+    numbers = [
+        list(range(int(t.split("-")[0]), int(t.split("-")[-1]) + 1))
+        for row in rows[: rows.index("")]
+        for t in row.split(", ")
+    ]
+    assert sorted(k for own in numbers for k in own) == list(range(1, len(found) + 1))
+
+
 @pytest.mark.parametrize("word", ["missing.toml", "folder/missing"])
 def test_a_file_that_is_not_there_is_one_line(
     word: str, capsys: pytest.CaptureFixture[str]

@@ -20,6 +20,7 @@ from nag.text.table import (
     point_text,
     printable,
 )
+from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 if TYPE_CHECKING:
@@ -136,6 +137,31 @@ def component_table(decomposition: Decomposition) -> list[str]:
     """The same as aligned lines."""
     rows = component_rows(decomposition)
     return align(rows, [rows[0].index("status")]) if rows else []
+
+
+def numbered_table(decomposition: Decomposition) -> list[str]:
+    """The same, and the numbers by which commands take the components, those of an orbit apart."""
+    expanded = expand_orbits(decomposition)
+    rows = component_rows(expanded)
+    alike: dict[tuple[object, ...], list[int]] = {}
+    for number, component in enumerate(expanded.components, 1):
+        alike.setdefault(_like(component), []).append(number)
+    if not rows:
+        return []
+    names = ["component", *map(_numbers_text, alike.values())]
+    rows = [[name, *row] for name, row in zip(names, rows, strict=True)]
+    return align(rows, [0, rows[0].index("status")])
+
+
+def _numbers_text(numbers: Sequence[int]) -> str:
+    """Numbers in order, neighbours as from the first to the last."""
+    parts: list[list[int]] = []
+    for number in numbers:
+        if parts and number == parts[-1][-1] + 1:
+            parts[-1] = [parts[-1][0], number]
+        else:
+            parts.append([number])
+    return ", ".join("-".join(map(str, part)) for part in parts)
 
 
 def _row(group: Sequence[WitnessSet]) -> dict[str, str]:
