@@ -501,3 +501,16 @@ def test_the_crank_is_in_line_with_the_coupler_at_a_rockers_dead_points() -> Non
     folded = math.degrees(math.acos((4**2 + 2**2 - 3.5**2) / (2 * 4 * 2)))
     wanted = {stretched % 360, (folded - 180) % 360}, {-stretched % 360, (180 - folded) % 360}
     assert any(np.allclose(sorted(found.values()), sorted(each), atol=1e-4) for each in wanted)
+
+
+def test_parts_that_have_no_real_assembly_are_told_why() -> None:
+    links = {"base": ("A", "D", 9), "left": ("A", "B", 1), "top": ("B", "C", 3)}
+    with pytest.raises(nag.NagError, match="no real assembly: link base is longer than link left"):
+        nag.motion(nag.Linkage.of(links | {"right": ("C", "D", 2)}, "base"))
+
+
+def test_a_stretched_linkage_is_mobile_in_complex_coordinates_perhaps() -> None:
+    links = {"base": ("A", "D", 6), "left": ("A", "B", 1), "top": ("B", "C", 3)}
+    report = nag.mobility(nag.Linkage.of(links | {"right": ("C", "D", 2)}, "base"))
+    label, text = report.rows()[0]
+    assert label == "mobility" and "perhaps in complex coordinates alone" in text

@@ -33,6 +33,7 @@ from nag.kinematics.turning_points import Values, values_along
 from nag.kinematics.walks import CurveWalk, points_of, walks_of
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
+from nag.mechanism.real_assemblies import obstacle
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.read_only import equal_values
 from nag.real.curve import RealCurve
@@ -404,6 +405,9 @@ def motion(
     drives, poses = read_drives(drive), read_poses(pose)
     given = tie_placed_bodies(mechanism, (each.body for each in poses))
     problem = in_real_coordinates(problem_of(given, formulation=formulation))
+    reason = "" if problem.parts is None else obstacle(problem.parts)
+    if reason:
+        raise MotionError(f"its parts have no real assembly: {reason}")
     poses = place_frames(problem, poses)
     if poses or len(drives) > 1 or (drives and has_several_freedoms(problem, run)):
         return held_motion(problem, drives, poses, samples=samples, run=run)

@@ -267,12 +267,17 @@ class MobilityReport:
             return [sentence, *self._local_rows(), *rest]
         return self._local_rows()
 
+    @property
+    def _status_text(self) -> str:
+        """The status, and whether only that of complex assemblies is known."""
+        return f"{self.status}, perhaps in complex coordinates alone" if self.doubt else self.status
+
     def _meaning_rows(self) -> list[tuple[str, str]]:
         """The sentence, and what moves."""
         # The sentence says which freedoms are idle.
         moving = () if self.moving is None else self.moving.rows()
         return [
-            ("mobility", f"{self.status}: {self.sentence}"),
+            ("mobility", f"{self._status_text}: {self.sentence}"),
             *(row for row in moving if row[0] != "idle"),
             *(self.near.rows() if self.near is not None else ()),
             *([("hint", self.hint)] if self.hint else []),
