@@ -655,7 +655,8 @@ def _choose_components(
                 f"it moves with {count_text(largest + problem.free, 'freedom')} {where}".rstrip()
                 + "; a motion is that of a mechanism with one: hold joints (--drive JOINT=VALUE)"
             )
-        raise MotionError(f"it does not move {where}".rstrip() + "; see nag mobility")
+        advice = "see nag mobility, with --tolerance 1e-3 if its numbers are rounded"
+        raise MotionError(f"it does not move {where}".rstrip() + f"; {advice}")
     larger = sum(c.dimension > 1 for c in own)
     left_out = f"{count_text(larger, 'component')} of dimension 2 or more" if larger else ""
     return curves, left_out, expanded
