@@ -164,6 +164,15 @@ def test_a_table_of_values_names_the_parameters_of_a_system_in_plain_text(
         points[0, :, 0], 2j * points[0, :, 1]
     )
     assert np.allclose(np.sort(points[1, :, 1].real), [-2, 2])
+    bertini = tmp_path / "circles.input"
+    bertini.write_text(
+        "variable_group x, y;\nparameter a, r;\nconstant c;\nfunction f, g;\na = 1;\nr = 2;\n"
+        "c = 1;\nf = x^2 + y^2 - c*r;\ng = x - I*a*y;\n"
+    )
+    again = ["family", str(bertini), *words[2:], "--points", str(tmp_path / "again.npz")]
+    assert main(again) == 0
+    roots = np.load(tmp_path / "again.npz")["points"]
+    assert np.allclose(np.sort(roots[..., 1].real), np.sort(points[..., 1].real))
     (tmp_path / "values.csv").write_text("b\n2\n")
     assert main(words) == 2
     assert "has no [family]" in capsys.readouterr().err

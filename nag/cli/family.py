@@ -60,23 +60,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _family_by_columns(options: argparse.Namespace, case: Case) -> Family:
-    """The family of a system without parameters: those unknowns that the values' table names.
+    """The family of a case that names none: in the parameters, or unknowns, of the values' table.
 
     Raises:
         UsageError: if there is no such table, or it names something else.
     """
     from nag.errors import NagError
+    from nag.files.cases import freed_system
     from nag.files.member_values import read_member_names
     from nag.solving.family_members import family_of
 
     system = case.system
     names = read_member_names(options.values)
+    if system is not None and not system.nonzero and set(names) <= set(case.parameters):
+        system = freed_system(options.case, names, dict(options.set))
     known = () if system is None or system.nonzero else system.own_variables
     if system is None or not names or not set(names) <= set(known):
         raise UsageError(
             f"{options.case}: has no [family]; name the parameters that differ there, as in "
-            '[family] parameters = ["a"], or have the first line of --values name unknowns that '
-            "are to be parameters"
+            '[family] parameters = ["a"], or have the first line of --values name parameters, or '
+            "unknowns that are to be parameters"
         )
     unknowns = [name for name in known if name not in names]
     texts = system.text()[: len(system.polynomials) - system.imaginary]
