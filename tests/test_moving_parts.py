@@ -141,6 +141,7 @@ def test_the_report_names_the_body_that_is_asked_for_first(capsys) -> None:
     assert report.sentence.startswith(
         "platform: 3 freedoms, translation; the mechanism moves with "
     )
+    assert str(report).count("platform: 3 freedoms, translation") == 1
     assert report.document()["moving"]["of"]["kind"] == "translation"
     with pytest.raises(MechanismError, match="of: 'nobody' is no body; they are B0, B1"):
         nag.mobility(mechanism("bennett"), of="nobody")

@@ -274,11 +274,13 @@ class MobilityReport:
 
     def _meaning_rows(self) -> list[tuple[str, str]]:
         """The sentence, and what moves."""
-        # The sentence says which freedoms are idle.
+        # The sentence says which freedoms are idle, and how the body moves that was asked for.
         moving = () if self.moving is None else self.moving.rows()
+        sentence = self.sentence
+        said = {("of", text) for label, text in moving if label == "of" and text in sentence}
         return [
-            ("mobility", f"{self._status_text}: {self.sentence}"),
-            *(row for row in moving if row[0] != "idle"),
+            ("mobility", f"{self._status_text}: {sentence}"),
+            *(row for row in moving if row[0] != "idle" and row not in said),
             *(self.near.rows() if self.near is not None else ()),
             *([("hint", self.hint)] if self.hint else []),
         ]

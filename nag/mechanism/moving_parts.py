@@ -78,7 +78,9 @@ class BodyFreedoms:
         if self.screws.rank < rank:
             there = f"screws of {self.screws} alone" if self.screws.rank else "none of them"
             return f"{text}; at the configuration {there}"
-        return text if self.motion.group else f"{text}; at the configuration {self.screws}"
+        if self.motion.group:
+            return text
+        return f"{text}; at the configuration its twists are a screw system of {self.screws}"
 
     def document(self) -> dict[str, Any]:
         """As a JSON object."""
