@@ -154,7 +154,7 @@ def drive_text(motion: Motion) -> str:
         texts.append(f"{drive.coordinate} at {value}")
     for pose in motion.poses:
         numbers = (*pose.place, *(pose.quaternion or ()))
-        texts.append(f"{pose.body} at ({', '.join(f'{x:.6g}' for x in numbers)})")
+        texts.append(f"frame of {pose.body} at ({', '.join(f'{x:.6g}' for x in numbers)})")
     return f"{', '.join(texts)}{_assemblies_text(motion)}"
 
 

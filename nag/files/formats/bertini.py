@@ -114,7 +114,9 @@ def _given(
     constants = [name for names in declared["constant"] for name in names]
     for name in (*functions, *constants):
         if name.text not in assigned:
-            source.fail(name.offset, f"{quote(name.text)} is declared and never defined; define it")
+            value = "1" if name in constants else f"{variables[0]} - 1"
+            message = "is declared and never defined; define it, as in"
+            source.fail(name.offset, f"{quote(name.text)} {message} {name.text} = {value};")
     for name, text in assigned.items():
         if name in variables:
             source.fail(text.offset, f"{quote(name)} is a variable; it has no definition")
