@@ -700,9 +700,10 @@ def _is_on_both(
 ) -> bool:
     """Whether a component of the common zeros lies on both modes, which then meet in it.
 
-    Of models that keep joints, whose modes are images of components, it is not asked.
+    It is not asked where others are to be expected: of models that keep joints, whose modes are
+    images of components, and of modes whose equations hold on their conjugates as well.
     """
-    if model.charts.n:
+    if model.charts.n or any(mode.reality is ModeReality.CONJUGATE for mode in pair):
         return False
     point, accuracy = component.points[0], max(LEAST, component.accuracy)
     # Poses of a linear mode are all that satisfy its equations.
