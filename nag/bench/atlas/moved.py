@@ -138,7 +138,7 @@ SPARSE: dict[str, tuple[str, ...]] = {
     ),
     "sparse-planar": (
         "planar/eight-bar", "planar/six-bar-placed", "planar/kinematotropic-crank",
-        "planar/kinematotropic-square",
+        "planar/kinematotropic-square", "planar/four-bars-in-a-row",
     ),
     "sparse-spatial": ("spatial/sarrus-kinematotropic", "spatial/universal-shaft"),
     "sparse-large": ("benchmarks/rhombus-chain-5",),
