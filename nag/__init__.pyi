@@ -13,8 +13,9 @@ from typing import Any, Literal, Protocol, TypeAlias, TypedDict, Unpack, overloa
 import networkx
 import numpy as np
 
-from nag.algebra.number import Irrational, Surd
+from nag.algebra.number import Irrational
 from nag.algebra.polynomial import Polynomial as Polynomial
+from nag.algebra.surd import Surd
 from nag.algebra.symmetry import SignedPermutation as SignedPermutation
 from nag.algebra.system import PolynomialSystem as PolynomialSystem
 from nag.decomposition.singular_points import SingularLocus
@@ -41,7 +42,7 @@ from nag.mechanism.graph import Mechanism as Mechanism
 from nag.mechanism.linkage import Linkage as Linkage
 from nag.mechanism.mobility_report import MobilityReport as MobilityReport
 from nag.mechanism.model import Model
-from nag.mechanism.operation_modes import OperationModes
+from nag.mechanism.modes_report import OperationModes
 from nag.mechanism.problem import Problem
 from nag.numerics.local_dimension import LocalDimension as LocalDimension
 from nag.pictures.plot import Picture
@@ -51,7 +52,7 @@ from nag.real.real_pieces import RealPieces as RealPieces
 from nag.solving.family_members import FamilySolutions as FamilySolutions
 from nag.solving.solutions import Solution as Solution
 from nag.solving.solutions import SolveResult as SolveResult
-from nag.tracking.run import Progress
+from nag.tracking.run import Found, Progress
 from nag.tracking.run import Run as Run
 from nag.tracking.settings import Settings
 from nag.witness.constraints import Constraints as Constraints
@@ -80,6 +81,7 @@ class RunOptions(TypedDict, total=False):
     threads: int
     settings: Settings | Literal["fast", "default", "careful"]
     progress: Progress | None
+    found: Found | None
     resume: File | None
     executor: Executor | str | None
     time_limit: float | None

@@ -28,7 +28,7 @@ from nag.numerics.coincidence import SPREAD, coincident
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.natural_coordinates import NaturalCoordinates
-from nag.numerics.read_only import equal_values, fixed_array
+from nag.numerics.read_only import ComplexArray, equal_values, fixed_array
 from nag.numerics.tangent_cone import TangentCone, form_text, tangent_cone
 from nag.numerics.zero_values import all_vanish
 from nag.text.json_text import pairs
@@ -65,7 +65,7 @@ class SingularSet:
 
     dimension: int
     degree: int
-    points: np.ndarray
+    points: ComplexArray
     multiplicities: Mapping[int, int]
     local: LocalDimension
     cone: TangentCone | None

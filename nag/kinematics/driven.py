@@ -34,7 +34,7 @@ from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.quaternion import conjugate, multiply
 from nag.numerics.double_ranks import NEARLY_SINGULAR
-from nag.numerics.read_only import equal_values
+from nag.numerics.read_only import RealArray, equal_values
 from nag.real.real_pieces import find_real_points
 from nag.text.table import join_words
 from nag.tracking.run import Run
@@ -95,9 +95,9 @@ class DrivenAssembly:
 
     circuit: int | None
     arc: float | None
-    values: np.ndarray
+    values: RealArray
     poses: Poses
-    point: np.ndarray | None = None
+    point: RealArray | None = None
 
     __eq__ = equal_values
 

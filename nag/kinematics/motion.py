@@ -35,7 +35,7 @@ from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import obstacle
 from nag.numerics.local_dimension import local_dimension
-from nag.numerics.read_only import equal_values
+from nag.numerics.read_only import RealArray, equal_values
 from nag.real.curve import RealCurve
 from nag.text.table import count_text, one_line
 from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
@@ -114,8 +114,8 @@ class Circuit:
     unbounded: bool
     from_reference: bool
     through_reference: bool
-    arc: np.ndarray
-    points: np.ndarray
+    arc: RealArray
+    points: RealArray
     poses: Poses
     values: Values
     crossings: tuple[Crossing, ...]

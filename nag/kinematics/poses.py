@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.mechanism.quaternion import conjugate, multiply, rotate
-from nag.numerics.read_only import equal_values
+from nag.numerics.read_only import RealArray, equal_values
 
 
 def turn_product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -43,8 +43,8 @@ class Poses:
         places: of its origin, shape ``(bodies, k, 3)``.
     """
 
-    turns: np.ndarray
-    places: np.ndarray
+    turns: RealArray
+    places: RealArray
 
     __eq__ = equal_values
 
@@ -63,11 +63,11 @@ class Poses:
             np.stack([np.broadcast_to(r, (count, 3)) for r in places]),
         )
 
-    def move(self, body: int, point: np.ndarray) -> np.ndarray:
+    def move(self, body: int, point: np.ndarray) -> RealArray:
         """Where a point of a body is, given in its frame, shape ``(k, 3)``."""
         return self.places[body] + turn_vectors(self.turns[body], point)
 
-    def turn(self, body: int, vector: np.ndarray) -> np.ndarray:
+    def turn(self, body: int, vector: np.ndarray) -> RealArray:
         """A direction of a body, given in its frame, shape ``(k, 3)``."""
         return turn_vectors(self.turns[body], vector)
 

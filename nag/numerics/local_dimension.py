@@ -30,7 +30,7 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.doubles import ROUGH
-from nag.numerics.read_only import equal_values, fixed_array
+from nag.numerics.read_only import ComplexArray, equal_values, fixed_array
 from nag.text.table import lines_of, one_line, point_text
 
 # Decides: Error of a coordinate that was written down, beside its size or one: half a unit of the
@@ -62,7 +62,7 @@ class LocalDimension:
             most 100; empty if it is not decided.
     """
 
-    point: np.ndarray
+    point: ComplexArray
     tangent_dimension: int | None
     lower: int
     upper: int

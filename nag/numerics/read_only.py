@@ -4,8 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
+from typing import TypeAlias
 
 import numpy as np
+
+# Arrays of results by what is in them.
+ComplexArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
+RealArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
+IntegerArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+ByteArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.int8]]
+BooleanArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
 
 def fixed_array(array: np.ndarray, dtype: type | None = None) -> np.ndarray:

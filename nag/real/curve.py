@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nag.numerics.read_only import equal_values, fixed_array
+from nag.numerics.read_only import RealArray, equal_values, fixed_array
 from nag.text.table import one_line
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ class RealVertex:
     """
 
     kind: VertexKind
-    point: np.ndarray
+    point: RealArray
 
     __eq__ = equal_values
 
@@ -104,8 +104,8 @@ class RealEdge:
 
     start: int | None
     end: int | None
-    points: np.ndarray
-    chart: np.ndarray
+    points: RealArray
+    chart: RealArray
 
     __eq__ = equal_values
 

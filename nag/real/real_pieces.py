@@ -28,7 +28,7 @@ from nag.errors import ComponentError, StartError
 from nag.numerics.coincidence import coincident
 from nag.numerics.doubles import EPS
 from nag.numerics.local_dimension import local_dimension
-from nag.numerics.read_only import equal_values, fixed_array
+from nag.numerics.read_only import RealArray, equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
 from nag.real.curve import RealCurve
 from nag.real.find_curve import RealCurveError, find_real_curve
@@ -83,7 +83,7 @@ class RealPieces:
         reason: what that rests on, or what is not known.
     """
 
-    points: np.ndarray
+    points: RealArray
     dimensions: tuple[int, ...]
     reality: Reality
     each_piece: bool

@@ -22,7 +22,14 @@ from nag.algebra.from_python import exact_complex, system
 from nag.algebra.imaginary_unit import append_unit
 from nag.errors import NagError, StartError
 from nag.numerics.coincidence import radii_of_balls
-from nag.numerics.read_only import equal_values
+from nag.numerics.read_only import (
+    BooleanArray,
+    ByteArray,
+    ComplexArray,
+    IntegerArray,
+    RealArray,
+    equal_values,
+)
 from nag.solving.member_lines import MemberLines
 from nag.solving.parameter import Solved, solve_generic, solve_targets
 from nag.solving.start.family_monodromy import random_values
@@ -59,12 +66,12 @@ class FamilySolutions:
     """
 
     start: Solved
-    values: np.ndarray
-    points: np.ndarray
-    status: np.ndarray
-    errors: np.ndarray
-    one_by_one: np.ndarray
-    complete: np.ndarray
+    values: ComplexArray
+    points: ComplexArray
+    status: ByteArray
+    errors: RealArray
+    one_by_one: BooleanArray
+    complete: BooleanArray
 
     __eq__ = equal_values
 
@@ -81,17 +88,17 @@ class FamilySolutions:
     def __len__(self) -> int:
         return len(self.values)
 
-    def __iter__(self) -> Iterator[np.ndarray]:
+    def __iter__(self) -> Iterator[ComplexArray]:
         """The solutions of each member, as `at` has them."""
         return map(self.at, range(len(self)))
 
     @overload
-    def __getitem__(self, member: int) -> np.ndarray: ...
+    def __getitem__(self, member: int) -> ComplexArray: ...
 
     @overload
-    def __getitem__(self, member: slice) -> list[np.ndarray]: ...
+    def __getitem__(self, member: slice) -> list[ComplexArray]: ...
 
-    def __getitem__(self, member: int | slice) -> np.ndarray | list[np.ndarray]:
+    def __getitem__(self, member: int | slice) -> ComplexArray | list[ComplexArray]:
         chosen = range(len(self))[member]
         return self.at(chosen) if isinstance(chosen, int) else [self.at(k) for k in chosen]
 
@@ -130,7 +137,7 @@ class FamilySolutions:
         return data_frame(columns)
 
     @property
-    def real_counts(self) -> np.ndarray:
+    def real_counts(self) -> IntegerArray:
         """Numbers of distinct real solutions, shape ``(M,)``."""
         return self._is_real(slice(None)).sum(axis=1)
 
@@ -144,15 +151,15 @@ class FamilySolutions:
         return np.asarray(real.reshape(status.shape) & (status <= PathStatus.SINGULAR))
 
     @property
-    def counts(self) -> np.ndarray:
+    def counts(self) -> IntegerArray:
         """Numbers of distinct solutions, shape ``(M,)``."""
         return (self.status <= PathStatus.SINGULAR).sum(axis=1)
 
-    def at(self, member: int) -> np.ndarray:
+    def at(self, member: int) -> ComplexArray:
         """The solutions of one member, shape ``(count, n)``."""
         return self.points[member, self.status[member] <= PathStatus.SINGULAR]
 
-    def real(self, member: int) -> np.ndarray:
+    def real(self, member: int) -> RealArray:
         """The real ones among them, to within their errors, shape ``(count, n)``."""
         member = range(len(self))[member]
         return self.points[member, self._is_real(slice(member, member + 1))[0]].real

@@ -10,7 +10,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.to_sympy import to_sympy_point
-from nag.numerics.read_only import equal_values, fixed_array
+from nag.numerics.read_only import ComplexArray, RealArray, equal_values, fixed_array
 from nag.text.json_text import pairs, real_or_null
 from nag.text.table import count_text, data_frame, one_line
 from nag.tracking.run import Run
@@ -36,14 +36,14 @@ class Solution:
             known.
     """
 
-    point: np.ndarray
+    point: ComplexArray
     multiplicity: int
     real: bool
     residual: float
     accuracy: float
     condition: float
     precision: int
-    radii: np.ndarray | None = None
+    radii: RealArray | None = None
 
     __eq__ = equal_values
 
@@ -85,9 +85,9 @@ class LargerSets:
         doubtful: that is not known.
     """
 
-    counting: np.ndarray
-    excluded: np.ndarray
-    doubtful: np.ndarray
+    counting: ComplexArray
+    excluded: ComplexArray
+    doubtful: ComplexArray
 
     def __post_init__(self) -> None:
         for field in fields(self):
@@ -110,7 +110,7 @@ class LargerSets:
         return LargerSets(image(self.counting), image(self.excluded), image(self.doubtful))
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> ComplexArray:
         """All of them."""
         return np.vstack([self.counting, self.excluded, self.doubtful])
 
@@ -185,8 +185,8 @@ class SolveResult(Sequence[Solution]):
 
     system: PolynomialSystem
     solutions: tuple[Solution, ...]
-    on_components: np.ndarray
-    undecided: np.ndarray
+    on_components: ComplexArray
+    undecided: ComplexArray
     excluded: int
     paths: PathStatistics
     start: str
@@ -198,8 +198,8 @@ class SolveResult(Sequence[Solution]):
     excluded_solutions: tuple[Solution, ...] = ()
     method: str = ""
     pathless: bool = False
-    on_excluded: np.ndarray | None = None
-    on_doubtful: np.ndarray | None = None
+    on_excluded: ComplexArray | None = None
+    on_doubtful: ComplexArray | None = None
 
     __eq__ = equal_values
 
@@ -259,7 +259,7 @@ class SolveResult(Sequence[Solution]):
         )
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> ComplexArray:
         """The isolated solutions, shape ``(k, n)``."""
         return np.array([s.point for s in self.solutions]).reshape(-1, self.system.n)
 
@@ -298,7 +298,7 @@ class SolveResult(Sequence[Solution]):
     def __getitem__(self, index: int | slice) -> Solution | tuple[Solution, ...]:
         return self.solutions[index]
 
-    def to_numpy(self) -> np.ndarray:
+    def to_numpy(self) -> ComplexArray:
         """The isolated solutions, complex, shape ``(k, n)``, to be written to."""
         return self.points
 

@@ -11,6 +11,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
+from nag.numerics.read_only import RealArray
 from nag.witness.component_equations import component_system
 from nag.witness.witness import WitnessSet
 
@@ -44,7 +45,7 @@ class Constraints:
         """How many constraints there are."""
         return self.system.n - self.dimension
 
-    def values(self, point: np.ndarray) -> np.ndarray:
+    def values(self, point: np.ndarray) -> RealArray:
         """Their values at a real point near the component, shape ``(count,)``.
 
         Raises:
@@ -53,7 +54,7 @@ class Constraints:
         x = self._checked(point, "point")
         return self._frame(x)[0] @ self._equations.values(x[None])[0].real
 
-    def jacobian(self, point: np.ndarray) -> np.ndarray:
+    def jacobian(self, point: np.ndarray) -> RealArray:
         """Their Jacobian at a real point near the component, of full rank, ``(count, n)``.
 
         Raises:
@@ -61,7 +62,7 @@ class Constraints:
         """
         return self._frame(self._checked(point, "point"))[1]
 
-    def curvature(self, point: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    def curvature(self, point: np.ndarray, velocity: np.ndarray) -> RealArray:
         """Their second derivatives along a velocity, shape ``(count,)``.
 
         Accelerations ``a`` on the component have ``jacobian a + curvature = 0``.

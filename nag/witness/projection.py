@@ -18,7 +18,7 @@ from nag.errors import ComponentError, NagError
 from nag.numerics.coincidence import clusters
 from nag.numerics.double_ranks import matrix_corank
 from nag.numerics.doubles import EPS, ROUGH
-from nag.numerics.read_only import equal_values, fixed_array
+from nag.numerics.read_only import ComplexArray, equal_values, fixed_array
 from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import (
@@ -64,7 +64,7 @@ class Projection:
     fibre_dimension: int
     fibre_degree: int
     slice: Slice
-    points: np.ndarray
+    points: ComplexArray
     accuracy: float
 
     __eq__ = equal_values

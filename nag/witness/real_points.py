@@ -18,7 +18,7 @@ from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.numerics.coincidence import coincident
-from nag.numerics.read_only import equal_values, fixed_array
+from nag.numerics.read_only import BooleanArray, RealArray, equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
 from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -60,9 +60,9 @@ class RealPoints:
         reason: why no point was found; empty otherwise.
     """
 
-    points: np.ndarray
-    distances: np.ndarray
-    stationary: np.ndarray
+    points: RealArray
+    distances: RealArray
+    stationary: BooleanArray
     residual: float
     undecided: int = 0
     reason: str = ""

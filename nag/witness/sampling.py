@@ -15,7 +15,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
 from nag.numerics.doubles import EPS, SHARP
 from nag.numerics.natural_coordinates import NaturalCoordinates
-from nag.numerics.read_only import equal_values, fixed_array
+from nag.numerics.read_only import ComplexArray, equal_values, fixed_array
 from nag.numerics.zero_values import ON
 from nag.text.json_text import pairs
 from nag.text.table import one_line
@@ -41,7 +41,7 @@ class Samples:
         doubt: why the set that they are drawn from may not be whole; empty if it is.
     """
 
-    points: np.ndarray
+    points: ComplexArray
     residual: float
     accuracy: float
     doubt: str = ""
@@ -196,7 +196,7 @@ def sample_points(
     rng: np.random.Generator | int,
     count: int,
     run: Run,
-) -> np.ndarray:
+) -> ComplexArray:
     """Points of a component, see `WitnessSet.sample`."""
     check_whole(count, "count")
     if isinstance(rng, numbers.Integral) and not isinstance(rng, bool) and rng >= 0:

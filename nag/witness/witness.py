@@ -13,7 +13,7 @@ from nag.algebra.given import check_error, check_listed, check_type
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
-from nag.numerics.read_only import equal_values, fixed_array
+from nag.numerics.read_only import ComplexArray, IntegerArray, RealArray, equal_values, fixed_array
 from nag.text.json_text import pairs, real_or_null
 from nag.text.table import data_frame, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -63,8 +63,8 @@ class Slice:
         b: complex, shape ``(d,)``.
     """
 
-    A: np.ndarray
-    b: np.ndarray
+    A: ComplexArray
+    b: ComplexArray
 
     __eq__ = equal_values
 
@@ -90,7 +90,7 @@ class Slice:
         return len(self.b)
 
     @property
-    def rows(self) -> np.ndarray:
+    def rows(self) -> ComplexArray:
         """The slice as rows ``(-b, A)`` that act on homogeneous coordinates ``(1, x)``."""
         return np.hstack([-self.b[:, None], self.A])
 
@@ -125,14 +125,14 @@ class WitnessSet:
     """
 
     slice: Slice
-    points: np.ndarray
+    points: ComplexArray
     multiplicity: int
     status: Status
     residual: float
-    radii: np.ndarray
-    digits: np.ndarray
+    radii: RealArray
+    digits: IntegerArray
     corank: int
-    multidegree: np.ndarray | None = None
+    multidegree: IntegerArray | None = None
     orbit: int = 1
     note: str = ""
     images: tuple[SignedPermutation, ...] = ()
@@ -168,7 +168,7 @@ class WitnessSet:
         return len(self.points)
 
     @property
-    def errors(self) -> np.ndarray:
+    def errors(self) -> RealArray:
         """Errors of the points, relative to one and their sizes, shape ``(degree,)``."""
         return relative_errors(self.points, self.radii)
 
@@ -246,7 +246,7 @@ class WitnessSet:
         count: int = 1,
         *,
         run: Run = DEFAULT_RUN,
-    ) -> np.ndarray:
+    ) -> ComplexArray:
         """Independent random points of the component, accurate to rounding.
 
         Each is the end of a path from a random witness point to a random slice (Sommese &

@@ -1,0 +1,83 @@
+"""What type checkers and editors see of the public functions and of what they return."""
+
+from __future__ import annotations
+
+import ast
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_pickled_results import RESULTS
+
+import nag
+
+ROOT = Path(nag.__file__).parent.parent
+STUB = ast.parse((ROOT / "nag" / "__init__.pyi").read_text("utf-8"))
+DTYPES = {
+    "ComplexArray": np.complex128,
+    "RealArray": np.float64,
+    "IntegerArray": np.int64,
+    "ByteArray": np.int8,
+    "BooleanArray": np.bool_,
+}
+USER = Path(__file__).with_name("typed_user.py")
+
+
+def test_types_are_named_by_the_modules_that_define_them() -> None:
+    for line in STUB.body:
+        if isinstance(line, ast.ImportFrom) and line.module and line.module.startswith("nag."):
+            for each in line.names:
+                value = getattr(import_module(line.module), each.name)
+                if isinstance(value, type):
+                    assert value.__module__ == line.module, each.name
+
+
+def test_the_options_of_a_run_are_its_fields() -> None:
+    (options,) = [n for n in STUB.body if isinstance(n, ast.ClassDef) and n.name == "RunOptions"]
+    named = {n.target.id for n in options.body if isinstance(n, ast.AnnAssign)}  # type: ignore[union-attr]
+    assert named == {"run", *(each.name for each in fields(nag.Run))}
+
+
+def parts_of(value: object) -> Iterator[object]:
+    """The objects of ours that a result is made of."""
+    if isinstance(value, tuple | list):
+        for each in value:
+            yield from parts_of(each)
+    elif is_dataclass(value) and type(value).__module__.startswith("nag."):
+        yield value
+        for each in fields(value):
+            yield from parts_of(getattr(value, each.name))
+
+
+@pytest.mark.parametrize("name", sorted(RESULTS))
+def test_arrays_of_results_hold_what_their_type_says(name: str) -> None:
+    for part in parts_of(RESULTS[name]()):
+        for each in fields(part):  # type: ignore[arg-type]
+            value, kind = getattr(part, each.name), str(each.type).partition(" ")[0]
+            if isinstance(value, np.ndarray) and kind in DTYPES:
+                assert value.dtype == DTYPES[kind], (type(part).__name__, each.name, value.dtype)
+
+
+@pytest.mark.skipif(find_spec("mypy") is None, reason="mypy is not installed")
+def test_mypy_finds_no_any_where_a_type_is_known(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent"]
+    done = subprocess.run(
+        [*command, "--ignore-missing-imports", "--cache-dir", str(tmp_path), str(USER)],
+        env=os.environ | {"MYPYPATH": str(ROOT)},
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    lines = done.stdout.splitlines()
+    assert [line for line in lines if ": error:" in line] == []
+    revealed = [line for line in lines if "Revealed type" in line]
+    assert len(revealed) > 100 and [line for line in revealed if "Any" in line] == []
