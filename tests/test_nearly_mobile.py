@@ -339,6 +339,23 @@ def test_of_several_near_freedoms_all_but_one_are_held() -> None:
     assert low == 0 or high == np.pi
 
 
+@pytest.mark.parametrize("first", [0, 3])
+def test_of_a_turn_and_a_slide_the_slide_is_held(first: int) -> None:
+    """A planar four-bar, rounded, that two of its joints let slide along their axes as well."""
+    corners = [[0, 0, 0], [2, 0, 0.3], [2.5, 1.5, -0.4], [0.2, 1, 0]]
+    axes = np.array([[0, 0, 1.0]] * 4) * np.array([[1.0], [1.3], [0.8], [0.7]])
+    order = np.roll(np.arange(4), first)
+    axes, points = posed((axes[order], np.array(corners)[order]), 1)
+    joints = rounded_loop((axes, points), 6).joints
+    sliding = ("J0", "J1") if not first else ("J1", "J2")
+    made = (replace(j, type="cylindrical") if j.name in sliding else j for j in joints)
+    found = find_near_motion(Mechanism("B0", tuple(made)), 1e-3)
+    assert found is not None and found.nearly_mobile and not found.slides
+    assert len(found.held) == 1 and found.held[0] in sliding
+    least, most = found.driven_to
+    assert most - least > 1
+
+
 def test_loops_that_nearly_move_by_themselves_are_looked_at_one_by_one() -> None:
     first, second = (rounded_loop(posed(assembled("bennett"), seed), 6).joints for seed in (1, 2))
     other = (

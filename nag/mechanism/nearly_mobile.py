@@ -121,7 +121,7 @@ class NearMotion:
         size: of the mechanism: mean distance of its axes from their centre, or, where they all but
             meet there, that of the joints' points; 1 if these are there too.
         singular_values: the smallest and the next one of the loops' closure, in radians and sizes.
-        driven: the joint that turns or slides most to first order.
+        driven: the joint that turns most to first order, or slides most where hardly any turns.
         held: joints that are held, where without that it would have more freedoms than one.
         driven_to: how far it goes either way, by radians or in length.
         slides: whether it slides.
@@ -301,10 +301,9 @@ def find_near_motion(mechanism: Mechanism, tolerance: float) -> NearMotion | Non
     chains = Chains.of(mechanism)
     if chains is None:
         return None
-    values, directions = chains.singular()
-    held, tangent = _hold_but_one(chains, directions[-_near_freedoms(chains, tolerance) :])
-    chains = replace(chains, held=held)
-    driven = _most_moved(chains, tangent)
+    values, _ = chains.singular()
+    chains, tangent = _hold_near_freedoms(chains, tolerance)
+    driven = _most_moved(np.abs(tangent), chains.turning)
     tangent = tangent if tangent[driven] > 0 else -tangent
     walk = _follow_both_ways(chains, tangent)
     near = _find_mobile(chains, walk, tangent, max(tolerance, WIDEST_GAP / 10))
@@ -322,7 +321,7 @@ def find_near_motion(mechanism: Mechanism, tolerance: float) -> NearMotion | Non
         size=size,
         singular_values=(float(values[-1]), float(values[-2] if len(values) > 1 else inf)),
         driven=chains.name_of(driven),
-        held=tuple(dict.fromkeys(map(chains.name_of, held))),
+        held=tuple(dict.fromkeys(map(chains.name_of, chains.held))),
         driven_to=tuple(float(x) * (size if slides else 1.0) for x in (along.min(), along.max())),
         slides=slides,
         whole=walk.whole,
@@ -877,6 +876,7 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
     by Gauss and Newton's steps to the least change. None if that leaves gaps, or there are not as
     many positions with gaps of at most ``widest``.
     """
+    from scipy.linalg import svd
     from scipy.optimize import least_squares
 
     limit_scipy()
@@ -929,7 +929,8 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
         # Where conditions that all but depend on each other bend, a few steps do not close it.
         if step >= FEWEST_CLOSING and np.abs(left).max() < ROUNDING:
             break
-        u, s, v = np.linalg.svd(derivative(x))
+        # The faster way, by division, fails at times where many values vanish.
+        u, s, v = svd(derivative(x), lapack_driver="gesvd")
         rank = int((s > SMALL * s[0]).sum())
         x = x - v[:rank].T @ ((u[:, :rank].T @ left) / s[:rank])
         # Of all that closes it as well, to first order, the least change.
@@ -939,50 +940,61 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
     return chains.with_change(x[:m]) if closed else None
 
 
-def _near_freedoms(chains: Chains, tolerance: float) -> int:
+def _hold_near_freedoms(chains: Chains, tolerance: float) -> tuple[Chains, Array]:
+    """The chains with all near freedoms held but one, and the direction in which that moves.
+
+    Where motions nearly meet there are more directions than freedoms, but not a few steps away.
+    """
+    values, directions = chains.singular()
+    count = _near_freedoms(values, tolerance)
+    held, tangent = _hold_but_one(chains, directions[-count:])
+    if count > 1:
+        away = close_across(held, AWAY * STEP * tangent, tangent)
+        there = _near_freedoms(chains.singular(away)[0], tolerance)
+        if there < count:
+            held, tangent = _hold_but_one(chains, directions[-there:])
+    return held, tangent
+
+
+def _near_freedoms(values: Array, tolerance: float) -> int:
     """With how many freedoms loops move to first order but for rounding, one at least.
 
-    As many singular values are far smaller than the next, and below the tolerance. Where motions
-    nearly meet they are more than the freedoms, but not a few steps away.
+    As many singular values are far smaller than the next, and below the tolerance.
     """
-
-    def count(values: Array) -> int:
-        own = np.maximum(values, ROUNDING)
-        parting = np.where(own[1:] < tolerance, own[:-1] / own[1:], 0)
-        return len(values) - 1 - int(np.argmax(parting)) if parting.any() else 1
-
-    values, directions = chains.singular()
-    found = count(values)
-    if found == 1:
-        return 1
-    tangent = directions[-1]
-    away = close_across(chains, AWAY * STEP * tangent, tangent)
-    return min(found, count(chains.singular(away)[0]))
+    own = np.maximum(values, ROUNDING)
+    parting = np.where(own[1:] < tolerance, own[:-1] / own[1:], 0)
+    return len(values) - 1 - int(np.argmax(parting)) if parting.any() else 1
 
 
-def _hold_but_one(chains: Chains, directions: Array) -> tuple[tuple[int, ...], Array]:
-    """Screws to hold so that of several directions one is left, and that one.
+def _hold_but_one(chains: Chains, directions: Array) -> tuple[Chains, Array]:
+    """The chains with so many screws held that of several directions one is left, and that one.
 
-    Those that move most are held, as others determine them the worst.
+    Those that move most are held, as others determine them the worst, slides first, so that what is
+    left turns if it can.
 
     Args:
         directions: orthonormal, shape (k, n).
     """
     held: list[int] = []
     while len(directions) > 1:
-        held.append(_most_moved(chains, np.linalg.norm(directions, axis=0)))
+        held.append(_most_moved(np.linalg.norm(directions, axis=0), ~chains.turning))
         column = directions[:, held[-1]]
         directions = np.linalg.svd(column[None])[2][1:] @ directions
-    return tuple(held), directions[0]
+    return replace(chains, held=tuple(held)), directions[0]
 
 
-def _most_moved(chains: Chains, tangent: Array) -> int:
-    """The turn that moves most to first order; of chains that only slide, the slide."""
-    amounts = np.abs(tangent)
-    turning = chains.turning if chains.turning.any() else ~chains.turning
+def _most_moved(amounts: Array, preferred: Array) -> int:
+    """The coordinate that moves most to first order.
+
+    Args:
+        amounts: of each, not negative.
+        preferred: which are looked at first, unless they hardly move.
+    """
+    own = np.where(preferred, amounts, 0)
+    if own.max() <= WIDEST_GAP * amounts.max():
+        own = amounts
     # Of equal ones the first, however they are rounded.
-    amounts = np.where(turning, amounts, 0)
-    return int(np.flatnonzero(amounts >= 0.999 * amounts.max())[0])
+    return int(np.flatnonzero(own >= 0.999 * own.max())[0])
 
 
 def _linkage_of(chains: Chains, loop: Loop, change: float) -> LoopLinkage:
