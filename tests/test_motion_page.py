@@ -172,3 +172,18 @@ def test_a_page_plays_scrubs_and_drags_in_a_browser_without_a_network(
     assert seen.pop("rows") == seen.pop("frames") == len(motion.circuits[-1])
     told = ("played", "stopped", "scrubbed", "charted", "dragged", "keys", "chosen")
     assert seen == dict.fromkeys(told, True)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not here (apt-get install chromium)")
+def test_a_link_that_moves_little_in_the_picture_is_dragged_as_well(tmp_path) -> None:
+    links = {
+        "base": ("A", "D", 8),
+        "crank": ("A", "B", 1),
+        "coupler": ("B", "C", 7),
+        "rocker": ("C", "D", 5),
+    }
+    motion = nag.motion(nag.Linkage.of(links, "base"), circuit="all", samples=120)
+    assert len(motion.circuits) == 2
+    seen = see(motion_page(motion, "title", "case.toml"), tmp_path)
+    assert seen["messages"] == [] and seen["dragged"]

@@ -48,17 +48,24 @@
           if (document.elementFromPoint(x, y) !== canvas) continue;
           const hit = page.pick({ clientX: x, clientY: y });
           if (!hit) continue;
-          const from = page.at(), ahead = from + Number(scrub.max) / 10 / 24;
-          const to = page.place(hit.body, hit.local, ahead, page.camera.position.clone()).project(page.camera);
-          const tx = area.left + ((to.x + 1) / 2) * area.width, ty = area.top + ((1 - to.y) / 2) * area.height;
-          if (Math.hypot(tx - x, ty - y) < 12) continue;
+          const from = page.at(), to = page.camera.position.clone();
+          let tx = x, ty = y;
+          // Of what is drawn small the place further ahead, which is within reach as well.
+          for (const share of [1 / 24, 1 / 12]) {
+            if (Math.hypot(tx - x, ty - y) >= 6) break;
+            page.place(hit.body, hit.local, from + Number(scrub.max) / 10 * share, to).project(page.camera);
+            tx = area.left + ((to.x + 1) / 2) * area.width;
+            ty = area.top + ((1 - to.y) / 2) * area.height;
+          }
+          const way = Math.hypot(tx - x, ty - y);
+          if (way < 6) continue;
           point(canvas, "pointerdown", x, y);
           for (let k = 1; k <= 6; k++) point(canvas, "pointermove", x + ((tx - x) * k) / 6, y + ((ty - y) * k) / 6);
           point(canvas, "pointerup", tx, ty);
           // The point that was picked is under the pointer, and was not before.
           page.place(hit.body, hit.local, page.at(), to).project(page.camera);
           const x1 = area.left + ((to.x + 1) / 2) * area.width, y1 = area.top + ((1 - to.y) / 2) * area.height;
-          seen.dragged = page.at() !== from && Math.hypot(x1 - tx, y1 - ty) < 4;
+          seen.dragged = page.at() !== from && Math.hypot(x1 - tx, y1 - ty) < way / 3;
           break search;
         }
       }

@@ -570,7 +570,7 @@
     pen.beginPath(); pen.moveTo(x(frame), 2); pen.lineTo(x(frame), h - box2.bottom + 3); pen.stroke();
     for (const s of series) {
       const v = value(s.columns[0], frame);
-      s.shown.textContent = s.kind === "angle" ? `${(v || 0).toFixed(1)}\u00b0` : (Math.abs(v) < 1e-9 ? 0 : v).toPrecision(4);
+      s.shown.textContent = s.kind === "angle" ? `${(Math.round(10 * v) / 10 || 0).toFixed(1)}\u00b0` : (Math.abs(v) < 1e-9 ? 0 : v).toPrecision(4);
       if (s.off) continue;
       pen.fillStyle = s.colour; pen.strokeStyle = "#fff"; pen.lineWidth = 1.5;
       pen.beginPath(); pen.arc(x(frame), y(v, ranges[s.kind]), 4.4, 0, 7); pen.fill(); pen.stroke();
