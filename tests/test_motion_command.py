@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from nag.cli import main
+from nag.kinematics.joint_values import Coordinate
+from nag.kinematics.shown import value_text
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -71,6 +73,19 @@ def test_one_circuit_may_be_asked_for(tmp_path, capsys) -> None:
     assert ask(case, "--circuit", "2", "--csv", str(table), "--samples", "12") == 0
     assert {line.split(",")[0] for line in table.read_text().splitlines()[1:]} == {"2"}
     assert "circuit 1 " not in capsys.readouterr().out
+
+
+def test_angles_that_round_to_zero_have_no_sign() -> None:
+    angle, slide = Coordinate("A", "A", "angle"), Coordinate("P", "P", "slide")
+    assert value_text(angle, -1e-6) == value_text(angle, 0.0) == "0.00\u00b0"
+    assert value_text(angle, -1e-3) == "-0.06\u00b0"
+    assert value_text(slide, -1e-12) == "0"
+
+
+def test_bars_in_space_have_no_table_of_joints(capsys) -> None:
+    assert ask(str(CASES / "spatial" / "octahedron-plane-symmetric.toml")) == 0
+    printed = capsys.readouterr().out
+    assert "circuit 1  closed" in printed and "stands still at" not in printed
 
 
 @pytest.mark.parametrize(

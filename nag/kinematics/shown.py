@@ -65,8 +65,13 @@ def crossing_text(motion: Motion, circuit: Circuit, crossing: Crossing) -> str:
 
 
 def circuit_rows(motion: Motion, circuit: Circuit) -> list[str]:
-    """The table of a circuit: a line for each joint, and where another one is at dead points."""
+    """The table of a circuit: a line for each joint, and where another one is at dead points.
+
+    Empty where no joint has an angle or slide, as of bars in space.
+    """
     values = circuit.values
+    if not values.coordinates:
+        return []
     rows = [["joint", "moves", "stands still at"]]
     moving = [k for k in range(len(values.coordinates)) if not values.still[k]]
     for i, each in enumerate(values.coordinates):
