@@ -161,6 +161,16 @@ def test_bad_input_is_one_line(words: list[str], said: str, tmp_path, capsys) ->
     assert not picture.exists()
 
 
+def test_a_case_that_cannot_be_read_is_named_once(tmp_path, capsys) -> None:
+    broken = tmp_path / "broken.toml"
+    broken.write_text('title = "no kind"\n')
+    for case in (tmp_path / "none.toml", broken):
+        for what in ("--graph", "--tree"):
+            assert ask(case, what, "--out", tmp_path / "x.svg") == 2
+            (line,) = capsys.readouterr().err.splitlines()
+            assert line.count(str(case)) == 1
+
+
 def test_pictures_of_other_kinds_or_places_are_refused(tmp_path, capsys) -> None:
     case = CASES / "bennett.toml"
     for target, said in (("x.gif", "ends in .svg"), ("/nowhere/x.svg", "--out: /nowhere/x.svg")):

@@ -25,7 +25,7 @@ from nag.cli.witness_input import (
     is_export,
     read_components,
 )
-from nag.errors import ComponentError, NagError
+from nag.errors import ComponentError, InputError, NagError
 from nag.pictures.plot import DRAWN, KINDS, choose_picture, find_drawn
 
 if TYPE_CHECKING:
@@ -123,7 +123,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError("--component is for --onto")
     try:
         return (_of_components if kind in ("onto", "tree") else _of_mechanism)(options, kind)
-    except UsageError:
+    except (UsageError, InputError):
         raise
     except ComponentError as error:
         raise ComponentError(f"{options.case}: {error}") from None
