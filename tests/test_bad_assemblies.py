@@ -196,7 +196,7 @@ BROKEN: dict[str, tuple[str, str]] = {
     "no loop": (
         LINKAGE.replace('["C", "D"]', '["C", "F"]'),
         "the links form no loop: each turns freely, there is nothing to solve; of one link alone "
-        "are the pins C of coupler, F of rocker",
+        "are the pins D of base, F of rocker",
     ),
     "two points of an axis that are one": (
         line("through = [[1, 2, 3], [1, 2, 3]]"),
