@@ -97,7 +97,8 @@ def test_sympys_imaginary_unit_is_read() -> None:
 
 def test_a_variable_called_like_the_unit_is_asked_about() -> None:
     with pytest.raises(
-        nag.EquationError, match="if it is, write imaginary='I' in nag.system or nag.solve_family"
+        nag.EquationError,
+        match=r"if it is, write imaginary='I' in nag\.system or nag\.solve_family",
     ):
         nag.system(["x^2 + I"])
     assert nag.system(["x^2 + I"], ["x", "I"]).n == 2
