@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import networkx
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -145,3 +146,22 @@ def test_a_decomposition_says_that_no_real_motion_leaves_a_stretched_four_bar(ca
     assert "by terms of second order no real motion leaves it" in " ".join(
         capsys.readouterr().out.split()
     )
+
+
+@pytest.mark.parametrize(
+    ("points", "bars", "moves"),
+    [
+        # Bars in a line that one of them is as long as the others of, in the plane and in space,
+        # and bars in a line of which two are as long as the other two.
+        ([(0, 0), (1, 0), (3, 0), (6, 0)], "AB BC CD AD", False),
+        ([(0, 0, 0), (1, 0, 0), (3, 0, 0), (2, 3, 0)], "AB BC AC AD CD", False),
+        ([(0, 0), (3, 0), (1, 0), (4, 0)], "AB BC CD AD", True),
+    ],
+)
+def test_frameworks_in_their_own_places_are_asked_whether_real_motions_leave(
+    points, bars: str, moves: bool
+) -> None:
+    graph = networkx.Graph([tuple(bar) for bar in bars.split()])
+    networkx.set_node_attributes(graph, dict(zip("ABCD", points, strict=True)), "pos")
+    report = nag.mobility(nag.framework_of_graph(graph, len(points[0])))
+    assert (report.is_blocked, report.status is MobilityStatus.SHAKY) == (not moves, not moves)

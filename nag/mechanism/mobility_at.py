@@ -285,7 +285,7 @@ def _local_report(problem: Problem, at: Sequence[Number], run: Run) -> MobilityR
     found = local_dimension_near(problem.system, at, seed=run.seed)
     free, tangent = problem.free, found.tangent_dimension
     unreal = 0
-    if found.dimension and not found.smooth and in_real_coordinates(problem) is problem:
+    if found.dimension and not found.smooth and not problem.system.isotropic:
         unreal = count_unreal_directions(problem.system, found.point, tangent or 0, found.dimension)
     return MobilityReport(
         **_count_freedoms(problem),

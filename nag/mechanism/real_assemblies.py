@@ -120,7 +120,7 @@ def _doubt_of_components(problem: Problem, moving: Sequence[WitnessSet], run: Ru
     from nag.real.real_pieces import Reality, find_real_points
 
     nothing = f"no real one was found from {STARTS} starting points, which proves nothing"
-    real = in_real_coordinates(problem)
+    real = in_real_coordinates(problem) if problem.system.isotropic else problem
     if fewest_estimated_paths(real.system) > MOST_PATHS:
         return nothing
     if real is not problem:
