@@ -78,8 +78,7 @@ def add_case(parser: argparse.ArgumentParser) -> None:
         "case",
         metavar="CASE",
         help="case file (TOML); or a system in a file of Bertini, PHCpack, Macaulay2, Singular or "
-        "HomotopyContinuation.jl, "
-        "or of one polynomial a line; or a robot in URDF or MJCF",
+        "HomotopyContinuation.jl, or of one polynomial a line; or a robot in URDF or MJCF",
     )
     add_formulation(parser)
     add_parameters(parser)

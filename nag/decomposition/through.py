@@ -55,7 +55,7 @@ def through_points(
                 found.append(Through(name, solution=False))
                 continue
         if "exact" in known and exact and _is_on_the_only_one(everything, exact):
-            found.append(_seen_in_reals(Through(name, True, (0,)), everything, exact))
+            found.append(_with_unreal(Through(name, True, (0,)), everything, exact))
             continue
         from nag.witness.membership import components_through
 
@@ -70,13 +70,13 @@ def through_points(
             )
             doubt = "" if indices else "no component that was found passes through it"
             through = Through(name, True, tuple(indices), doubt)
-            found.append(_seen_in_reals(through, everything, known.get("exact")))
+            found.append(_with_unreal(through, everything, known.get("exact")))
         except ValueError as error:
             found.append(Through(name, True, doubt=str(error)))
     return found
 
 
-def _seen_in_reals(
+def _with_unreal(
     through: Through, everything: Decomposition, exact: Sequence[Number] | None
 ) -> Through:
     """The same, with what terms of second order say at an exact zero."""

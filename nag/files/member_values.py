@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NoReturn
 
@@ -36,19 +37,13 @@ def read_member_values(
         InputError: if the file cannot be read or has something else in it; one line.
     """
     file = Path(path)
-    try:
+    with _refuse_other_files(path):
         if file.stat().st_size > MOST_BYTES:
             _fail(path, f"is larger than {MOST_BYTES >> 30} GB; cut it in parts")
         if file.suffix == ".npy":
             return _read_array(file, len(parameters))
         with file.open(encoding="utf-8", newline="") as stream:
             return _read_table(file, csv.reader(stream), parameters, given)
-    except OSError as error:
-        _fail(path, error.strerror or str(error))
-    except UnicodeDecodeError:
-        _fail(path, "is no text; write a table with commas, or a NumPy array named .npy")
-    except csv.Error as error:
-        _fail(path, f"is no table: {error}")
 
 
 def read_member_names(path: str | os.PathLike[str]) -> list[str]:
@@ -59,9 +54,18 @@ def read_member_names(path: str | os.PathLike[str]) -> list[str]:
     """
     if Path(path).suffix == ".npy":
         return []
+    with (
+        _refuse_other_files(path),
+        Path(path).open(encoding="utf-8", newline="") as stream,
+    ):
+        return [name.strip() for name in next(csv.reader(stream), [])]
+
+
+@contextlib.contextmanager
+def _refuse_other_files(path: object) -> Iterator[None]:
+    """One line of what cannot be read, or is no table."""
     try:
-        with Path(path).open(encoding="utf-8", newline="") as stream:
-            return [name.strip() for name in next(csv.reader(stream), [])]
+        yield
     except OSError as error:
         _fail(path, error.strerror or str(error))
     except UnicodeDecodeError:

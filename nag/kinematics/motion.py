@@ -455,7 +455,7 @@ def held_motion(
     def with_held(found: Motion) -> Motion:
         return replace(found, held=tuple(drives), poses=tuple(poses))
 
-    found, _ = _motion_on(left, scene, "all", samples, run.telling(with_held), holding=True)
+    found, _ = _motion_on(left, scene, "all", samples, run.convert_found(with_held), holding=True)
     notes = list(found.notes)
     if not found.circuits and not found.assemblies and found.counted < 0:
         notes.append(
@@ -484,7 +484,7 @@ def motion_of(
     for each in drives:
         check_drive(scene, each)
     which: Which = circuit if scene.from_reference else "all"
-    told = run.telling(lambda found: replace(found, drive=drive))
+    told = run.convert_found(lambda found: replace(found, drive=drive))
     found, made = _motion_on(problem, scene, which, samples, told, curve_of=curve_of)
     if drive is None:
         return found

@@ -283,7 +283,7 @@ def _lift_linkage(made: LinkageModel, points: np.ndarray) -> Poses:
 
 
 def _of_framework(made: FrameworkModel) -> Scene:
-    if made.coordinates.startswith("z"):
+    if made.system.isotropic:
         raise NagError(
             "motion: a framework in isotropic coordinates is real where no coordinate is; take "
             "nag.mechanism.problem.in_real_coordinates"

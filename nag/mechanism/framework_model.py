@@ -162,7 +162,7 @@ class FrameworkModel(AssemblyModel):
         Args:
             point: a solution, in whatever coordinates, that `is_real` holds of.
         """
-        if not self.coordinates.startswith("z"):
+        if not self.system.isotropic:
             placed = self.places_at([complex(x).real for x in point])
             return {name: own[: self.framework.dimension] for name, own in placed.items()}
         unit = sqrt(float(self.framework.squared_lengths[0]))
@@ -174,7 +174,7 @@ class FrameworkModel(AssemblyModel):
 
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real realisation, to within rounding."""
-        if not self.coordinates.startswith("z"):
+        if not self.system.isotropic:
             return self._has_real_frame and super().is_real(point)
         bound = ROUGH * (1 + max((abs(x) for x in point), default=0.0))
         if self.coordinates == "z":

@@ -10,7 +10,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from nag.algebra.from_python import coordinates
-from nag.algebra.given import check_choice, check_size
+from nag.algebra.given import check_choice, check_size, is_a
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import quote
@@ -538,7 +538,8 @@ def _with_near_motion(
     From the first of these at which they are nearly mobile, or give a hint that they may be; else
     from the first of all.
     """
-    if problem.parts is None or in_real_coordinates(problem) is not problem:
+    framework = is_a(problem.parts, "nag.mechanism.framework_model", "FrameworkModel")
+    if problem.parts is None or framework:
         return report
     points = [x for c in components for x in np.asarray(c.points)]
     real = [x.real.tolist() for x in points if np.abs(x.imag).max(initial=0) < ON]

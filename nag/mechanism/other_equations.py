@@ -78,7 +78,7 @@ def _other_coordinates(
     if not isinstance(parts, FrameworkModel):
         return
     here = None if at is None else tuple(at)
-    if parts.coordinates.startswith("z"):
+    if parts.system.isotropic:
         plain = replace(cartesian_model(parts.framework), smaller=None)
         yield OtherEquations("coordinates (x, y)", problem_of(plain), here, "counts")
     elif parts.smaller is not None:

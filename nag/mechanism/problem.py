@@ -258,7 +258,7 @@ def _of_parts(parts: AssemblyModel, formulation: str) -> Problem:
 
 def in_real_coordinates(problem: Problem) -> Problem:
     """The same in coordinates in which a real configuration has real coordinates."""
-    if not is_a(problem.model, "nag.mechanism.framework_model", "FrameworkModel"):
+    if not problem.system.isotropic:
         return problem
     from nag.mechanism.framework_model import cartesian_model
 

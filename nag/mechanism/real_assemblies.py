@@ -30,9 +30,9 @@ from nag.witness.witness import WitnessSet
 if TYPE_CHECKING:
     from nag.mechanism.problem import Problem
 
-# Paths of a decomposition in real coordinates, and degrees of components, up to which their real
-# points are looked for where random starts lead to none.
-MOST_PATHS, MOST_DEGREE = 3000, 16
+# Degrees of components up to which their real points are looked for where random starts lead to
+# none; as many paths as that takes may take a decomposition in real coordinates.
+MOST_DEGREE = 16
 
 
 def obstacle(parts: AssemblyModel) -> str:
@@ -70,7 +70,7 @@ def real_assemblies(parts: AssemblyModel, seed: int = 0) -> Iterator[IterationEn
     of equations with real coordinates; accurate to rounding.
     """
     system, size = parts.system, 1.0
-    if isinstance(parts, FrameworkModel) and parts.coordinates.startswith("z"):
+    if isinstance(parts, FrameworkModel) and parts.system.isotropic:
         system = cartesian_model(parts.framework).system
         squared = parts.framework.squared_lengths
         squares = [float(s / squared[0]) for s in squared]
@@ -117,10 +117,10 @@ def _doubt_of_components(problem: Problem, moving: Sequence[WitnessSet], run: Ru
     """The same by real points of the components, to which Newton's method does not lead."""
     from nag.mechanism.path_estimates import fewest_estimated_paths
     from nag.mechanism.problem import in_real_coordinates
-    from nag.real.real_pieces import Reality, find_real_points
+    from nag.real.real_pieces import MOST_PATHS, Reality, find_real_points
 
     nothing = f"no real one was found from {STARTS} starting points, which proves nothing"
-    real = in_real_coordinates(problem) if problem.system.isotropic else problem
+    real = in_real_coordinates(problem)
     if fewest_estimated_paths(real.system) > MOST_PATHS:
         return nothing
     if real is not problem:

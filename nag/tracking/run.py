@@ -87,7 +87,7 @@ class Run:
         """The same for a part of the work, whose answers are not those that are asked for."""
         return self if self.found is None else replace(self, found=None)
 
-    def telling(self, answer_of: Callable[[Any], Any]) -> Run:
+    def convert_found(self, answer_of: Callable[[Any], Any]) -> Run:
         """The same for what leads to the answer, which ``answer_of`` makes of what that tells."""
         tell = self.found
         return self if tell is None else replace(self, found=lambda part: tell(answer_of(part)))

@@ -34,7 +34,7 @@ def read(source: SourceFile) -> GivenSystem:
     Raises:
         CaseError: if no variables are declared, or there is not one list of equations.
     """
-    source = _lines(source.without(_COMMENT))
+    source = _split_semicolons(source.without(_COMMENT))
     source.refuse_towers()
     names: list[Passage] = []
     lists: list[tuple[bool, Passage]] = []
@@ -44,9 +44,9 @@ def read(source: SourceFile) -> GivenSystem:
         found = _LIST.match(statement.text)
         defined = _DEFINED.match(statement.text)
         if declared:
-            names += _declared(source, statement.part(declared.end(), len(statement.text)))
+            names += _read_names(source, statement.part(declared.end(), len(statement.text)))
         elif found:
-            inside = _inside(source, statement.part(found.end() - 1, len(statement.text)))
+            inside = _unwrap_list(source, statement.part(found.end() - 1, len(statement.text)))
             lists.append((found[1].startswith("System"), inside))
         elif defined and not _CALL.search(statement.text, defined.end()):
             definitions[defined[1]] = _write_out(statement.part(defined.end(), len(statement.text)))
@@ -62,7 +62,7 @@ def read(source: SourceFile) -> GivenSystem:
     return GivenSystem(check_names(source, names), equations, {}, definitions, imaginary=("im",))
 
 
-def _lines(source: SourceFile) -> SourceFile:
+def _split_semicolons(source: SourceFile) -> SourceFile:
     """The same with a line's end for each semicolon, or a comma within brackets."""
     text, depth = [], 0
     for c in source.text:
@@ -71,7 +71,7 @@ def _lines(source: SourceFile) -> SourceFile:
     return SourceFile(source.file, "".join(text))
 
 
-def _declared(source: SourceFile, listed: Passage) -> list[Passage]:
+def _read_names(source: SourceFile, listed: Passage) -> list[Passage]:
     """The names that ``x y[1:3]`` declares."""
     found = []
     for item in _ITEM.finditer(listed.text):
@@ -90,7 +90,7 @@ def _declared(source: SourceFile, listed: Passage) -> list[Passage]:
     return found
 
 
-def _inside(source: SourceFile, listed: Passage) -> Passage:
+def _unwrap_list(source: SourceFile, listed: Passage) -> Passage:
     """What is within the brackets with which a text begins."""
     depth = 0
     for i, c in enumerate(listed.text):
