@@ -27,7 +27,7 @@ from nag.mechanism.framework import (
     placed_framework,
 )
 from nag.mechanism.framework_model import framework_model, space_models
-from nag.mechanism.mobility_at import mobility
+from nag.mechanism.mobility_at import NoAssembly, mobility
 from nag.mechanism.model import model
 from nag.mechanism.quaternion import dual_multiply
 from nag.mechanism.real_assemblies import obstacle
@@ -328,7 +328,7 @@ def test_links_that_cannot_meet_are_told_from_those_that_can(tmp_path, capsys):
         ),
         ((6, 1, 2, "3001/1000"), "a real one was found"),
         # Stretched between the ends of the base: the only real assembly is a node.
-        ((6, 1, 2, 3), "only singular real ones were found, which need not move"),
+        ((6, 1, 2, 3), "it does not move there: 1 real assembly in all"),
     ],
 )
 def test_a_mobile_linkage_says_whether_it_has_real_assemblies(tmp_path, capsys, lengths, said):
@@ -349,9 +349,62 @@ def test_a_mobile_linkage_says_whether_it_has_real_assemblies(tmp_path, capsys, 
     if "proved" in said:
         assert (status, moves) == (2, "")
         assert said.removeprefix("there is no real one, which is proved: ") in captured.err
+    elif "not move" in said:
+        assert "A, B, C and D are in line" in moves
+        assert "it does not move, but infinitesimally it does, with 2 freedoms" in moves
     else:
         assert "it moves with 1 freedom" in moves
-        assert (said in moves) is ("singular" in said)
+
+
+STRETCHED = {
+    # Each: dimension, points, bars with lengths, local and tangent dimension of the real ones.
+    "pentagon": (2, "ABCDE", "AB 1, BC 1, CD 2, DE 2, EA 6", 0, 3),
+    "quadrilateral in space": (3, "ABCD", "AB 1, BC 2, CD 3, DA 6", 0, 4),
+    "hexagon with a stretched diagonal": (
+        2,
+        "ABCDEF",
+        "AB 1, BC 1, CD 1, AD 3, DE 2, EF 1, FA 1",
+        1,
+        3,
+    ),
+    "with square roots": (
+        2,
+        "ABCD",
+        "AB sqrt(2), BC sqrt(3), AC sqrt(2)+sqrt(3), CD 1, DA 4",
+        0,
+        1,
+    ),
+    # A bar from each stretched pair's end to the other's: the second line follows from the first.
+    "lines that share two points": (2, "ABCD", "AB 1, BC 1, AC 2, CD 1, BD 2", 0, 2),
+}
+
+
+@pytest.mark.parametrize("name", STRETCHED)
+def test_points_that_lengths_put_in_line_move_as_real_ones_do(name):
+    dimension, points, texts, local, tangent = STRETCHED[name]
+    bars = [text.split(" ") for text in texts.split(", ")]
+    made = Framework.of(points, [b for b, _ in bars], [x for _, x in bars], dimension=dimension)
+    found = mobility(made)
+    assert (found.local_dimension, found.tangent_dimension) == (local, tangent)
+    assert "are in line" in found.sentence
+    assert found.doubt == ""
+
+
+def test_coincident_points_follow_from_lengths():
+    # E is where A is, so that the bars from F to both are one.
+    bars = ["AB", "BC", "AC", "CE", "EB", "AF", "EF"]
+    lengths = [1, 1, 2, 2, 1, 3, 3]
+    assert mobility(Framework.of("ABCEF", bars, lengths)).local_dimension == 1
+    lengths[-1] = 4
+    made = framework_model(Framework.of("ABCEF", bars, lengths))
+    assert "longer" in obstacle(made)
+
+
+def test_a_tetrahedron_without_real_place_is_no_rigid_one():
+    bars = ["AB", "BC", "CA", "AD", "BD", "CD"]
+    with pytest.raises(NoAssembly, match="none of 2 complex ones is real"):
+        mobility(Framework.of("ABCD", bars, [4, 4, 4, "11/5", "11/5", "11/5"], dimension=3))
+    assert mobility(Framework.of("ABCD", bars, [4, 4, 4, 3, 3, 3], dimension=3)).status == "rigid"
 
 
 def test_sides_are_compared_exactly():

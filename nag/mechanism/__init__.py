@@ -8,11 +8,11 @@ formulations `planar` and `euler` (each with its loop equations), and `half_angl
 `mode_decomposition`; `configuration` (all bodies), `holding` on `given_rotation` (joints held at
 values, bodies put elsewhere), and `unreduced` (all constraints, for checks). Other ways to give one
 are `framework` (with `framework_model`, `isotropic` and `framework_decomposition`), `dh` and
-`linkage`, on `assembly` and `real_assemblies`; `parts` tells which of them is given. `problem` is
-what all of these come down to, and cases and equations with them, and what `nag.decompose` and
-`nag.solve` ask; `coordinates` carries its components over to Euler parameters, `other_equations`
-are those that must say the same. `mobility_at` with `mobility_report` and `bonds` says how one
-moves, `moving_parts` (on `joint_chains`, of parts on `assembled`) what of it, and `nearly_mobile`
+`linkage`, on `assembly` and `real_assemblies` (with `straight_lines`); `parts` tells which of them
+is given. `problem` is what all of these come down to, and cases and equations with them, and what
+`nag.decompose` and `nag.solve` ask; `coordinates` carries its components over to Euler parameters,
+`other_equations` are those that must say the same. `mobility_at` with `mobility_report` and `bonds`
+says how one moves, `moving_parts` (on `joint_chains`, of parts on `assembled`) what of it, and `nearly_mobile`
 (on `overconstrained`) how it would if it were not rigid as it is given; `operation_modes` with
 `modes_report` how the platform of a parallel robot does, by `legs`, `leg_image`,
 `isotropic_limits`, `platform`, `inverse_kinematics` and `motions`, and `pose_model` makes a

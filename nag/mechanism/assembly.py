@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from nag.algebra.number import Number
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.axes import Space
@@ -66,6 +67,10 @@ class AssemblyModel:
     sides: tuple[Side, ...] = ()
 
     __repr__ = one_line
+
+    def place_polynomials(self) -> Mapping[str, Sequence[Polynomial]]:
+        """Coordinates of the sides' ends in one frame, in the system's variables."""
+        return {}
 
     def __str__(self) -> str:
         from nag.mechanism.shown import parts_text

@@ -12,7 +12,7 @@ of whatever lengths make the equations rational where the squared lengths are.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import sqrt
@@ -74,7 +74,7 @@ class FrameworkModel(AssemblyModel):
     @property
     def points_of_each(self) -> int:
         """Two where a half turn about the first two pinned points keeps the plane of the third."""
-        return 2 if self.has_moving_third else 1
+        return 2 if self.has_moving_third and self.system.nonzero else 1
 
     @property
     def space(self) -> Space:
@@ -155,6 +155,19 @@ class FrameworkModel(AssemblyModel):
             )
             for name, own in at.items()
         }
+
+    def place_polynomials(self) -> Mapping[str, Sequence[Any]]:
+        """The points' coordinates along the frame's vectors, as polynomials in the variables."""
+        n, d = self.system.n, len(self.metric)
+        variables = Polynomial.variables(n)
+        at: dict[str, Sequence[Any]] = {
+            p: _constants(n, x) for p, x in zip(self.pinned, self.held, strict=True)
+        }
+        if self.has_moving_third:
+            at[self.pinned[-1]] = (*variables[:2], Polynomial(n, {}))
+        free = self.framework.points_not_on(self.pinned)
+        start = n - d * len(free)
+        return at | {p: variables[start + d * i :][:d] for i, p in enumerate(free)}
 
     def real_places(self, point: Sequence[complex]) -> dict[str, tuple[float, ...]]:
         """Where the points are in a real realisation, in lengths; the first bar along x.
@@ -342,12 +355,19 @@ def pin_differently(model: FrameworkModel) -> FrameworkModel | None:
     return replace(cartesian_model(turned), smaller=None)
 
 
-def space_models(framework: Framework) -> Iterator[FrameworkModel]:
+def space_models(
+    framework: Framework, lines: Sequence[Collection[str]] = ()
+) -> Iterator[FrameworkModel]:
     """A framework in space with each triangle pinned, then with each two bars that meet.
 
     None where all such points are in line.
+
+    Args:
+        lines: points that are in line in all realisations that are asked for.
     """
     for pinned in (*framework.triangles(), *framework.bars_that_meet()):
+        if any(set(pinned) <= set(line) for line in lines):
+            continue
         first, second, third = pinned
         s, t = (framework.squared_length(first, other) for other in (second, third))
         opposite = framework.squared_length(second, third)
@@ -384,6 +404,19 @@ def _space_model(framework: Framework, without: frozenset[str] = frozenset()) ->
             "bars",
         )
     return model
+
+
+def model_in_line(framework: Framework) -> FrameworkModel:
+    """A framework in space for realisations with all points in line; its first bar is pinned.
+
+    A third point is held in a plane with it, and may be in line.
+    """
+    pinned = (*framework.bars[0], next(iter(framework.points_not_on(framework.bars[0]))))
+    zero, one, s = Fraction(0), Fraction(1), framework.squared_lengths[0]
+    places: tuple[Place, ...] = ((zero,) * 3, (one, zero, zero), (zero, one, zero))
+    held = dict(zip(pinned, places, strict=True))
+    made = _metric_model(framework, pinned, held, [s, s, s], third_moves=True)
+    return replace(made, system=replace(made.system, nonzero=()))
 
 
 def _third_in_plane(origin: Place, second: Place, third: Place) -> tuple[Number, Number]:

@@ -221,22 +221,34 @@ class LinkageModel(AssemblyModel):
     def pin_places(self, point: Sequence[Any]) -> dict[str, tuple[Any, Any]]:
         """The places of all pins where the moving links have these cosines and sines.
 
-        Links that close nothing are not turned.
+        Links that close nothing are not turned. Places are doubles where these are.
         """
         held, *moving = self.in_loops
+        kind = float if any(isinstance(x, float) for x in point) else _as_it_is
+        shapes = {
+            k.name: [(kind(x), kind(y)) for x, y in k.shape] for k in (held, *self.linkage.links)
+        }
         turn: dict[str, tuple[Any, Any]] = {link.name: (1, 0) for link in self.linkage.links}
         turn |= {k.name: (point[2 * i], point[2 * i + 1]) for i, k in enumerate(moving)}
-        places: dict[str, tuple[Any, Any]] = dict(zip(held.pins, held.shape, strict=True))
+        places: dict[str, tuple[Any, Any]] = dict(zip(held.pins, shapes[held.name], strict=True))
         left = [link for link in self.linkage.links if link.name != held.name]
         while left:
             link = next(k for k in left if places.keys() & set(k.pins))
             left.remove(link)
             (c, s), start = turn[link.name], next(p for p in link.pins if p in places)
-            (x0, y0), origin = places[start], link.shape[link.pins.index(start)]
-            for pin, (x, y) in zip(link.pins, link.shape, strict=True):
+            (x0, y0), origin = places[start], shapes[link.name][link.pins.index(start)]
+            for pin, (x, y) in zip(link.pins, shapes[link.name], strict=True):
                 dx, dy = x - origin[0], y - origin[1]
                 places.setdefault(pin, (x0 + c * dx - s * dy, y0 + s * dx + c * dy))
         return places
+
+    def place_polynomials(self) -> dict[str, tuple[Any, Any]]:
+        """The pins' places as polynomials in the variables, of links that are in loops."""
+        n = self.system.n
+        places = self.pin_places(Polynomial.variables(n))
+        pins = {p for link in self.in_loops for p in link.pins}
+        zero = Polynomial(n, {})
+        return {p: (zero + x, zero + y) for p, (x, y) in places.items() if p in pins}
 
     @property
     def alternatives(self) -> tuple[Alternative, ...]:
@@ -270,6 +282,10 @@ class LinkageModel(AssemblyModel):
         if self.free:
             text += f"; cut off, turning freely: links {', '.join(self.free)}"
         return text
+
+
+def _as_it_is(x: Number) -> Any:
+    return x
 
 
 def linkage_model(linkage: Linkage) -> LinkageModel:
@@ -355,6 +371,16 @@ class PinModel(LinkageModel):
     def reason(self) -> str:
         """One sentence: what was made of the linkage."""
         return f"planar linkage of {len(self.linkage.links)} links by the places of its pins"
+
+    def place_polynomials(self) -> dict[str, tuple[Any, Any]]:
+        """The places of the pins that are in loops, which are the variables."""
+        n, held = self.system.n, self.in_loops[0]
+        variables = Polynomial.variables(n)
+        places: dict[str, tuple[Any, Any]] = {
+            pin: (Polynomial.constant(n, x), Polynomial.constant(n, y))
+            for pin, (x, y) in zip(held.pins, held.shape, strict=True)
+        }
+        return places | {p: tuple(variables[2 * i :][:2]) for i, p in enumerate(self.pins)}
 
     def places_at(self, point: Sequence[Number]) -> tuple[Number, ...]:
         """The places of the pins where the moving links have these cosines and sines."""

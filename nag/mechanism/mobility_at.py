@@ -35,7 +35,15 @@ from nag.mechanism.parts import model_parts
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.quaternion import R
-from nag.mechanism.real_assemblies import real_assemblies, real_doubt
+from nag.mechanism.real_assemblies import (
+    count_real,
+    lines_of_real,
+    of_real_assemblies,
+    real_assemblies,
+    real_doubt,
+    tangent_dimension_at,
+)
+from nag.mechanism.straight_lines import ForcedLines
 from nag.numerics.local_dimension import local_dimension_near
 from nag.numerics.second_order import count_unreal_directions
 from nag.numerics.zero_values import ON
@@ -486,20 +494,28 @@ def _in_general(
     """The mobility at a general configuration of parts that may be assembled."""
     if detail == "local":
         raise NagError("the parts are not assembled; give a point, an assembly of them")
+    forced, problem = lines_of_real(problem), of_real_assemblies(problem)
     found = problem.decompose(run=run)
     components = expand_orbits(found).components
     if found.complete and not components:
+        if forced is not None:
+            raise NoAssembly(f"its parts have no real assembly: {forced.text}, and do not fit so")
         raise NoAssembly("its parts cannot be assembled, not even with complex coordinates")
+    if found.complete and problem.parts is not None and not any(c.dimension for c in components):
+        components = _with_real_ones(problem, components, forced)
     general = max(components, key=lambda c: (c.dimension, c.corank), default=None)
     known = general if found.complete else None
     free = problem.free
+    tangent = None if known is None else known.corank
+    if forced is not None and known is not None and problem.parts is not None:
+        tangent = tangent_dimension_at(problem.parts, known.points[0])
     curves = [c for c in components if c.dimension == 1] if detail == "curves" else []
     doubt = ""
     if known is not None and known.dimension and problem.parts is not None:
         doubt = real_doubt(problem, [c for c in components if c.dimension], run)
     report = MobilityReport(
         **_count_freedoms(problem),
-        tangent_dimension=None if known is None else known.corank + free,
+        tangent_dimension=None if tangent is None else tangent + free,
         lower=free + (0 if known is None else known.dimension),
         upper=free + (problem.system.n if known is None else known.dimension),
         components=tuple((c.dimension + free, c.degree) for c in components)
@@ -511,10 +527,14 @@ def _in_general(
         general=known,
         multiplicities=tuple(c.multiplicity for c in components) if found.complete else (),
         doubt=doubt,
+        in_line="" if forced is None else forced.text,
         rests_on=ALL_COMPONENTS if found.complete else "",
     )
     if report.local_dimension == 0:
         if known is None or known.corank or problem.parts is None:
+            return report
+        if tangent and tolerance is None:
+            # What is shaky gets no hint that it nearly moves.
             return report
         return _with_near_motion(report, problem, components, tolerance)
     if of is None:
@@ -525,6 +545,27 @@ def _in_general(
     each = found.components if problem.parts.points_of_each > 1 else components
     motions = sum(c.dimension == known.dimension for c in each)
     return _with_general_motion(report, problem, known.corank, motions, of, run)
+
+
+def _with_real_ones(
+    problem: Problem, components: Sequence[WitnessSet], forced: ForcedLines | None
+) -> list[WitnessSet]:
+    """Those of the finite components of parts that have real assemblies, where that is known.
+
+    Raises:
+        NoAssembly: if none has, which is proved.
+    """
+    parts = problem.parts
+    assert parts is not None
+    number, real = count_real(problem, components)
+    if real is None:
+        return list(components)
+    if real:
+        return [c for c in components if any(parts.is_real(x) for x in c.points)]
+    each = count_text(number, "complex one") if number > 1 else "the only complex one"
+    what = f"none of {each} is" if number > 1 else f"{each} is not"
+    where = "" if forced is None else f"; in one {forced.text}"
+    raise NoAssembly(f"its parts have no real assembly: {what} real{where}")
 
 
 def _with_near_motion(

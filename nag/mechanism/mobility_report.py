@@ -105,6 +105,8 @@ class MobilityReport:
             is of a general configuration on it, and ``components`` are all that there are.
         doubt: of such parts that move, why it is not known that they do with real coordinates;
             empty where it is.
+        in_line: of such parts, which places their lengths put in line in every real assembly; all
+            that is said is of those, but the tangent dimension, which is that of the lengths.
         least_degree: what the degree of the one component through a smooth configuration is at
             least, where it is not known.
         rests_on: what ``components`` are known by, and why a degree is not; empty where nothing is.
@@ -135,6 +137,7 @@ class MobilityReport:
     zero_links: tuple[str, ...] = ()
     general: WitnessSet | None = None
     doubt: str = ""
+    in_line: str = ""
     least_degree: int | None = None
     rests_on: str = ""
     moving: MovingParts | None = None
@@ -388,9 +391,12 @@ def _sentence(report: MobilityReport) -> str:
             # "It" would be the body.
             return f"{asked}; the mechanism {meaning.removeprefix('it ')}"
         return f"{asked}; {meaning}"
-    if status is MobilityStatus.RIGID:
+    if status is MobilityStatus.RIGID and not report.in_line:
         return f"no configuration moves, not even infinitesimally{_nearly(report)}"
-    text = f"at a general configuration of those with the most freedoms {_meaning(report)}"
+    where = "at a general configuration of those with the most freedoms"
+    if report.in_line:
+        where = f"in every real assembly {report.in_line}; {where}"
+    text = f"{where} {_meaning(report)}"
     return f"{text}; {report.doubt}" if report.doubt else text
 
 
@@ -412,10 +418,12 @@ def _meaning(report: MobilityReport) -> str:
             f"through it; infinitesimally it has {count_text(tangent or 0, 'freedom')}"
         )
     if status is MobilityStatus.SHAKY:
+        # With places in line it is isolated among the real ones only.
+        isolated = f": an isolated solution of multiplicity {report.multiplicity}"
+        isolated = "" if report.in_line else isolated
         return (
             "it does not move, but infinitesimally it does, with "
-            f"{count_text(tangent or 0, 'freedom')}: an isolated solution of multiplicity "
-            f"{report.multiplicity}"
+            f"{count_text(tangent or 0, 'freedom')}{isolated}"
         )
     idle = 0 if report.moving is None else report.moving.idle_count
     if report.moving is not None and idle and idle == mobility:

@@ -1,26 +1,38 @@
 """Whether parts that are not assembled have a real assembly: what is proved, and what was found.
 
 A side that is longer than a way round it, over other sides, forbids real assemblies; that is exact.
-For a single loop in the plane it is also the only obstacle. Otherwise real assemblies are looked
-for by Newton's method from random real points, and where it finds none, as at singular ones, on
-the components themselves if these are few and small.
+For a single loop in the plane it is also the only obstacle. A side that is as long as a way round
+it puts the way in line (`straight_lines`): real assemblies are those of the equations with places
+in line. They are looked for by Newton's method from random real points, and where it finds none,
+as at singular ones, on the components themselves if these are few and small.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from itertools import combinations
 from math import sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.number import Number, square_root
-from nag.mechanism.assembly import AssemblyModel
-from nag.mechanism.framework_model import FrameworkModel, cartesian_model
+from nag.algebra.number import is_zero
+from nag.algebra.polynomial import Polynomial
+from nag.mechanism.assembly import AssemblyModel, Side
+from nag.mechanism.framework_model import (
+    FrameworkModel,
+    cartesian_model,
+    model_in_line,
+    space_models,
+)
+from nag.mechanism.straight_lines import ForcedLines, Line, find_forced_lines
+from nag.numerics.double_ranks import SINGULAR, numerical_corank
+from nag.numerics.doubles import ROUGH
 from nag.numerics.zero_values import ON
-from nag.text.table import count_text, join_words
+from nag.text.table import count_text
 from nag.tracking.run import Run
 from nag.witness.frame import expand_orbits
 from nag.witness.gauss_newton import IterationEnd, descend, polish
@@ -42,25 +54,100 @@ def obstacle(parts: AssemblyModel) -> str:
     >>> obstacle(nag.read_case("cases/planar/four-bar.toml").assembly)
     ''
     """
-    import networkx
+    return _forced_lines(tuple(parts.sides)).obstacle
 
-    sides = parts.sides
-    graph: networkx.Graph = networkx.Graph()
-    for side in sides:
-        graph.add_edge(*side.ends, side=side, length=sqrt(float(side.squared)))
-    for side in sides:
-        others = graph.copy()
-        others.remove_edge(*side.ends)
-        try:
-            way = networkx.dijkstra_path(others, *side.ends, weight="length")
-        except networkx.NetworkXNoPath:
-            continue
-        along = [others.edges[pair]["side"] for pair in pairwise(way)]
-        reach: Number = sum((square_root(s.squared) for s in along), square_root(0))
-        if square_root(side.squared) > reach:
-            names = join_words(list(dict.fromkeys(s.name for s in along)))
-            return f"{side.name} is longer than {names} together"
-    return ""
+
+@lru_cache(maxsize=32)
+def _forced_lines(sides: tuple[Side, ...]) -> ForcedLines:
+    return find_forced_lines(sides)
+
+
+def lines_of_real(problem: Problem) -> ForcedLines | None:
+    """Which places are in line in every real assembly; None where that is not looked at.
+
+    It is not of parts that are given assembled, nor where nothing but plates is in line.
+    """
+    parts = problem.parts
+    if parts is None or parts.reference is not None:
+        return None
+    forced = _forced_lines(tuple(parts.sides))
+    return forced if forced.stretched else None
+
+
+def of_real_assemblies(problem: Problem) -> Problem:
+    """The problem of the real assemblies, where lengths put places in line in all of them.
+
+    In coordinates that are real where these are, with the linear equations of places in line: real
+    zeros are the same, and singular no more for the lengths' sake. The problem itself elsewhere.
+    """
+    from nag.mechanism.problem import in_real_coordinates, problem_of
+
+    forced = lines_of_real(problem)
+    if forced is None:
+        return problem
+    parts = in_real_coordinates(problem).parts
+    assert parts is not None
+    if isinstance(parts, FrameworkModel):
+        parts = _pin_beside_lines(parts, forced.lines)
+    places = parts.place_polynomials()
+    rows = [f for line in forced.lines for f in _in_line(line, places) if f.terms]
+    system = replace(parts.system, polynomials=(*parts.system.polynomials, *rows))
+    return problem_of(replace(parts, system=system))  # type: ignore[type-var]
+
+
+def _pin_beside_lines(parts: FrameworkModel, lines: Sequence[Line]) -> FrameworkModel:
+    """A framework with points pinned that are not in line in all real realisations, if any are."""
+    framework = parts.framework
+    if framework.dimension == 3:
+        beside = next(space_models(framework, lines), None)
+        parts = model_in_line(framework) if beside is None else beside
+    return replace(parts, smaller=None)
+
+
+def _in_line(line: Line, places: Mapping[str, Sequence[Polynomial]]) -> Iterator[Polynomial]:
+    """That places are where they are on a line with two of them, linear in all coordinates."""
+    first, *others = line
+    base = next(p for p in others if not is_zero(line[p] - line[first]))
+    length = line[base] - line[first]
+    for other in others:
+        share = (line[other] - line[first]) / length
+        for x, y, z in zip(places[first], places[base], places[other], strict=True):
+            yield z - x - (y - x) * share
+
+
+def tangent_dimension_at(parts: AssemblyModel, point: np.ndarray) -> int:
+    """The dimension of first-order motions of parts, without what lengths force on real ones.
+
+    Args:
+        parts: as `of_real_assemblies` gives them.
+        point: a real assembly, or a general one of a component.
+    """
+    names = [side.ends for side in parts.sides]
+    places = parts.place_polynomials()
+    flat = [f for own in places.values() for f in own]
+    values = Evaluator.of(flat, parts.system.n).values(np.asarray(point)[None])[0]
+    index = {name: i for i, name in enumerate(places)}
+    at = values.reshape(len(places), -1)
+    if isinstance(parts, FrameworkModel):
+        at = at * np.sqrt([float(m) for m in parts.metric])
+    d = at.shape[1]
+    rows = np.zeros((len(names), at.size), dtype=complex)
+    for row, (first, second) in zip(rows, names, strict=True):
+        gap = at[index[first]] - at[index[second]]
+        row[d * index[first] :][:d], row[d * index[second] :][:d] = gap, -gap
+    turns = [np.zeros((d, d)) for _ in range(d * (d - 1) // 2)]
+    for turn, (i, j) in zip(turns, combinations(range(d), 2), strict=True):
+        turn[i, j], turn[j, i] = 1, -1
+    shifts = [np.tile(unit, len(at)) for unit in np.eye(d)]
+    motions = np.array([*shifts, *((at @ turn).ravel() for turn in turns)])
+    free = [_corank(rows, at.size), at.size - _corank(motions, at.size)]
+    return free[0] - free[1]
+
+
+def _corank(rows: np.ndarray, columns: int) -> int:
+    size = np.linalg.norm(rows, axis=1, keepdims=True)
+    balanced = rows / np.where(size > 0, size, 1.0)
+    return numerical_corank(np.linalg.svd(balanced, compute_uv=False), columns, SINGULAR)
 
 
 def real_assemblies(parts: AssemblyModel, seed: int = 0) -> Iterator[IterationEnd]:
@@ -144,6 +231,41 @@ def _doubt_of_components(problem: Problem, moving: Sequence[WitnessSet], run: Ru
     return "there is no real one, by all components' real points" if proved else nothing
 
 
+def count_real(problem: Problem, components: Sequence[WitnessSet]) -> tuple[int, int | None]:
+    """How many assemblies finite components are, and how many of them are real.
+
+    The latter is None where a point is known to too few digits to tell.
+    """
+    parts = problem.parts
+    assert parts is not None
+    finite = [c for c in components if c.dimension == 0]
+    points = [x for c in finite for x in c.points]
+    known = all(float(np.max(c.errors, initial=0.0)) < ROUGH for c in finite)
+    real = sum(parts.is_real(x) for x in points) // parts.points_of_each if known else None
+    return len(points) // parts.points_of_each, real
+
+
 def real_text(problem: Problem, moving: Sequence[WitnessSet], run: Run) -> str:
     """One clause: whether there are real assemblies that move, and what that rests on."""
-    return real_doubt(problem, moving, run) or "a real one was found"
+    forced = lines_of_real(problem)
+    if forced is None or forced.obstacle:
+        return real_doubt(problem, moving, run) or "a real one was found"
+    real = of_real_assemblies(problem)
+    found = real.decompose(run=run)
+    start = f"in every real one {forced.text}"
+    if not found.complete:
+        return f"{start}; what moves there is not known: {'; '.join(found.notes)}"
+    components = expand_orbits(found).components
+    along = [c for c in components if c.dimension]
+    if along:
+        freedoms = count_text(max(c.dimension for c in along) + problem.free, "freedom")
+        doubt = real_doubt(real, along, run)
+        return f"{start}; so placed it moves with {freedoms}; {doubt or 'a real one was found'}"
+    number, count = count_real(real, components)
+    if count is None:
+        return f"{start}; it does not move there, and whether any is real is not known"
+    if not count:
+        of = f": none of {count_text(number, 'complex one')} in line is real" if number else ""
+        return f"{start}, but there is no real one{of}"
+    only = count_text(count, f"real {problem.parts.solution}")  # type: ignore[union-attr]
+    return f"{start}; it does not move there: {only} in all"

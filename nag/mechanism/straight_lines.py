@@ -1,0 +1,207 @@
+"""What lengths alone force on real assemblies: bounds of distances, and points in line.
+
+No two places are further apart than a way of sides between them is long (triangle inequalities).
+A side that is longer than a way round it forbids real assemblies; one that is as long has the way's
+places between its ends, each at a known share of it. Lines that share two places are one, and the
+distances along them are known in their turn, until nothing is added. All is exact. In such
+assemblies the equations are singular; places in line are linear equations, and with these they need
+not be.
+
+Reference:
+    Dress & Havel, Shortest-path problems and molecular conformation, Discrete Appl. Math. 19, 1988.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations, product
+
+from nag.algebra.number import Number, is_zero, square_root
+from nag.mechanism.assembly import Side
+from nag.text.table import join_words
+
+# Decides: Relative difference of two lengths in doubles above which they need no exact comparison.
+CLEARLY = 1e-10
+
+
+@dataclass(frozen=True)
+class Way:
+    """A length, and the names of the sides that it is the sum of."""
+
+    length: Number
+    rounded: float
+    names: tuple[str, ...]
+
+    def __add__(self, other: Way) -> Way:
+        return Way(
+            self.length + other.length,
+            self.rounded + other.rounded,
+            tuple(dict.fromkeys((*self.names, *other.names))),
+        )
+
+    def compared_with(self, other: Way) -> int:
+        """-1, 0 or 1 as it is shorter, as long, or longer; exact."""
+        gap = self.rounded - other.rounded
+        if abs(gap) > CLEARLY * (self.rounded + other.rounded):
+            return 1 if gap > 0 else -1
+        difference = self.length - other.length
+        return 0 if is_zero(difference) else 1 if difference > 0 else -1
+
+
+# Places in line, with their distances from one of them, in one direction.
+Line = dict[str, Number]
+
+
+@dataclass(frozen=True)
+class ForcedLines:
+    """What sides force on real assemblies.
+
+    Attributes:
+        obstacle: why there is no real assembly; empty where nothing forbids one.
+        lines: sets of three places and more that are in line in every real one, each with its
+            coordinate along the line, in lengths.
+        stretched: the same in words: which side is as long as which way.
+    """
+
+    obstacle: str
+    lines: tuple[Line, ...] = ()
+    stretched: tuple[str, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """Which places are in line, and by which sides."""
+        each = [join_words(sorted(line, key=lambda p: float(line[p]))) for line in self.lines]
+        return f"{'; '.join(each)} are in line: {'; '.join(self.stretched)}"
+
+
+def find_forced_lines(sides: Sequence[Side]) -> ForcedLines:
+    """Which places sides put in line, and whether they forbid real assemblies.
+
+    >>> from fractions import Fraction
+    >>> sides = [Side(ends, Fraction(l * l), "".join(ends)) for ends, l in
+    ...     [(("A", "B"), 1), (("B", "C"), 2), (("C", "A"), 3)]]
+    >>> find_forced_lines(sides).stretched
+    ('CA is as long as AB and BC together',)
+    """
+    zero = Fraction(0)
+    lines: list[Line] = [{s.ends[0]: zero, s.ends[1]: square_root(s.squared)} for s in sides]
+    names = {frozenset(s.ends): (s.name,) for s in sides}
+    order = [s.name for s in sides]
+    stretched: list[str] = []
+    while True:
+        known = _known_distances(lines, names)
+        ways = _shortest_ways(known)
+        for pair, way in known.items():
+            shortest = ways[pair]
+            if shortest.compared_with(way) < 0:
+                text = join_words(list(shortest.names))
+                together = " together" if len(shortest.names) > 1 else ""
+                own = join_words(list(way.names))
+                are = "are" if len(way.names) > 1 else "is"
+                return ForcedLines(f"{own} {are} longer than {text}{together}")
+        longer = []
+        for line in lines:
+            own = _with_places_between(line, ways)
+            if len(own) > len(line) == 2:
+                first, last = line
+                way = known[first, last]
+                others = [n for p in own for q in line if p != q for n in ways[q, p].names]
+                round_it = [n for n in dict.fromkeys(others) if n not in way.names]
+                round_it.sort(key=order.index)
+                if round_it:
+                    text = f"{way.names[0]} is as long as {join_words(round_it)} together"
+                    stretched.append(text)
+            longer.append(own)
+        joined = _join_lines(longer)
+        if joined is None:
+            return ForcedLines("sides that are stretched along one line do not fit there")
+        if sorted(map(sorted, joined)) == sorted(map(sorted, lines)):
+            kept = tuple(line for line in joined if len(line) > 2)
+            return ForcedLines("", kept, tuple(dict.fromkeys(stretched)))
+        lines = joined
+
+
+def _known_distances(
+    lines: Iterable[Line], names: dict[frozenset[str], tuple[str, ...]]
+) -> dict[tuple[str, str], Way]:
+    """The distances along lines, in both orders of the places."""
+    known: dict[tuple[str, str], Way] = {}
+    for line in lines:
+        own = [names[frozenset(p)] for p in combinations(line, 2) if frozenset(p) in names]
+        along = tuple(dict.fromkeys(name for each in own for name in each))
+        for first, second in combinations(line, 2):
+            gap = line[second] - line[first]
+            length = -gap if gap < 0 else gap
+            called = names.get(frozenset((first, second)), along)
+            way = Way(length, float(length), called)
+            known[first, second] = known[second, first] = way
+    return known
+
+
+def _shortest_ways(known: dict[tuple[str, str], Way]) -> dict[tuple[str, str], Way]:
+    """The shortest ways between all places that are connected (Floyd & Warshall)."""
+    places = list(dict.fromkeys(p for pair in known for p in pair))
+    ways = dict(known)
+    for middle in places:
+        for first, last in product(places, places):
+            if first == last or (first, middle) not in ways or (middle, last) not in ways:
+                continue
+            now = ways.get((first, last))
+            parts = ways[first, middle], ways[middle, last]
+            if now is not None:
+                least = parts[0].rounded + parts[1].rounded
+                if least > now.rounded * (1 + CLEARLY):
+                    continue
+            way = parts[0] + parts[1]
+            if now is None or way.compared_with(now) < 0:
+                ways[first, last] = way
+    return ways
+
+
+def _with_places_between(line: Line, ways: dict[tuple[str, str], Way]) -> Line:
+    """A line, and places that are no further from two of its own than these are apart."""
+    first = min(line, key=lambda p: float(line[p]))
+    last = max(line, key=lambda p: float(line[p]))
+    whole = ways[first, last]
+    found = dict(line)
+    for (start, place), way in ways.items():
+        if start != first or place in found or (place, last) not in ways:
+            continue
+        if (way + ways[place, last]).compared_with(whole) == 0:
+            found[place] = line[first] + way.length
+    return found
+
+
+def _join_lines(lines: Sequence[Line]) -> list[Line] | None:
+    """Lines that share two places as one; None where these do not fit."""
+    left, joined = [dict(line) for line in lines], []
+    while left:
+        line = left.pop()
+        k = 0
+        while k < len(left):
+            carried = _carry_onto(line, left[k])
+            if carried is None:
+                k += 1
+                continue
+            del left[k]
+            for place, at in carried.items():
+                if not is_zero(line.setdefault(place, at) - at):
+                    return None
+            # What was passed by may share two places with what it is now.
+            k = 0
+        joined.append(line)
+    return joined
+
+
+def _carry_onto(line: Line, other: Line) -> Line | None:
+    """The other line's places in the coordinate of this one; None if they share no two."""
+    shared = [p for p in other if p in line]
+    for first, second in combinations(shared, 2):
+        gap = other[second] - other[first]
+        if is_zero(gap):
+            continue
+        turn = 1 if (line[second] - line[first] > 0) == (gap > 0) else -1
+        return {p: line[first] + turn * (at - other[first]) for p, at in other.items()}
+    return None
