@@ -371,3 +371,32 @@ def test_loops_that_nearly_move_by_themselves_are_looked_at_one_by_one() -> None
     assert found is not None and found.nearly_mobile and len(found.held) == 1
     assert found.driven[0] != found.held[0][0]
     assert "of the next" in find_spoiled_motion(both)
+
+
+def parallelogram_with_rod(first: tuple[str, ...], second: tuple[str, ...]) -> Mechanism:
+    """A parallelogram whose axes are tilted by thousandths, and a rod from its base to its side."""
+    links = ["base", "a", "b", "c"]
+    places = [("0", "0", "0"), ("1", "2", "0"), ("4", "2", "0"), ("3", "0", "0")]
+    axes = [("0.001", "0", "1"), ("0", "0.001", "1"), ("0", "0", "1"), ("0", "-0.001", "1")]
+    turns = [
+        Joint("ABCD"[i], "revolute", (links[i], links[(i + 1) % 4]), places[i], axes[i])
+        for i in range(4)
+    ]
+    ends = [
+        Joint("S1", "spherical", ("base", "rod"), first),
+        Joint("S2", "spherical", ("rod", "b"), second),
+    ]
+    return Mechanism("base", (*turns, *ends))
+
+
+@pytest.mark.parametrize(
+    ("second", "nearly"), [(("2", "1", "0.001"), True), (("2.1", "1.3", "0.001"), False)]
+)
+def test_what_is_rigid_apart_from_a_rod_about_itself_is_looked_at(second, nearly):
+    # In the rod's plane of motion two axes of a ball fall in line, if they are not chosen.
+    found = nag.mobility(parallelogram_with_rod(("1", "-1", "0"), second), tolerance=1e-2)
+    assert found.local_dimension == 1
+    assert found.near is not None
+    assert found.near.nearly_mobile is nearly
+    assert found.near.driven in "ABCD"
+    assert found.near.held == ()

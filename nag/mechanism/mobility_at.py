@@ -340,7 +340,16 @@ def _with_parts(
         shaky = first.tangent_dimension != 0
         return first if shaky else replace(first, hint=find_spoiled_motion(made.mechanism))
     places = None if at_reference else _places(made, at)
-    return _with_moving(first, made.mechanism, places, of, run)
+    moving = _with_moving(first, made.mechanism, places, of, run)
+    if tolerance is None or not at_reference or moving.moving is None:
+        return moving
+    alone = (*moving.moving.idle, *moving.moving.hanging)
+    if sum(part.count for part in alone) != first.local_dimension:
+        return moving
+    # Rigid apart from what moves by itself, which stands still while the loops are opened.
+    in_loops = {b for j in loop_structure(made.mechanism).joints for b in j.bodies}
+    idle = {part.bodies: part.count for part in alone if in_loops & set(part.bodies)}
+    return replace(moving, near=find_near_motion(made.mechanism, tolerance, idle))
 
 
 def _places(made: Model, at: Sequence[Number]) -> dict[str, tuple[np.ndarray, np.ndarray]]:

@@ -17,7 +17,7 @@ functions, 1998).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
@@ -274,7 +274,9 @@ def check_tolerance(tolerance: Any) -> float:
     return value
 
 
-def find_near_motion(mechanism: Mechanism, tolerance: float) -> NearMotion | None:
+def find_near_motion(
+    mechanism: Mechanism, tolerance: float, idle: Mapping[tuple[str, ...], int] | None = None
+) -> NearMotion | None:
     """The motion that a rigid mechanism would have, if its loops were let open.
 
     Nothing is drawn at random. None if the mechanism has no loops.
@@ -282,6 +284,8 @@ def find_near_motion(mechanism: Mechanism, tolerance: float) -> NearMotion | Non
     Args:
         mechanism: what is rigid; of one that moves any of its motions may be found.
         tolerance: in radians, and as a part of the mechanism's size.
+        idle: parts of its loops that move by themselves, each the names of its bodies, and with how
+            many freedoms; these stand still. A rod between two spherical joints is one.
 
     Raises:
         NagError: if the tolerance is none.
@@ -301,9 +305,13 @@ def find_near_motion(mechanism: Mechanism, tolerance: float) -> NearMotion | Non
     chains = Chains.of(mechanism)
     if chains is None:
         return None
+    if idle:
+        chains = _hold_idle(chains, idle)
+    standing = len(chains.held)
     values, _ = chains.singular()
     chains, tangent = _hold_near_freedoms(chains, tolerance)
-    driven = _most_moved(np.abs(tangent), chains.turning)
+    leading = np.isin(np.arange(len(tangent)), chains.leading)
+    driven = _most_moved(np.abs(tangent) * leading, chains.turning)
     tangent = tangent if tangent[driven] > 0 else -tangent
     walk = _follow_both_ways(chains, tangent)
     near = _find_mobile(chains, walk, tangent, max(tolerance, WIDEST_GAP / 10))
@@ -321,7 +329,7 @@ def find_near_motion(mechanism: Mechanism, tolerance: float) -> NearMotion | Non
         size=size,
         singular_values=(float(values[-1]), float(values[-2] if len(values) > 1 else inf)),
         driven=chains.name_of(driven),
-        held=tuple(dict.fromkeys(map(chains.name_of, chains.held))),
+        held=tuple(dict.fromkeys(map(chains.name_of, chains.held[standing:]))),
         driven_to=tuple(float(x) * (size if slides else 1.0) for x in (along.min(), along.max())),
         slides=slides,
         whole=walk.whole,
@@ -379,6 +387,8 @@ class Chains:
         on_sphere: whether the axes all but meet in a point, and the size is how far from it the
             joints are named.
         held: numbers of screws that stay where they are.
+        aside: numbers of screws of joints of what moves by itself, which are where the others
+            lead them, but for that.
     """
 
     joints: tuple[Joint, ...]
@@ -390,6 +400,7 @@ class Chains:
     products: tuple[tuple[tuple[int, int], ...], ...]
     on_sphere: bool
     held: tuple[int, ...] = ()
+    aside: tuple[int, ...] = ()
 
     @classmethod
     def of(cls, mechanism: Mechanism) -> Chains | None:
@@ -449,6 +460,12 @@ class Chains:
     def turning(self) -> Array:
         """Which coordinates are angles."""
         return np.array([s.turns for s in self.screws])
+
+    @cached_property
+    def leading(self) -> Array:
+        """Numbers of the screws that tell where all are."""
+        others = [k for k in range(len(self.screws)) if k not in self.aside]
+        return np.array(others or range(len(self.screws)))
 
     def radius_within(self, tolerance: float) -> float | None:
         """How far from their centre turns are nearly turns about it, see `NearMotion.radius`.
@@ -545,13 +562,16 @@ class Chains:
         return found
 
     def singular(self, q: Array | None = None) -> tuple[Array, Array]:
-        """Singular values of the closure, one for each coordinate, and vectors.
+        """Singular values of the closure, one for each coordinate that is not held, and vectors.
 
         Args:
             q: where; the reference by default.
         """
         q = np.zeros(len(self.screws)) if q is None else q
-        _, values, rows = np.linalg.svd(self.linearised(q)[1])
+        free = [k for k in range(len(q)) if k not in self.held]
+        _, values, own = np.linalg.svd(self.linearised(q)[1][:, free])
+        rows = np.zeros((len(free), len(q)))
+        rows[:, free] = own
         return np.append(values, np.zeros(len(rows) - len(values))), rows
 
     def name_of(self, screw: int) -> str:
@@ -774,10 +794,10 @@ def follow_motion(chains: Chains, tangent: Array) -> Walk:
         if np.abs(q[~chains.turning]).max(initial=0) > LONGEST_SLIDE:
             end = End.FAR
             break
-        away = np.where(chains.turning, (q + pi) % (2 * pi) - pi, q)
+        away = np.where(chains.turning, (q + pi) % (2 * pi) - pi, q)[chains.leading]
         distance = np.linalg.norm(away)
         left |= bool(distance > 3 * STEP)
-        if left and distance < 0.75 * STEP and secant @ tangent > 0:
+        if left and distance < 0.75 * STEP and (secant * tangent)[chains.leading].sum() > 0:
             end = End.CLOSED
             break
     return Walk(np.array(positions), np.array(tangents), (end,))
@@ -975,12 +995,56 @@ def _hold_but_one(chains: Chains, directions: Array) -> tuple[Chains, Array]:
     Args:
         directions: orthonormal, shape (k, n).
     """
-    held: list[int] = []
+    held = list(chains.held)
     while len(directions) > 1:
         held.append(_most_moved(np.linalg.norm(directions, axis=0), ~chains.turning))
         column = directions[:, held[-1]]
         directions = np.linalg.svd(column[None])[2][1:] @ directions
     return replace(chains, held=tuple(held)), directions[0]
+
+
+def _hold_idle(chains: Chains, idle: Mapping[tuple[str, ...], int]) -> Chains:
+    """The chains with what moves by itself held.
+
+    The axes of a joint about a point may be any: one is the line about which the part turns, next
+    to the part, so that the others lead it in every direction. Furthest from the part is the one
+    about which it begins to swing, as two axes fall in line where it comes to lie along that.
+    """
+    names = {name for bodies in idle for name in bodies}
+    _, rows = chains.singular()
+    count = sum(idle.values())
+    directions, held, axis = rows[-count:], list(chains.held), chains.axis.copy()
+    motion = rows[-count - 1] if count < len(rows) else np.zeros(len(chains.screws))
+    joints = np.array([s.joint for s in chains.screws])
+    while len(directions):
+        screw = _most_moved(np.linalg.norm(directions, axis=0), chains.turning)
+        joint = chains.joints[joints[screw]]
+        own = np.flatnonzero(joints == joints[screw])
+        if joint.of_type.turns_about_point and not set(own) & set(held):
+            turned = _axes_of(directions[:, own], motion[own])
+            turned = turned if joint.bodies[0] in names else turned[::-1]
+            directions = directions.copy()
+            axis[own], directions[:, own] = turned @ axis[own], directions[:, own] @ turned.T
+            screw = own[0] if joint.bodies[0] in names else own[-1]
+        held.append(int(screw))
+        directions = np.linalg.svd(directions[:, screw][None])[2][1:] @ directions
+    aside = [k for k, joint in enumerate(joints) if set(chains.joints[joint].bodies) & names]
+    return replace(chains, axis=axis, held=tuple(held), aside=tuple(aside))
+
+
+def _axes_of(idle: Array, motion: Array) -> Array:
+    """Orthonormal axes: of the idle turn, then across it, and last that of a motion across it.
+
+    Args:
+        idle: turns about three orthonormal axes, shape (k, 3), the largest of which counts.
+        motion: such a turn.
+    """
+    own = np.linalg.svd(idle)[2][0]
+    swing = motion - (motion @ own) * own
+    if np.linalg.norm(swing) <= SMALL:
+        swing = np.linalg.svd(own[None])[2][1]
+    swing = swing / np.linalg.norm(swing)
+    return np.array([own, np.cross(swing, own), swing])
 
 
 def _most_moved(amounts: Array, preferred: Array) -> int:
