@@ -14,6 +14,7 @@ from nag.files.cases import read_case
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.model import Model, ModelError
 from nag.mechanism.operation_modes import decompose_poses
+from nag.mechanism.problem import problem_of
 from nag.tracking.run import DEFAULT_RUN
 
 ROBOTS = sorted(path.stem for path in (CASES / "robots").glob("*.toml"))
@@ -188,3 +189,16 @@ def test_the_command_says_that_components_are_those_of_poses(
     text = " ".join(capsys.readouterr().out.split())
     assert "components of its poses, above each of which the joints may have several" in text
     assert "agrees with what is known" in text
+
+
+def test_poses_have_fewer_components_than_configurations_where_legs_move_in_one_pose():
+    # So the formulation is not chosen by itself, however few paths it takes.
+    case = read_case(CASES / "planar" / "two-kites.toml")
+    kinds = {
+        name: sorted(
+            (c.dimension, c.degree, c.orbit)
+            for c in problem_of(case, formulation=name).decompose().components
+        )
+        for name in ("E", "P")
+    }
+    assert kinds == {"E": [(1, 4, 1), (1, 4, 1), (2, 4, 1)], "P": [(1, 1, 1)]}
