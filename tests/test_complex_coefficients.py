@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 import nag
 from nag.cli import main
+from nag.decomposition import discover
 from nag.files.cases import freed_system
 from nag.real.curve import PieceKind
 from nag.real.real_pieces import Reality
@@ -74,6 +75,12 @@ def test_components_of_the_conjugate_system_are_left_out() -> None:
     line = answer.components[0] if answer.components[0].multiplicity == 1 else answer.components[1]
     assert line.contains([-1j, 1, 0.3, 1j])
     assert not line.contains([1j, 1, 0.3, 1j])
+
+
+def test_notes_of_a_sample_of_components_count_those_of_one_side() -> None:
+    found = discover(nag.system("(x^2 + I*y^2 - z)*(x - I*y)", "x y z"), starts=10)
+    note = re.search(r"from (\d+) of 10 random points", "; ".join(found.notes))
+    assert note and 0 < int(note[1]) < 10
 
 
 def test_real_solutions_are_told_from_others() -> None:

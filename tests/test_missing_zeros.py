@@ -14,9 +14,11 @@ from systems import system
 
 import nag
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.imaginary_unit import as_real
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.decompose import decompose
 from nag.decomposition.isolated import count_points
+from nag.decomposition.method import Task
 from nag.numerics.coincidence import conjugates_present
 from nag.numerics.system_facts import SystemFacts
 from nag.solving.solutions import SolveResult
@@ -106,14 +108,22 @@ def test_a_path_all_of_whose_coordinates_are_unknown_has_no_limit() -> None:
 
 def test_an_answer_that_lacks_a_point_is_not_complete() -> None:
     whole = nag.decompose(system("x y", "x^2 + y^2 - 5", "x*y + x - 3"))
-    facts = SystemFacts(whole.system)
-    assert whole.complete and count_points(whole, facts, True).complete
+    task = Task(SystemFacts(whole.system), (), nag.Run())
+    assert whole.complete and count_points(whole, task).complete
     fewer = replace(whole, components=whole.components[1:])
-    lacking = count_points(fewer, facts, True)
+    lacking = count_points(fewer, task)
     assert not lacking.complete
     assert lacking.notes[-1] == "3 zeros were found, and there are 4"
     doubted = replace(whole, complete=False, notes=("a path failed",))
-    assert count_points(doubted, facts, True).complete
+    assert count_points(doubted, task).complete
+
+
+def test_zeros_that_are_missing_are_counted_on_the_side_of_the_imaginary_unit() -> None:
+    both = as_real(nag.system(["x^3 - I*x + y", "y^2 + x - 2*I"], variables=["x", "y"]))
+    whole = nag.decompose(both)
+    fewer = replace(whole, components=whole.components[2:])
+    one_side = Task(SystemFacts(both), (), nag.Run(), sides=2)
+    assert count_points(fewer, one_side).notes[-1] == "5 zeros were found, and there are 6"
 
 
 def test_residuals_and_jacobians_far_out_are_those_of_scaled_equations() -> None:

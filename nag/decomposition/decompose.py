@@ -75,6 +75,7 @@ def decompose(
         tuple(symmetries),
         run.without_found,
         found=None if run.found is None else partial(_tell_found, system, run),
+        sides=1 + system.imaginary,
     )
     answer = decompose_by(tuple(METHODS), task)
     return leave_out_conjugate(answer, system) if system.imaginary else answer

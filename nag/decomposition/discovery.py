@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from nag.algebra.given import check_listed, check_whole
-from nag.algebra.imaginary_unit import as_real
+from nag.algebra.imaginary_unit import as_real, has_unit
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Assembly, assemble_components
@@ -86,7 +86,7 @@ def discover(
     search = _Discovery(reduction, CommonSlices.random(reduction.equations, rng), rng, run)
     search.from_random_points(starts)
     found = assemble_components(search.slices.points, reduction, rng, run, embedded=True)
-    notes = search.notes(starts, found)
+    notes = search.notes(starts, found, 1 + given.imaginary)
     components, counts = list(found.components), search.counts + found.counts
     if symmetries:
         components, more, spent = _with_orbits(system, components, symmetries, run)
@@ -157,15 +157,20 @@ class _Discovery:
         self.counts += spent
         return place
 
-    def notes(self, starts: int, found: Assembly) -> list[str]:
-        """What a reader must know of components that were found."""
-        notes = [
-            f"found by sampling: Newton's method arrived at a component from {self.hits.total()} "
-            f"of {starts} random points; components may be missing"
-        ]
+    def notes(self, starts: int, found: Assembly, sides: int) -> list[str]:
+        """What a reader must know of components that were found.
+
+        Args:
+            sides: 2 where those on which the last coordinate is -i are left out of the answer.
+        """
         met = [
             sum(self.hits[component.dimension, int(i)] for i in indices)
             for component, indices in zip(found.components, found.indices, strict=True)
+            if sides == 1 or has_unit(component.points).any()
+        ]
+        notes = [
+            f"found by sampling: Newton's method arrived at a component from {sum(met)} "
+            f"of {starts} random points; components may be missing"
         ]
         once = met.count(1)
         if once:

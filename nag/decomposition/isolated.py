@@ -150,20 +150,19 @@ def _only_points(answer: Decomposition) -> Decomposition:
     return replace(answer, components=points)
 
 
-def count_points(answer: Decomposition, facts: SystemFacts, scheme: bool) -> Decomposition:
+def count_points(answer: Decomposition, task: Task) -> Decomposition:
     """An answer of points alone, beside the number of zeros that exact algebra knows.
 
     Args:
-        facts: of its system.
-        scheme: whether multiplicities are those of the system.
+        task: of its system, and whether multiplicities are those of it.
     """
     system = answer.system
     if answer.dimension > 0 or system.nonzero or len(system.polynomials) < system.n:
         return answer
     # At points that are regular the scheme of the system is simple, whatever is asked for.
-    scheme = scheme or all(c.corank == 0 for c in answer.components)
+    scheme = task.scheme or all(c.corank == 0 for c in answer.components)
     zeros = sum((c.multiplicity if scheme else 1) * c.degree * c.orbit for c in answer.components)
-    count = facts.count_zeros(zeros, not answer.complete)
+    count = task.facts.count_zeros(zeros, not answer.complete)
     verdict = judge_number(zeros, count)
     if (
         count is None
@@ -174,7 +173,8 @@ def count_points(answer: Decomposition, facts: SystemFacts, scheme: bool) -> Dec
     if verdict is Completeness.ALL:
         decided = all(c.status is Status.IRREDUCIBLE for c in answer.components)
         return replace(answer, complete=True, notes=()) if decided else answer
-    return replace(answer, complete=False, notes=(*answer.notes, count.difference(zeros)))
+    doubt = count.difference(zeros, task.sides)
+    return replace(answer, complete=False, notes=(*answer.notes, doubt))
 
 
 def _components(

@@ -25,6 +25,8 @@ class Task:
         symmetries: signed permutations of the variables that keep the equations.
         scheme: whether multiplicities are of interest: a branch is not the scheme that was given.
         found: called with components that are known already; None for a part of the system.
+        sides: 2 where the imaginary unit is an unknown, and components with one of its two values
+            are left out of the answer.
     """
 
     facts: SystemFacts
@@ -32,6 +34,7 @@ class Task:
     run: Run
     scheme: bool = True
     found: Callable[[Sequence[WitnessSet]], None] | None = None
+    sides: int = 1
 
     @property
     def system(self) -> PolynomialSystem:
@@ -41,7 +44,9 @@ class Task:
         """The same for a part of the system, as a set."""
         if system is self.system:
             return replace(self, symmetries=tuple(symmetries))
-        return Task(SystemFacts(system), tuple(symmetries), self.run, scheme=False)
+        # A part in which the unit does not occur has zeros of one side only.
+        sides = self.sides if self.system.variables[-1] in system.variables else 1
+        return Task(SystemFacts(system), tuple(symmetries), self.run, scheme=False, sides=sides)
 
     @cached_property
     def reduction(self) -> Reduction:

@@ -38,9 +38,7 @@ def decompose_section(task: Task) -> Attempt:
         return Attempt(None, spent)
     answer = _settle(task, superset, rng)
     # Zeros of a section that is whole are counted already.
-    return Attempt(
-        answer if answer.complete else count_points(answer, task.facts, task.scheme), spent
-    )
+    return Attempt(answer if answer.complete else count_points(answer, task), spent)
 
 
 def decompose_finite(task: Task) -> Attempt:
@@ -61,7 +59,7 @@ def decompose_several(task: Task) -> Decomposition:
     space = {len(flag): [whole_space(flag)]}
     superset = witness_superset(equations, space, rng, task.run, nonzero=reduced.nonzero)
     answer = _settle(task, superset, rng, order)
-    return count_points(answer, task.facts, task.scheme)
+    return count_points(answer, task)
 
 
 def _random_flag(task: Task) -> tuple[np.ndarray, np.random.Generator]:
