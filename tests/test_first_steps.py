@@ -142,12 +142,33 @@ def test_scripts_for_shells_are_written(shell: str, capsys: pytest.CaptureFixtur
     assert main(["completion", shell]) == 0
     script = capsys.readouterr().out
     assert all(row[0] in script for row in COMMANDS)
-    if shell == "bash" and shutil.which("bash"):
-        ask = 'COMP_WORDS=(nag solve --start poly); COMP_CWORD=3; _nag; echo "${COMPREPLY[0]}"'
-        done = subprocess.run(
-            ["bash", "-c", f"{script}\n{ask}"], capture_output=True, text=True, check=True
-        )
-        assert done.stdout == "polyhedral\n" and not done.stderr
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="bash is not installed")
+@pytest.mark.parametrize(
+    ("line", "offered"),
+    [
+        ("solve --start poly", ["polyhedral"]),
+        ("solve --start ", list(command_words()["solve"]["--start"])),
+        ("init ", list(KINDS)),
+        ("deco", ["decompose"]),
+        ("decompose --js", ["--json"]),
+        ("decompose ", ["mine.toml"]),
+        ("mi", ["mine.toml"]),
+    ],
+)
+def test_bash_offers_words_where_these_are_meant_and_files_elsewhere(
+    line: str, offered: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "mine.toml").touch()
+    assert main(["completion", "bash"]) == 0
+    words = " ".join(f"'{word}'" for word in ["nag", *line.split(" ")])
+    ask = f"COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}}-1)); _nag"
+    script = f"{capsys.readouterr().out}\n{ask}\nprintf '%s\\n' \"${{COMPREPLY[@]}}\""
+    done = subprocess.run(
+        ["bash", "-c", script], capture_output=True, text=True, check=True, cwd=tmp_path
+    )
+    assert done.stdout.split("\n")[:-1] == offered and not done.stderr
 
 
 def test_a_table_of_values_names_the_parameters_of_a_system_in_plain_text(

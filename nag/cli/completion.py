@@ -51,15 +51,15 @@ def _cases(words: Mapping[str, Mapping[str, Sequence[str]]]) -> list[str]:
         for option, choices in options.items():
             if option and choices:
                 lines.append(f'    "{name} {option}") words="{" ".join(choices)}";;')
-        own = " ".join([*options[""], *(option for option in options if option)])
-        lines.append(f'    "{name} "*) words="{own}";;')
+        own = " ".join(option for option in options if option)
+        lines.append(f'    "{name} "*) words="{" ".join(options[""])}" options="{own}";;')
     return lines
 
 
 def _bash_lines(words: Mapping[str, Mapping[str, Sequence[str]]]) -> list[str]:
     return [
         "_nag() {",
-        '  local words="" last="${COMP_WORDS[COMP_CWORD-1]}" now="${COMP_WORDS[COMP_CWORD]}"',
+        '  local words="" options="" last="${COMP_WORDS[COMP_CWORD-1]}" now="${COMP_WORDS[COMP_CWORD]}"',
         '  if [ "$COMP_CWORD" -eq 1 ]; then',
         f'    words="{" ".join(words)}"',
         "  else",
@@ -67,7 +67,10 @@ def _bash_lines(words: Mapping[str, Mapping[str, Sequence[str]]]) -> list[str]:
         *_cases(words),
         "    esac",
         "  fi",
-        '  COMPREPLY=($(compgen -W "$words" -- "$now") $(compgen -f -- "$now"))',
+        # Options are for who begins one; files are for where no word is meant.
+        '  [[ $now == -* ]] && words="$words $options"',
+        '  COMPREPLY=($(compgen -W "$words" -- "$now"))',
+        '  [ "${#COMPREPLY[@]}" -gt 0 ] || COMPREPLY=($(compgen -f -- "$now"))',
         "}",
         "complete -o filenames -F _nag nag",
     ]
