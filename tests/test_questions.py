@@ -140,6 +140,10 @@ def test_results_are_frames_of_pandas() -> None:
     assert list(gaussian.columns)[:2] == ["x", "multiplicity"] and gaussian["x"].tolist() == [1j]
     found = nag.decompose(CIRCLE_AND_LINE).to_dataframe()
     assert found["degree"].tolist() == [1, 2] and found["number"].tolist() == [1, 2]
+    for given, real in ((CIRCLE_AND_LINE, False), (CIRCLE_AND_LINE, True), (["x^2 - 4"], True)):
+        samples = nag.sample(given, count=3, real=real)
+        assert list(samples.to_dataframe().columns) == list(samples.variables)
+        assert np.array_equal(samples.to_dataframe().to_numpy(), samples.points)
 
 
 def test_polynomials_are_sympys_and_back() -> None:

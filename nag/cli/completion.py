@@ -59,7 +59,8 @@ def _cases(words: Mapping[str, Mapping[str, Sequence[str]]]) -> list[str]:
 def _bash_lines(words: Mapping[str, Mapping[str, Sequence[str]]]) -> list[str]:
     return [
         "_nag() {",
-        '  local words="" options="" last="${COMP_WORDS[COMP_CWORD-1]}" now="${COMP_WORDS[COMP_CWORD]}"',
+        '  local words="" options="" now="${COMP_WORDS[COMP_CWORD]}"',
+        '  local last="${COMP_WORDS[COMP_CWORD-1]}"',
         '  if [ "$COMP_CWORD" -eq 1 ]; then',
         f'    words="{" ".join(words)}"',
         "  else",
@@ -91,5 +92,5 @@ def _fish_lines(words: Mapping[str, Mapping[str, Sequence[str]]]) -> list[str]:
             if option.startswith("--"):
                 lines.append(f"complete -c nag {seen} -l {option[2:]}{taken}")
             elif not option and choices:
-                lines.append(f"complete -c nag {seen} -a '{' '.join(choices)}'")
+                lines.append(f"complete -c nag {seen} -f -a '{' '.join(choices)}'")
     return lines

@@ -30,7 +30,7 @@ TURN = 0.25
 
 def _why_none(system: PolynomialSystem, reality: Reality, reason: str) -> NagError:
     kind = NoRealPointsError if reality is Reality.NONE else SamplingError
-    nothing = Samples(np.zeros((0, system.n)), 0.0, EPS)
+    nothing = Samples(np.zeros((0, system.n)), 0.0, EPS, variables=system.own_variables)
     return kind(f"real points: {reality}{reason and ': '}{reason}", nothing)
 
 
@@ -101,7 +101,7 @@ def _samples(component: WitnessSet, points: np.ndarray, doubt: str = "") -> Samp
             found[x.tobytes()] = (x, error) if error < np.inf else _singular_point(component, x)
         known[k], errors[k] = found[x.tobytes()]
     residual = float(evaluator.residuals(known).max(initial=0.0))
-    return Samples(known, residual, float(errors.max(initial=EPS)), doubt)
+    return Samples(known, residual, float(errors.max(initial=EPS)), doubt, system.own_variables)
 
 
 @np.errstate(all="ignore")

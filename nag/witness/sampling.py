@@ -18,7 +18,7 @@ from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import ComplexArray, equal_values, fixed_array
 from nag.numerics.zero_values import ON
 from nag.text.json_text import pairs
-from nag.text.table import one_line
+from nag.text.table import data_frame, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, carry_points, coordinates_of
 from nag.witness.component_equations import component_fibres
@@ -39,12 +39,14 @@ class Samples:
         residual: largest relative residual of the equations at the points.
         accuracy: largest estimated relative error of a point.
         doubt: why the set that they are drawn from may not be whole; empty if it is.
+        variables: names of the coordinates, without the imaginary unit.
     """
 
     points: ComplexArray
     residual: float
     accuracy: float
     doubt: str = ""
+    variables: tuple[str, ...] = ()
 
     __eq__ = equal_values
 
@@ -55,6 +57,14 @@ class Samples:
     def complete(self) -> bool:
         """Whether the set that they are drawn from is certain to be whole."""
         return not self.doubt
+
+    def to_dataframe(self) -> Any:
+        """A row for each point: its coordinates, complex, by their names.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        return data_frame({name: self.points[:, i] for i, name in enumerate(self.variables)})
 
     def rows(self, variables: Sequence[str]) -> list[list[str]]:
         """Headings, and a row for each of the first points, in their first coordinates."""
@@ -150,8 +160,9 @@ def sample(
         at, evaluator = component.points[drawn], Evaluator.of(system.polynomials, system.n)
         residual = float(evaluator.residuals(at).max(initial=0.0))
         errors = relative_errors(at, component.radii[drawn])
-        return Samples(at, residual, float(errors.max(initial=EPS)))
-    natural = coordinates_of(system)
+        error = float(errors.max(initial=EPS))
+        return Samples(at, residual, error, variables=system.own_variables)
+    names, natural = system.own_variables, coordinates_of(system)
     system = natural.system(system)
     component = carry_component(component, natural, system)
     fibres = component_fibres(system, component)
@@ -161,10 +172,10 @@ def sample(
         there = move_to_random_slice(fibres, rng, run)
         x = there.x
         if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON):
-            some = _samples(evaluator, points[:k], radii[:k], natural)
+            some = _samples(evaluator, points[:k], radii[:k], natural, names)
             raise SamplingError(f"point {k + 1} of {count}: the path to it failed", some)
         points[k], radii[k] = x[0], there.radii[0]
-    return _samples(evaluator, points, radii, natural)
+    return _samples(evaluator, points, radii, natural, names)
 
 
 def move_to_random_slice(
@@ -182,12 +193,17 @@ def move_to_random_slice(
 
 
 def _samples(
-    evaluator: Evaluator, y: np.ndarray, radii: np.ndarray, natural: NaturalCoordinates
+    evaluator: Evaluator,
+    y: np.ndarray,
+    radii: np.ndarray,
+    natural: NaturalCoordinates,
+    names: tuple[str, ...],
 ) -> Samples:
-    """Points in natural coordinates in those that were given."""
+    """Points in natural coordinates in those that were given, which have these names."""
     residual = float(evaluator.residuals(y).max(initial=0.0))
     points, radii = carry_points(y, radii, natural.inverse)
-    return Samples(points, residual, float(relative_errors(points, radii).max(initial=EPS)))
+    error = float(relative_errors(points, radii).max(initial=EPS))
+    return Samples(points, residual, error, variables=names)
 
 
 def sample_points(
