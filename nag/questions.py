@@ -405,7 +405,8 @@ def intersect(given: Any, first: int, second: int, *, run: Run = DEFAULT_RUN) ->
 
     Args:
         given: components that were found, a file of them, or what is decomposed now.
-        first, second: which ones; they may be equal.
+        first: the number of one.
+        second: that of the other, which may be the same.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
@@ -533,7 +534,8 @@ def plot(
         mechanism: the mechanism at its reference configuration, or once on each circuit.
         tree: all components by their dimensions.
         component: the number of the one that is drawn ``onto`` variables, from 1; all by default.
-        circuit, formulation: as for `nag.motion`.
+        circuit: as for `nag.motion`.
+        formulation: as for `nag.motion`.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:

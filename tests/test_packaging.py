@@ -311,6 +311,8 @@ def test_the_website_is_built_and_its_links_lead_somewhere(tmp_path) -> None:
     command += ["-f", str(ROOT / "docs" / "site" / "mkdocs.yml"), "-d", str(tmp_path / "site")]
     done = subprocess.run(command, capture_output=True, text=True, timeout=900)
     assert done.returncode == 0, done.stdout + done.stderr
+    # Prompts of examples are prompts, not quotes in quotes.
+    assert 'class="gp"' in (tmp_path / "site" / "reference.html").read_text("utf-8")
     missing = []
     for page in (tmp_path / "site").rglob("*.html"):
         if page.name == "404.html":  # shown by a server, in any folder

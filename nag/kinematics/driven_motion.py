@@ -173,7 +173,8 @@ def driven_motion(
         mechanism: as for `nag.motion`.
         coordinate: the name of an angle or slide.
         values: in radians, or lengths, in the order in which it is driven through them.
-        samples, formulation: as for `nag.motion`.
+        samples: as for `nag.motion`.
+        formulation: as for `nag.motion`.
         drive: other joints that are held, as `nag.motion` takes them.
         pose: bodies that are held, as `nag.motion` takes them.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.

@@ -344,7 +344,8 @@ class SolveResult(Sequence[Solution]):
         """The export as a JSON object of the format `FORMAT` (dicts, lists, strings, numbers).
 
         Args:
-            title, file: of the case that was solved.
+            title: of the case that was solved.
+            file: of the case.
         """
         return {
             "format": FORMAT,

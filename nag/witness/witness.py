@@ -537,7 +537,8 @@ class Decomposition(Sequence[WitnessSet]):
 
         Args:
             case: title and file of the case, and the kind of what was decomposed.
-            formulation, reason: of a mechanism's model, and why that one.
+            formulation: of a mechanism's model.
+            reason: why that one.
         """
         cuts = list(dict.fromkeys(f.cut for c in self.components for f in c.fibres))
         place = {cut: i for i, cut in enumerate(cuts)}
