@@ -21,7 +21,7 @@ from nag.real.curve import (
     chart_of,
 )
 from nag.real.even_points import even_points
-from nag.real.fibre_table import FibreTable
+from nag.real.fibre_table import FibresOverValues
 from nag.real.real_fibres import SpecialFibre, real_fibre
 
 # Angles from the ends of an interval at which arcs are told to which vertices they go, tried in
@@ -64,7 +64,10 @@ def intervals_between(
 
 
 def find_arcs(
-    table: FibreTable, closure: ProjectiveClosure, specials: Sequence[SpecialFibre], radius: float
+    table: FibresOverValues,
+    closure: ProjectiveClosure,
+    specials: Sequence[SpecialFibre],
+    radius: float,
 ) -> list[Arc]:
     """All arcs between special fibres, of which the last is that over infinity.
 
@@ -148,7 +151,7 @@ class _Stop:
 
 
 def _end_of_interval(
-    table: FibreTable,
+    table: FibresOverValues,
     closure: ProjectiveClosure,
     interval: Intervals,
     special: SpecialFibre,

@@ -89,6 +89,12 @@ class ProjectiveClosure:
             own[list(group)] = g
         return np.concatenate([np.arange(len(self.groups)), own])
 
+    @property
+    def coordinates(self) -> tuple[tuple[int, ...], ...]:
+        """The homogeneous coordinates of each group."""
+        count = len(self.groups)
+        return tuple((g, *(count + i for i in own)) for g, own in enumerate(self.groups))
+
     @cached_property
     def _evaluator(self) -> Evaluator:
         return Evaluator.of(self.equations, self.size)

@@ -155,7 +155,7 @@ class RealCurve:
         meetings: points, shape ``(k, n)``, at which the curve passes smoothly and the equations are
             singular: it meets other components there, real ones or not. None where they are not
             known: of curves that are not reduced, on which an equation's factor vanishes, or of
-            such degrees that only differences of points told the critical values.
+            which only differences of points told the critical values.
     """
 
     variables: tuple[str, ...]

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import flint
 import numpy as np
@@ -229,6 +230,25 @@ def roots_of(polynomial: flint.acb_poly, digits: int) -> list[flint.acb]:
             continue
         return [z * unit for z in roots]
     raise FibreError("zeros of a polynomial are not told from each other")
+
+
+class FibresOverValues(Protocol):
+    """All fibres of a curve over the values of a linear form, however they are found.
+
+    Attributes:
+        radius: size of the values.
+        digits: that points are known to.
+    """
+
+    @property
+    def radius(self) -> float: ...
+
+    @property
+    def digits(self) -> int: ...
+
+    def at(self, t: flint.arb | flint.acb) -> list[Point]:
+        """The points over a value that is not special."""
+        ...
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,10 +1,11 @@
 """All real points of a one-dimensional component, as a graph.
 
 A linear form with random rational coefficients makes the curve a covering of the line. Its real
-special values are found from fibres in many digits; between them real points neither appear nor
-vanish, and arcs through them are traced to the special points at both ends. Where arcs meet
-smoothly they are joined. Every number on the way is known twice: how many real points there are on
-both sides of each value, to which vertices they go, which sheets meet there.
+special values are found from fibres in many digits, or, where these are too many, by paths to the
+critical points; between them real points neither appear nor vanish, and arcs through them are
+traced to the special points at both ends. Where arcs meet smoothly they are joined. Every number on
+the way is known twice: how many real points there are on both sides of each value, to which
+vertices they go, which sheets meet there.
 
 References:
     Lu, Bates, Sommese & Wampler, Finding all real points of a complex curve, 2007;
@@ -14,8 +15,10 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property, partial
 
 import flint
 import numpy as np
@@ -29,6 +32,7 @@ from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.real.arc_tracing import TracingError
 from nag.real.arcs import ROUNDED_AWAY, Skeleton, connect, find_arcs, join_arcs
 from nag.real.closure import ProjectiveClosure, turns_of
+from nag.real.critical_points import can_be_tracked, find_critical_points
 from nag.real.critical_values import (
     UnclearDigitsError,
     determinant_degree,
@@ -41,22 +45,29 @@ from nag.real.fibre_table import (
     MORE_SAMPLES,
     CircleOfFibres,
     FibreError,
+    FibresOverValues,
     FibreTable,
     fibre_table,
     sample_circle,
 )
 from nag.real.real_equations import curve_of_real_points, find_real_equations
 from nag.real.real_fibres import SpecialFibre, infinite_fibre, real_fibre, special_fibre
+from nag.real.tracked_fibres import TrackedFibres, ordinary_fibre, special_fibres_of
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre
 from nag.witness.witness import WitnessSet
 
-# Digits of fibres, tried in turn where they do not decide; and linear forms in all.
-DIGITS, ATTEMPTS = (120, 250, 500), 4
+# Tries by paths where these are less work; digits of fibres, tried in turn after that where they do
+# not decide; and linear forms in all.
+BY_PATHS, DIGITS, ATTEMPTS = 2, (120, 250, 500), 5
 # Points of fibres up to which both methods of finding critical values run, and check each other.
 MOST_CHECKED = 600
+# Points of fibres beyond which paths to critical points are less work.
+MOST_SAMPLED = 120
+# Paths to critical points at most.
+MOST_PATHS = 20_000
 # Points of fibres in all at most.
 MOST_POINTS = 40_000
 # Decides: Difference of critical values of two methods.
@@ -104,20 +115,22 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
     component = carry_component(component, natural, system)
     fibres = component_fibres(system, component)
     equations = _equations(system, component, fibres)
-    turns = turns_of(system)
-    reason, level = "", 0
+    curve = _Projected(system, component, fibres, equations, turns_of(system), run)
+    reason, level = "", 0 if curve.has_few_paths else BY_PATHS
     for attempt in range(ATTEMPTS):
         rng = run.random(11, attempt)
         try:
-            found = _find(system, component, fibres, equations, turns, DIGITS[level], rng, run)
-            return _in_given_coordinates(found, given, natural)
+            digits = None if level < BY_PATHS else DIGITS[level - BY_PATHS]
+            return _in_given_coordinates(curve.find(digits, rng), given, natural)
         except TracingError as error:
             # Another form has other folds, that need not be as near to what is singular.
             reason = reason or str(error)
         except (UnclearDigitsError, FibreError) as error:
             reason, level = reason or str(error), level + 1
-            if level == len(DIGITS):
+            if level == BY_PATHS + len(DIGITS) or (level == BY_PATHS and curve.has_many_points):
                 break
+            # What stopped paths says nothing of digits.
+            reason = "" if level == BY_PATHS else reason
     return RealCurve(given.variables, turns_of(given), (), (), (), PictureVerdict.UNDECIDED, reason)
 
 
@@ -142,43 +155,183 @@ def _equations(
     )
 
 
-def _find(
-    system: PolynomialSystem,
-    component: WitnessSet,
-    fibres: Sequence[Fibre],
-    equations: Sequence[Polynomial],
-    turns: Sequence[Turn],
-    digits: int,
-    rng: np.random.Generator,
-    run: Run,
-) -> RealCurve:
-    form = rng.integers(64, 128, system.n) * rng.choice([-1, 1], system.n) / 128
-    sizes = np.abs(np.vstack([fibre.x for fibre in fibres]) @ form)
-    radius = float(np.ldexp(1.0, int(np.ceil(np.log2(max(LEAST_RADIUS, sizes.max()))))))
-    square = _square_equations(equations, fibres)
-    circle, degrees = _sample(system, component, fibres, square, form, radius, digits, rng, run)
-    table = fibre_table(circle, rng)
-    closure = ProjectiveClosure.of(equations, system, form)
-    alike = 1 if component.multidegree is None else int(component.multidegree.max(initial=1))
-    specials, crossed = _special_fibres(circle, degrees, table, closure, alike, rng)
-    arcs = find_arcs(table, closure, specials, radius)
-    skeleton = join_arcs(closure, specials, arcs, turns)
-    # Of a factor of an equation the determinants say nothing of the other ones.
-    whole = set(square) <= set(system.polynomials)
-    doubt = skeleton.doubt or _too_many_pieces(skeleton, circle.degree)
-    residual = _residual(system, skeleton)
-    return RealCurve(
-        system.variables,
-        tuple(turns),
-        skeleton.vertices,
-        skeleton.edges,
-        skeleton.pieces,
-        PictureVerdict.UNDECIDED if doubt else PictureVerdict.COMPLETE,
-        doubt,
-        tuple(float(s.pencil[0]) for s in specials[:-1]),
-        residual,
-        closure.affine(crossed) if crossed is not None and whole else None,
-    )
+@dataclass(frozen=True, eq=False)
+class _Projected:
+    """A curve whose real part is looked for by its fibres over the values of a linear form.
+
+    Attributes:
+        equations: of full rank at general points of the curve.
+        turns: variables of which infinity is an ordinary value.
+    """
+
+    system: PolynomialSystem
+    component: WitnessSet
+    fibres: Sequence[Fibre]
+    equations: Sequence[Polynomial]
+    turns: Sequence[Turn]
+    run: Run
+
+    @cached_property
+    def square(self) -> tuple[Polynomial, ...]:
+        """One equation fewer than variables, regular at general points of the curve; or none."""
+        return _square_equations(self.equations, self.fibres)
+
+    @cached_property
+    def multidegree(self) -> list[int]:
+        """How many points of the curve have a group of variables fixed, or on a slice."""
+        groups, d = self.system.groups, self.component.degree
+        # Component by component of a product of spaces; in one space it is the degree.
+        if self.component.multidegree is None:
+            return [d] * max(1, len(groups))
+        own = self.component.multidegree.tolist()
+        return own if len(groups) in (0, len(own)) else [d] * len(groups)
+
+    @cached_property
+    def degrees(self) -> tuple[int, int | None]:
+        """Degrees in the value of products of differences over a fibre, and of determinants."""
+        discriminant = discriminant_degree(self.component.degree, True)
+        if not self.square:
+            return discriminant, None
+        groups = self.system.groups
+        return discriminant, determinant_degree(self.square, groups, self.multidegree)
+
+    @property
+    def sampled_points(self) -> int:
+        """Number of points of fibres that tell the critical values in many digits."""
+        return min(b for b in self.degrees if b is not None) * self.component.degree
+
+    @property
+    def has_many_points(self) -> bool:
+        """Whether there are more of these than time is for."""
+        return self.sampled_points > MOST_POINTS
+
+    @cached_property
+    def groups(self) -> Sequence[Sequence[int]]:
+        """The groups by which a determinant has fewer zeros than by its degree, or none."""
+        alone = determinant_degree(self.square, (), [self.component.degree])
+        return self.system.groups if self.degrees[1] != alone else ()
+
+    @property
+    def has_few_paths(self) -> bool:
+        """Whether paths to critical points are less work than fibres in many digits."""
+        paths = self.degrees[1]
+        if paths is None or not self.sampled_points > MOST_SAMPLED or paths > MOST_PATHS:
+            return False
+        return can_be_tracked(self.square, self.groups)
+
+    def find(self, digits: int | None, rng: np.random.Generator) -> RealCurve:
+        """The real curve by a random form, from fibres in so many digits, or by paths if None.
+
+        Raises:
+            TracingError, UnclearDigitsError, FibreError: if something is not certain.
+            RealCurveError: if there are too many fibres.
+        """
+        system, component = self.system, self.component
+        form = rng.integers(64, 128, system.n) * rng.choice([-1, 1], system.n) / 128
+        sizes = np.abs(np.vstack([fibre.x for fibre in self.fibres]) @ form)
+        radius = float(np.ldexp(1.0, int(np.ceil(np.log2(max(LEAST_RADIUS, sizes.max()))))))
+        closure = ProjectiveClosure.of(self.equations, system, form)
+        table, specials, crossed = (
+            self._by_paths(closure, form, radius, rng)
+            if digits is None
+            else self._in_digits(closure, form, radius, digits, rng)
+        )
+        arcs = find_arcs(table, closure, specials, radius)
+        skeleton = join_arcs(closure, specials, arcs, self.turns)
+        # Of a factor of an equation the determinants say nothing of the other ones.
+        whole = set(self.square) <= set(system.polynomials)
+        doubt = skeleton.doubt or _too_many_pieces(skeleton, component.degree)
+        residual = _residual(system, skeleton)
+        return RealCurve(
+            system.variables,
+            tuple(self.turns),
+            skeleton.vertices,
+            skeleton.edges,
+            skeleton.pieces,
+            PictureVerdict.UNDECIDED if doubt else PictureVerdict.COMPLETE,
+            doubt,
+            tuple(float(s.pencil[0]) for s in specials[:-1]),
+            residual,
+            closure.affine(crossed) if crossed is not None and whole else None,
+        )
+
+    def _by_paths(
+        self,
+        closure: ProjectiveClosure,
+        form: np.ndarray,
+        radius: float,
+        rng: np.random.Generator,
+    ) -> _Specials:
+        """Special fibres, last that over infinity, by paths to critical points.
+
+        Raises:
+            FibreError: if the curve is not its own conjugate, or paths fail.
+        """
+        square, run = self.square, self.run
+        tracked = TrackedFibres.of(self.fibres, square, self.system, form, radius, rng, run)
+        if not tracked.is_real((0.5 + float(rng.integers(-64, 64))) / 64 * radius):
+            raise FibreError("the curve is not its own conjugate")
+        critical = find_critical_points(self.fibres, square, self.groups, form, rng, run)
+        every = special_fibres_of(tracked, closure, critical)
+        specials = [fibre for fibre in every if fibre.singular]
+        if not specials:
+            value = float(_some_value(rng)) * radius
+            specials = [ordinary_fibre(tracked, closure, value)]
+        beyond = _over_infinity(tracked, closure, tracked.over_infinity, specials)
+        return tracked, [*specials, beyond], _crossed(closure, every)
+
+    def _in_digits(
+        self,
+        closure: ProjectiveClosure,
+        form: np.ndarray,
+        radius: float,
+        digits: int,
+        rng: np.random.Generator,
+    ) -> _Specials:
+        """The same from fibres over a circle in so many digits.
+
+        Raises:
+            UnclearDigitsError, FibreError: if more digits are needed.
+            RealCurveError: if there are too many fibres.
+        """
+        circle, degrees = self._sample(form, radius, digits, rng)
+        table = fibre_table(circle, rng)
+        alike = max(self.multidegree) if self.component.multidegree is not None else 1
+        specials, crossed = _special_fibres(circle, degrees, table, closure, alike, rng)
+        return table, specials, crossed
+
+    def _sample(
+        self, form: np.ndarray, radius: float, digits: int, rng: np.random.Generator
+    ) -> tuple[CircleOfFibres, tuple[int, int | None]]:
+        """Fibres over a circle, with the degrees of products of differences and of determinants.
+
+        As many as the smaller of both needs, or the larger, where these are few.
+        """
+        d, fibres, run = self.component.degree, self.fibres, self.run
+        if self.has_many_points:
+            raise RealCurveError(
+                f"the curve has degree {d}: critical values would take {self.sampled_points} "
+                f"points of fibres, and {MOST_POINTS} are taken at most"
+            )
+        known = [b for b in self.degrees if b is not None]
+        wanted = max(known) if max(known) * d <= MOST_CHECKED else min(known)
+        count = max(wanted, d + 1) + 1 + MORE_SAMPLES
+        circle = sample_circle(fibres, form, radius, count, digits, rng, run, self.square)
+        if circle.real:
+            return circle, self.degrees
+        other = discriminant_degree(d, False)
+        needed = max(other, 2 * d + 1) + 1 + MORE_SAMPLES
+        if needed > count:
+            circle = sample_circle(fibres, form, radius, needed, digits, rng, run)
+        return circle, (other, None)
+
+
+_Specials = tuple[FibresOverValues, list[SpecialFibre], np.ndarray | None]
+
+
+def _some_value(rng: np.random.Generator) -> Fraction:
+    """A value that is not special, in radii: any serves to cut loops that pass infinity."""
+    return Fraction(int(rng.integers(-32, 32)), 128)
 
 
 def _square_equations(
@@ -189,47 +342,6 @@ def _square_equations(
         return tuple(equations)
     alone = len(fibres) == 1 and not fibres[0].cut.aux
     return fibres[0].cut.polynomials if alone else ()
-
-
-def _sample(
-    system: PolynomialSystem,
-    component: WitnessSet,
-    fibres: Sequence[Fibre],
-    square: Sequence[Polynomial],
-    form: np.ndarray,
-    radius: float,
-    digits: int,
-    rng: np.random.Generator,
-    run: Run,
-) -> tuple[CircleOfFibres, tuple[int, int | None]]:
-    """Fibres over a circle, with the degrees of products of differences and of determinants.
-
-    As many as the smaller of both needs, or the larger, where these are few.
-    """
-    d = component.degree
-    discriminant = discriminant_degree(d, True)
-    determinant: int | None = None
-    if square:
-        # Component by component of a product of spaces; in one space it is the degree.
-        multidegree = [d] if component.multidegree is None else component.multidegree.tolist()
-        if len(system.groups) not in (0, len(multidegree)):
-            multidegree = [d] * len(system.groups)
-        determinant = determinant_degree(square, system.groups, multidegree)
-    known = [b for b in (discriminant, determinant) if b is not None]
-    if min(known) * d > MOST_POINTS:
-        raise RealCurveError(
-            f"the curve has degree {d}: critical values would take {min(known) * d} points of "
-            f"fibres, and {MOST_POINTS} are taken at most"
-        )
-    wanted = max(known) if max(known) * d <= MOST_CHECKED else min(known)
-    count = max(wanted, d + 1) + 1 + MORE_SAMPLES
-    circle = sample_circle(fibres, form, radius, count, digits, rng, run, square)
-    if not circle.real:
-        needed = max(discriminant_degree(d, False), 2 * d + 1) + 1 + MORE_SAMPLES
-        if needed > count:
-            circle = sample_circle(fibres, form, radius, needed, digits, rng, run)
-        return circle, (discriminant_degree(d, False), None)
-    return circle, (discriminant, determinant)
 
 
 def _special_fibres(
@@ -266,10 +378,9 @@ def _special_fibres(
             raise UnclearDigitsError("two methods find different critical values")
     specials = found[0]
     if not specials:
-        # Any other value serves to cut loops that reach from infinity to infinity.
-        value = flint.arb(float(rng.integers(-32, 32)) / 128)
-        specials = [special_fibre(table, closure, value)]
-    return [*specials, _over_infinity(circle, table, closure, alike, specials)], crossed
+        specials = [special_fibre(table, closure, flint.arb(float(_some_value(rng))))]
+    infinite = partial(infinite_fibre, table, closure, alike)
+    return [*specials, _over_infinity(table, closure, infinite, specials)], crossed
 
 
 def _crossed(closure: ProjectiveClosure, fibres: Sequence[SpecialFibre]) -> np.ndarray:
@@ -286,20 +397,19 @@ def _crossed(closure: ProjectiveClosure, fibres: Sequence[SpecialFibre]) -> np.n
 
 
 def _over_infinity(
-    circle: CircleOfFibres,
-    table: FibreTable,
+    table: FibresOverValues,
     closure: ProjectiveClosure,
-    alike: int,
+    infinite: Callable[[], SpecialFibre],
     specials: Sequence[SpecialFibre],
 ) -> SpecialFibre:
     """The fibre over infinity; empty where no real arc goes there."""
     first, last = specials[0].pencil[0], specials[-1].pencil[0]
-    beyond = (first - circle.radius, last + circle.radius)
+    beyond = (first - table.radius, last + table.radius)
     if not any(real_fibre(table, closure, np.array([t, 1.0]))[1].any() for t in beyond):
         nothing = np.zeros((0, closure.size), dtype=complex)
         none = np.zeros(0, dtype=int)
         return SpecialFibre(np.array([1.0, 0.0]), nothing, none, none.astype(bool))
-    return infinite_fibre(table, closure, alike)
+    return infinite()
 
 
 def _too_many_pieces(skeleton: Skeleton, degree: int) -> str:

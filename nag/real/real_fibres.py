@@ -17,7 +17,7 @@ import numpy as np
 from nag.numerics.digits import bits_of, doubles, in_bits
 from nag.real.closure import ProjectiveClosure
 from nag.real.critical_values import UnclearDigitsError
-from nag.real.fibre_table import SPARE, FibreTable, Point
+from nag.real.fibre_table import SPARE, FibresOverValues, FibreTable, Point
 
 # Decides: Share of the digits beside a critical value at which its fibre is looked at.
 BESIDE = 0.25
@@ -76,14 +76,14 @@ def special_fibre(table: FibreTable, closure: ProjectiveClosure, value: flint.ar
     points = homogeneous_points(closure, fibre)
     together = 10 ** (-TOGETHER * table.digits)
     middles = []
-    clusters = _clusters(closure.distances(points, points), together, BETWEEN * together)
+    clusters = find_clusters(closure.distances(points, points), together, BETWEEN * together)
     for members in clusters:
         with in_bits(bits_of(table.digits + SPARE)):
             _check_together(fibre, further, members, APART * table.digits)
             columns = zip(*(fibre[i] for i in members), strict=True)
             x = [sum(column, flint.acb(0)) / len(members) for column in columns]
         middles.append(closure.homogeneous(doubles(x)[None])[0])
-    return _of_middles(closure, pencil, middles, clusters)
+    return join_middles(closure, pencil, middles, list(map(len, clusters)))
 
 
 def _check_together(
@@ -132,23 +132,26 @@ def infinite_fibre(table: FibreTable, closure: ProjectiveClosure, alike: int) ->
         fibre = table.at(flint.arb(table.radius) * flint.arb(10) ** round(order))
     points = homogeneous_points(closure, fibre)
     together = 10 ** (-FAR_TOGETHER * order)
-    clusters = _clusters(closure.distances(points, points), together, FAR_BETWEEN * together)
+    clusters = find_clusters(closure.distances(points, points), together, FAR_BETWEEN * together)
     middles = [_aligned(closure, points[members]).mean(axis=0) for members in clusters]
-    return _of_middles(closure, np.array([1.0, 0.0]), middles, clusters)
+    return join_middles(closure, np.array([1.0, 0.0]), middles, list(map(len, clusters)))
 
 
-def _of_middles(
+def join_middles(
     closure: ProjectiveClosure,
     pencil: np.ndarray,
-    middles: Sequence[np.ndarray],
-    clusters: Sequence[Sequence[int]],
+    middles: Sequence[np.ndarray] | np.ndarray,
+    sheets: Sequence[int],
 ) -> SpecialFibre:
-    """A fibre of the middles of clusters, of which those are real that are their own conjugates."""
+    """A fibre of points, each with its sheets; real are those that are their own conjugates.
+
+    Raises:
+        UnclearDigitsError: if two points seem to have one conjugate.
+    """
     points = closure.normalised(np.array(middles))
     points = np.array([_turned_real(closure, point) for point in points])
-    sheets = np.array([len(members) for members in clusters])
     real = find_own_conjugates(closure.distances(points.conj(), points))
-    return SpecialFibre(pencil, points, sheets, real)
+    return SpecialFibre(pencil, points, np.array(sheets, dtype=int), real)
 
 
 def find_own_conjugates(apart: np.ndarray) -> np.ndarray:
@@ -191,7 +194,7 @@ def _aligned(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray:
     return result
 
 
-def _clusters(distances: np.ndarray, together: float, apart: float) -> list[list[int]]:
+def find_clusters(distances: np.ndarray, together: float, apart: float) -> list[list[int]]:
     """Indices of points in lists of those that come together."""
     between = (distances > together) & (distances < apart)
     left, result = list(range(len(distances))), []
@@ -210,7 +213,7 @@ def _clusters(distances: np.ndarray, together: float, apart: float) -> list[list
 
 
 def real_fibre(
-    table: FibreTable, closure: ProjectiveClosure, pencil: np.ndarray
+    table: FibresOverValues, closure: ProjectiveClosure, pencil: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Normalised points over a finite value of the pencil, and which of them are real.
 
