@@ -6,6 +6,7 @@ import json
 from collections import Counter
 from dataclasses import replace
 from functools import cache
+from math import inf
 from pathlib import Path
 
 import flint
@@ -17,9 +18,11 @@ from hypothesis import strategies as st
 import nag
 from nag.algebra.evaluation import Evaluator
 from nag.numerics.digits import bits_of, in_bits
+from nag.real.critical_points import find_critical_points
 from nag.real.critical_values import UnclearDigitsError
 from nag.real.curve import PieceKind, VertexKind
 from nag.real.real_fibres import distances_of_conjugates, find_own_conjugates
+from nag.tracking.run import DEFAULT_RUN
 
 CASES = Path(__file__).parents[1] / "cases"
 LOOP, NETWORK, OPEN, POINT = PieceKind
@@ -301,3 +304,42 @@ def test_curves_that_are_nearly_real_have_no_real_points(equations) -> None:
     """Where points only seem to come together more digits are taken."""
     for curve in real_curves(nag.decompose(equations)):
         assert curve.complete and not curve.vertices and not curve.edges
+
+
+BY_PATHS_TOO = [*CURVES, "planar/four-bar", "bricard-cube", "planar/watt-six-bar"]
+
+
+@pytest.mark.parametrize("name", BY_PATHS_TOO)
+def test_paths_find_the_critical_values_that_fibres_in_many_digits_have(name: str) -> None:
+    problem = CURVES[name][0] if name in CURVES else nag.read_case(CASES / f"{name}.toml")
+    for component in nag.decompose(problem).components:
+        curves = []
+        for most in (inf, -1):
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr("nag.real.find_curve.MOST_SAMPLED", most)
+                curves.append(nag.find_real_curve(component))
+        assert all(curve.complete for curve in curves)
+        assert counted(curves[:1]) == counted(curves[1:])
+        values = [np.array(curve.critical_values) for curve in curves]
+        # Of a curve without any some other value stands there.
+        if counted(curves[:1]) != ({}, {}, 0) and len(values[0]) > 1:
+            assert len(values[0]) == len(values[1]) and np.allclose(*values, rtol=1e-9, atol=1e-9)
+
+
+def test_critical_points_are_as_many_as_the_determinant_has_zeros() -> None:
+    """A lemniscate: its determinant is a cubic, its node worth two, its ends of high order."""
+    (component,) = nag.decompose(CURVES["lemniscate"][0]).components
+    form, rng = np.array([0.75, -0.625]), np.random.default_rng(0)
+    equations = component._known_system().polynomials
+    found = find_critical_points(component.fibres, equations, (), form, rng, DEFAULT_RUN)
+    assert int(found.multiplicities.sum()) + found.infinite == 4 * 3
+    (node,) = np.flatnonzero(np.linalg.norm(found.points, axis=1) < 1e-12)
+    assert found.multiplicities[node] == 2 and found.real[node]
+    assert Evaluator.of(equations, 2).residuals(found.points).max() < 1e-13
+
+
+def test_a_shaft_between_universal_joints_has_all_of_its_circuits() -> None:
+    answer = nag.decompose(nag.read_case(CASES / "spatial/universal-shaft.toml"))
+    (curve,) = real_curves(answer)
+    assert curve.complete and counted([curve]) == ({LOOP: 6}, {}, 6)
+    assert curve.residual < 1e-14

@@ -116,7 +116,8 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
     fibres = component_fibres(system, component)
     equations = _equations(system, component, fibres)
     curve = _Projected(system, component, fibres, equations, turns_of(system), run)
-    reason, level = "", 0 if curve.has_few_paths else BY_PATHS
+    by_paths = curve.has_few_paths and curve.is_real(run.random(11, ATTEMPTS))
+    reason, level = "", 0 if by_paths else BY_PATHS
     for attempt in range(ATTEMPTS):
         rng = run.random(11, attempt)
         try:
@@ -125,6 +126,7 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
         except TracingError as error:
             # Another form has other folds, that need not be as near to what is singular.
             reason = reason or str(error)
+            level += level < BY_PATHS and not curve.has_many_points
         except (UnclearDigitsError, FibreError) as error:
             reason, level = reason or str(error), level + 1
             if level == BY_PATHS + len(DIGITS) or (level == BY_PATHS and curve.has_many_points):
@@ -219,6 +221,25 @@ class _Projected:
             return False
         return can_be_tracked(self.square, self.groups)
 
+    def _random_form(self, rng: np.random.Generator) -> tuple[np.ndarray, float]:
+        """A linear form, and the size of its values."""
+        n = self.system.n
+        form = rng.integers(64, 128, n) * rng.choice([-1, 1], n) / 128
+        sizes = np.abs(np.vstack([fibre.x for fibre in self.fibres]) @ form)
+        return form, float(np.ldexp(1.0, int(np.ceil(np.log2(max(LEAST_RADIUS, sizes.max()))))))
+
+    def is_real(self, rng: np.random.Generator) -> bool:
+        """Whether the curve is its own conjugate, or that is not known."""
+        form, radius = self._random_form(rng)
+        value = (0.5 + float(rng.integers(-64, 64))) / 64 * radius
+        try:
+            tracked = TrackedFibres.of(
+                self.fibres, self.square, self.system, form, radius, rng, self.run
+            )
+            return tracked.is_real(value)
+        except FibreError:
+            return True
+
     def find(self, digits: int | None, rng: np.random.Generator) -> RealCurve:
         """The real curve by a random form, from fibres in so many digits, or by paths if None.
 
@@ -227,9 +248,7 @@ class _Projected:
             RealCurveError: if there are too many fibres.
         """
         system, component = self.system, self.component
-        form = rng.integers(64, 128, system.n) * rng.choice([-1, 1], system.n) / 128
-        sizes = np.abs(np.vstack([fibre.x for fibre in self.fibres]) @ form)
-        radius = float(np.ldexp(1.0, int(np.ceil(np.log2(max(LEAST_RADIUS, sizes.max()))))))
+        form, radius = self._random_form(rng)
         closure = ProjectiveClosure.of(self.equations, system, form)
         table, specials, crossed = (
             self._by_paths(closure, form, radius, rng)
@@ -265,12 +284,10 @@ class _Projected:
         """Special fibres, last that over infinity, by paths to critical points.
 
         Raises:
-            FibreError: if the curve is not its own conjugate, or paths fail.
+            FibreError: if paths fail.
         """
         square, run = self.square, self.run
         tracked = TrackedFibres.of(self.fibres, square, self.system, form, radius, rng, run)
-        if not tracked.is_real((0.5 + float(rng.integers(-64, 64))) / 64 * radius):
-            raise FibreError("the curve is not its own conjugate")
         critical = find_critical_points(self.fibres, square, self.groups, form, rng, run)
         every = special_fibres_of(tracked, closure, critical)
         specials = [fibre for fibre in every if fibre.singular]

@@ -19,11 +19,12 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.coincidence import HIT, MISS
+from nag.numerics.coincidence import HIT, MISS, SAFETY
+from nag.numerics.doubles import ROUNDED
 from nag.real.closure import ProjectiveClosure
 from nag.real.critical_points import CriticalPoints
 from nag.real.critical_values import UnclearDigitsError
-from nag.real.fibre_table import FibreError, Point, conjugates_of, same_points
+from nag.real.fibre_table import FibreError, Point
 from nag.real.real_fibres import SpecialFibre, find_clusters, join_middles
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.tracking.homotopy import Homotopy
@@ -124,8 +125,8 @@ class TrackedFibres:
         settings, threads = self.run.settings, self.run.threads
         return track(homotopy, self.points, settings, threads, endgame=endgame)
 
-    def points_over(self, t: complex) -> np.ndarray:
-        """Normalised points over a value that is not special, shape ``(d, size)``.
+    def _regular_over(self, t: complex) -> tuple[np.ndarray, np.ndarray]:
+        """Normalised points over a value that is not special, and their relative errors.
 
         Raises:
             FibreError: if a path fails.
@@ -133,21 +134,38 @@ class TrackedFibres:
         paths = self.over(np.array([t, 1.0]) / max(1.0, abs(t)))
         if len(paths.where(PathStatus.REGULAR)) < len(paths):
             raise FibreError("a path to another fibre failed")
-        return self.closure.normalised(paths.points)
+        return self.closure.normalised(paths.points), np.maximum(paths.accuracy, ROUNDED)
+
+    def points_over(self, t: complex) -> np.ndarray:
+        """Normalised points over a value that is not special, shape ``(d, size)``.
+
+        Raises:
+            FibreError: if a path fails.
+        """
+        return self._regular_over(t)[0]
 
     def at(self, t: flint.arb | flint.acb) -> list[Point]:
         """The points over a value that is not special, to the digits of doubles.
 
         Raises:
             FibreError: if a path fails.
+            UnclearDigitsError: if these do not tell points from each other.
         """
-        x = self.closure.affine(self.points_over(complex(flint.acb(t))))
-        return [[flint.acb(complex(c)) for c in point] for point in x]
+        points, errors = self._regular_over(complex(flint.acb(t)))
+        apart = self.closure.distances(points, points) + 2 * np.eye(len(points))
+        if (apart.min(axis=1) < SAFETY * errors).any():
+            raise UnclearDigitsError("points over a value are too close to each other for doubles")
+        return [[flint.acb(complex(c)) for c in x] for x in self.closure.affine(points)]
 
     def is_real(self, t: float) -> bool:
-        """Whether the fibre over a real value is its own conjugate, as that of such a curve is."""
-        points = self.at(flint.arb(t))
-        return same_points(points, conjugates_of(points), self.digits)
+        """Whether the fibre over a real value is its own conjugate, as that of such a curve is.
+
+        Raises:
+            FibreError: if a path fails.
+        """
+        points, errors = self._regular_over(t)
+        nearest = self.closure.distances(points.conj(), points).min(axis=1)
+        return bool((nearest < SAFETY * errors.max()).all())
 
     def over_infinity(self) -> SpecialFibre:
         """The fibre over infinity.
