@@ -1,4 +1,4 @@
-"""Examples of docstrings as code on the reference's pages, where Markdown takes ``>>>`` for quotes."""
+"""Examples of docstrings as code on the reference pages: Markdown takes ``>>>`` for quotes."""
 
 from __future__ import annotations
 
