@@ -1,10 +1,13 @@
 from fractions import Fraction
 
+import networkx
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from linkages import case, exact, four_bar, loop
 
 from nag.errors import MechanismError
-from nag.mechanism.graph import Body, Joint, Mechanism
+from nag.mechanism.graph import Body, Joint, Mechanism, connected_to
 from nag.mechanism.loops import loop_structure
 
 
@@ -45,6 +48,11 @@ def joint(name="J", kind="revolute", bodies=("A", "B"), point=(0, 0, 0), axis=(0
             (None, "B", "orientation"),
         ),
         (
+            lambda: Mechanism("A", (joint(),), (Body("B", exact(10**300, 0, 0, 0)),)),
+            "squared norm 1.0e+600; it must be exactly 1",
+            (None, "B", "orientation"),
+        ),
+        (
             lambda: Mechanism("A", (joint(),), (Body("B", exact(1, 0, 0)),)),
             "4 Euler parameters",
             (None, "B", "orientation"),
@@ -63,6 +71,16 @@ def test_a_norm_that_is_nearly_one_is_refused():
     nearly = (Fraction(1), Fraction(1, 10**20), Fraction(0), Fraction(0))
     with pytest.raises(MechanismError, match="exactly 1"):
         Mechanism("A", (joint(),), (Body("B", nearly),))
+
+
+@given(st.lists(st.frozensets(st.sampled_from("abcdefgh"), min_size=1, max_size=3), max_size=8))
+def test_what_is_connected_is_what_networkx_says(ties):
+    graph = networkx.Graph()
+    graph.add_node("a")
+    for tie in ties:
+        networkx.add_path(graph, sorted(tie))
+        graph.add_nodes_from(tie)
+    assert connected_to("a", ties) == networkx.node_connected_component(graph, "a")
 
 
 def test_graph_has_bodies_as_nodes_and_joints_as_edges():

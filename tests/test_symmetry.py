@@ -11,7 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
-from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
+from nag.algebra.symmetry import (
+    SignedPermutation,
+    SymmetryError,
+    check_symmetry,
+    first_outside_span,
+)
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import CaseError, read_case
 
@@ -91,6 +96,22 @@ def test_symmetries_of_the_ideal_are_recognised(equations, images) -> None:
 def test_other_maps_are_refused(equations, images) -> None:
     with pytest.raises(SymmetryError, match="does not become a combination"):
         check_symmetry(system(*equations), SignedPermutation.of_map(images, NAMES))
+
+
+@pytest.mark.parametrize(
+    ("polynomials", "place"),
+    [
+        (["x*z", "x + y", "z"], 2),
+        (["sqrt(2)*x + y", "x", "sqrt(2)"], 2),
+        (["z", "cos(1)"], 0),
+        (["x", "cos(1)"], 1),
+        (["y - x", "w"], 1),
+        (["x", "y"], None),
+    ],
+)
+def test_the_first_polynomial_outside_is_named(polynomials, place) -> None:
+    equations = system("x", "y", "z*w").polynomials
+    assert first_outside_span(system(*polynomials).polynomials, equations) == place
 
 
 def test_conditions_and_groups_must_be_kept() -> None:

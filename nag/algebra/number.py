@@ -395,6 +395,17 @@ def number_text(value: Number | complex) -> str:
     return f"{value.operation}({texts[0]})"
 
 
+def brief_number_text(value: Number) -> str:
+    """``value`` as `number_text` gives it, to six digits where that is longer than 40 letters."""
+    text = number_text(value)
+    if len(text) <= 40:
+        return text
+    import mpmath
+
+    with mpmath.workdps(20):
+        return str(mpmath.nstr(to_mpf(value, 20), 6))
+
+
 def decimal_digits(c: Number) -> int:
     """Decimal digits of a rational number's numerator or denominator, whichever has more.
 

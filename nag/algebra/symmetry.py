@@ -156,11 +156,11 @@ def check_symmetry(system: PolynomialSystem, g: SignedPermutation) -> None:
     check_type(g, SignedPermutation, "symmetries", "a list of nag.SignedPermutation")
     if g.n != system.n:
         raise SymmetryError(f"it moves {g.n} variables, the system has {system.n}")
-    for i, f in enumerate(system.polynomials):
-        image = g.of_polynomial(f)
-        if not in_span(image, system.polynomials):
-            place = "it" if len(system.polynomials) == 1 else f"equation {i + 1}"
-            raise SymmetryError(f"{place} does not become a combination of the equations")
+    images = [g.of_polynomial(f) for f in system.polynomials]
+    outside = first_outside_span(images, system.polynomials)
+    if outside is not None:
+        place = "it" if len(system.polynomials) == 1 else f"equation {outside + 1}"
+        raise SymmetryError(f"{place} does not become a combination of the equations")
     for f in system.nonzero:
         image = g.of_polynomial(f)
         if not any(_proportional(image, other) for other in system.nonzero):
@@ -181,32 +181,48 @@ def _proportional(f: Polynomial, g: Polynomial) -> bool:
     return all(is_zero(f.terms[e] * q - g.terms[e] * p) for e in f.terms)
 
 
-def in_span(f: Polynomial, equations: Sequence[Polynomial]) -> bool:
-    if any(_proportional(f, g) for g in equations):
-        return True
-    if not f.algebraic:
-        return False
-    field = field_of([f, *(g for g in equations if g.algebraic)])
-    # Those of lower degree first: mostly the equations themselves are enough.
+def first_outside_span(
+    polynomials: Sequence[Polynomial], equations: Sequence[Polynomial]
+) -> int | None:
+    """Place of the first polynomial that is no combination of multiples of the equations.
+
+    Only rational combinations, of no higher degree than the equations, count; None if each is one.
+    """
+    left = {
+        i: f for i, f in enumerate(polynomials) if not any(_proportional(f, g) for g in equations)
+    }
+    algebraic = [f for f in left.values() if f.algebraic]
+    field = field_of([*algebraic, *(g for g in equations if g.algebraic)])
     spanning: list[Polynomial] = []
-    for multiples in _multiples(equations, max(g.degree for g in equations)):
+
+    def are_inside(polynomials: Sequence[Polynomial]) -> bool:
+        # What is none modulo a prime is none, or has coefficients that the prime divides below.
+        return (
+            field is None
+            or _are_combinations(spanning, polynomials, lambda g: residues(g, field), field.rank)
+        ) and _are_combinations(spanning, polynomials, lambda g: g.terms, rank)
+
+    # Those of lower degree first: mostly the equations themselves are enough.
+    for multiples in _multiples(equations, max(g.degree for g in equations)) if algebraic else ():
         spanning += multiples
-        if field is not None and not _is_combination(
-            [residues(g, field) for g in (*spanning, f)], field.rank
-        ):
-            # What is none modulo a prime is none, or has coefficients that the prime divides below.
-            continue
-        if _is_combination([g.terms for g in (*spanning, f)], rank):
-            return True
-    return False
+        if are_inside(algebraic):
+            algebraic = []
+            break
+    return next(
+        (i for i, f in left.items() if not f.algebraic or (algebraic and not are_inside([f]))),
+        None,
+    )
 
 
-def _is_combination(
-    terms: Sequence[Mapping[Exponents, Any]], rank_of: Callable[[Any], int]
+def _are_combinations(
+    spanning: Sequence[Polynomial],
+    polynomials: Sequence[Polynomial],
+    terms_of: Callable[[Polynomial], Mapping[Exponents, Any]],
+    rank_of: Callable[[Any], int],
 ) -> bool:
-    """Whether the last polynomial is a combination of the others, by ranks."""
-    rows = coefficient_rows(terms)
-    return rank_of(rows) == rank_of(rows[:-1])
+    """Whether the polynomials are combinations of the spanning ones, by ranks."""
+    rows = coefficient_rows([terms_of(g) for g in (*spanning, *polynomials)])
+    return rank_of(rows) == rank_of(rows[: len(spanning)])
 
 
 def _multiples(equations: Sequence[Polynomial], degree: int) -> Iterator[list[Polynomial]]:

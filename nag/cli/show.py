@@ -135,7 +135,7 @@ def _describe_case(
     case: Case,
 ) -> tuple[str, list[list[str] | list[Row]], tuple[tuple[str, str], ...]]:
     from nag.algebra.system import system_line, values_text
-    from nag.mechanism.loops import loop_structure
+    from nag.mechanism.loops import has_loops
 
     rows: list[Row] = [("kind", case.kind)]
     if case.mechanism is not None:
@@ -158,7 +158,7 @@ def _describe_case(
     questions = QUESTIONS["mechanism" if moving else "system"]
     if case.mechanism is not None and _is_robot(case):
         questions = (*questions, LEGS)
-    if case.mechanism is not None and not loop_structure(case.mechanism).loops:
+    if case.mechanism is not None and not has_loops(case.mechanism):
         hand = case.mechanism.body_names[-1]
         held = os.path.splitext(case.path)[1] != ".toml"
         questions = tuple((name, text.format(hand=hand)) for name, text in HAND[: 1 + held])

@@ -6,7 +6,7 @@ and the moment, point x direction, of any point of the line; the two are orthogo
 
 from __future__ import annotations
 
-from nag.algebra.number import Number, is_zero, number_text
+from nag.algebra.number import brief_number_text, is_zero
 from nag.errors import MechanismError
 from nag.files.case_table import CaseTable, ReadNumber
 from nag.mechanism.axes import Vector, cross, difference, dot, nearest, vanishes
@@ -142,13 +142,8 @@ def _line(table: CaseTable, number: ReadNumber, key: str) -> Line:
     if not is_zero(product):
         inner.fail(
             "moment",
-            f"its product with the direction is {_short(product)}, it must be 0: the moment is "
-            "point x direction",
+            f"its product with the direction is {brief_number_text(product)}, it must be 0: the "
+            "moment is point x direction",
         )
     squared = dot(axis, axis)
     return tuple(x / squared for x in cross(axis, moment)), axis
-
-
-def _short(value: Number) -> str:
-    text = number_text(value)
-    return text if len(text) <= 40 else f"{float(value):.6g}"

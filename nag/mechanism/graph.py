@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from nag.algebra.from_python import exact_vector
 from nag.algebra.given import check_listed, check_type, is_a, value_text
-from nag.algebra.number import Number, is_zero, number_text
+from nag.algebra.number import Number, brief_number_text, is_zero
 from nag.algebra.tokens import nearest, quote
 from nag.errors import MechanismError
 from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS, VECTORS, JointType
@@ -289,10 +289,15 @@ class Mechanism:
 
 def connected_to(start: str, ties: Iterable[Collection[str]]) -> set[str]:
     """Everything that is connected with ``start``, where each of ``ties`` connects its members."""
-    reached, left = {start}, list(ties)
-    while touching := [tie for tie in left if not reached.isdisjoint(tie)]:
-        left = [tie for tie in left if reached.isdisjoint(tie)]
-        reached.update(*touching)
+    around: dict[str, list[Collection[str]]] = {}
+    for tie in ties:
+        for name in tie:
+            around.setdefault(name, []).append(tie)
+    reached, frontier = {start}, [start]
+    while frontier:
+        for tie in around.pop(frontier.pop(), ()):
+            frontier += [name for name in tie if name not in reached]
+            reached.update(tie)
     return reached
 
 
@@ -407,10 +412,9 @@ def _check_body(body: Body, used: set[str]) -> None:
         )
     norm = sum((x * x for x in body.orientation[1:]), body.orientation[0] * body.orientation[0])
     if not is_zero(norm - 1):
-        value = number_text(norm)
-        value = value if len(value) <= 40 else f"{float(norm):.6g}"
         raise MechanismError(
-            f"the Euler parameters have squared norm {value}; it must be exactly 1",
+            f"the Euler parameters have squared norm {brief_number_text(norm)}; it must be "
+            "exactly 1",
             body=body.name,
             key="orientation",
         )

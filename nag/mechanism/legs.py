@@ -122,7 +122,12 @@ def parallel_robot(mechanism: Mechanism, platform: str | None = None) -> Paralle
 
 def _platform_of(mechanism: Mechanism) -> str:
     """The body of the most legs."""
-    counts = {b: len(_legs(mechanism, b)) for b in mechanism.body_names if b != mechanism.ground}
+    joints = Counter(b for j in mechanism.joints for b in j.bodies)
+    counts = {
+        b: len(_legs(mechanism, b))
+        for b in mechanism.body_names
+        if b != mechanism.ground and joints[b] >= LEGS_OF_A_PLATFORM
+    }
     most = max(counts.values(), default=0)
     best = [b for b, count in counts.items() if count == most]
     if most < LEGS_OF_A_PLATFORM:

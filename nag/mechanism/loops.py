@@ -174,17 +174,8 @@ def loop_structure(mechanism: Mechanism, displaced: Collection[str] = ()) -> Loo
     Args:
         displaced: names of rigid joints that stay joints, as for `rigid_groups`.
     """
-    given, groups = mechanism, rigid_groups(mechanism, displaced=displaced)
+    groups, kept, left_out, bridges = _looped_joints(mechanism, displaced)
     mechanism = groups.merged
-    if groups.is_one_body:
-        return LoopStructure(mechanism, groups, mechanism.ground, (), (), (), ())
-    kept, left_out = _split_off_trees(mechanism.joints)
-    names = _bridges(kept)
-    if names:
-        groups = rigid_groups(given, names, displaced)
-        mechanism = groups.merged
-        kept, left_out = _split_off_trees(mechanism.joints)
-    bridges = tuple(j for j in given.joints if j.name in names)
     if not kept:
         return LoopStructure(mechanism, groups, mechanism.ground, (), (), left_out, ())
     looped = {b for j in kept for b in j.bodies}
@@ -195,6 +186,26 @@ def loop_structure(mechanism: Mechanism, displaced: Collection[str] = ()) -> Loo
     one = len(kept) == len(looped)
     loops = (_order_loop(list(kept)),) if one else _loops_of(minimum_cycles(_edges(kept)), kept)
     return LoopStructure(mechanism, groups, base, moving, kept, left_out, loops, bridges)
+
+
+def has_loops(mechanism: Mechanism) -> bool:
+    """Whether joints close a loop, as far as bodies are not rigidly tied."""
+    return bool(_looped_joints(mechanism)[1])
+
+
+def _looped_joints(
+    given: Mechanism, displaced: Collection[str] = ()
+) -> tuple[RigidGroups, tuple[Joint, ...], tuple[Joint, ...], tuple[Joint, ...]]:
+    """Rigid groups, the joints of loops, those of dangling trees, and those between loops."""
+    groups = rigid_groups(given, displaced=displaced)
+    if groups.is_one_body:
+        return groups, (), (), ()
+    kept, left_out = _split_off_trees(groups.merged.joints)
+    names = _bridges(kept)
+    if names:
+        groups = rigid_groups(given, names, displaced)
+        kept, left_out = _split_off_trees(groups.merged.joints)
+    return groups, kept, left_out, tuple(j for j in given.joints if j.name in names)
 
 
 def loop_bases(structure: LoopStructure) -> Iterator[tuple[Loop, ...]]:

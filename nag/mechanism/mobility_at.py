@@ -26,7 +26,7 @@ from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.graph import Mechanism, check_mechanism
 from nag.mechanism.joint_chains import NotClear
-from nag.mechanism.loops import gruebler_kutzbach, loop_structure
+from nag.mechanism.loops import gruebler_kutzbach, has_loops, loop_structure
 from nag.mechanism.mobility_report import ALL_POSES, CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model
 from nag.mechanism.moving_parts import find_moving_parts
@@ -227,7 +227,7 @@ def tree_of(given: Any) -> Mechanism | None:
     mechanism = model_parts(given)
     if not isinstance(mechanism, Problem | Model | AssemblyModel | PolynomialSystem):
         check_mechanism(mechanism, "the parts of a case, case.assembly")
-        return None if loop_structure(mechanism).loops else mechanism
+        return None if has_loops(mechanism) else mechanism
     return None
 
 

@@ -15,7 +15,7 @@ from fractions import Fraction
 
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.symmetry import in_span
+from nag.algebra.symmetry import first_outside_span
 from nag.errors import NagError
 from nag.mechanism.assembly_modes import Modes, all_modes, number_of_modes
 from nag.mechanism.axes import Vector, across, cross, difference, direction, dot, vanishes
@@ -160,7 +160,8 @@ def carries_modes(structure: LoopStructure, flip: Flip) -> bool:
     squared = dot(flip.normal, flip.normal)
 
     def carries(source: Sequence[Polynomial], target: Sequence[Polynomial]) -> bool:
-        return all(in_span(unit_image(f, images, moved, squared), target) for f in source)
+        moved_source = [unit_image(f, images, moved, squared) for f in source]
+        return first_outside_span(moved_source, target) is None
 
     # Equations of different groups do not help each other: each is carried within its own.
     return (

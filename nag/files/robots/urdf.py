@@ -44,8 +44,8 @@ def read(file: str, text: str) -> Robot:
     elements = root.all("joint")
     if not elements:
         root.fail("has no <joint>; a mechanism has at least one")
+    check_unique([(e.text("name"), f"{file}: line {e.line}") for e in elements], "joint")
     joints = [_joint(element, links) for element in elements]
-    check_unique([(j.name, j.where) for j in joints], "joint")
     children: dict[str, XmlElement] = {}
     for joint, element in zip(joints, elements, strict=True):
         if joint.child in children:
