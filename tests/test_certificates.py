@@ -6,6 +6,7 @@ import json
 import warnings
 from dataclasses import replace
 from fractions import Fraction
+from math import isqrt
 from pathlib import Path
 
 import jsonschema
@@ -32,7 +33,13 @@ from nag.numerics.ball_boxes import BallOperator
 from nag.numerics.certified_points import Proof, certify_points, certify_regular_points
 from nag.numerics.claims import Standing
 from nag.numerics.discs import DiscPolynomials, Discs, product
-from nag.numerics.krawczyk import boxes_in_doubles, find_overlaps, prove_boxes, tell_real_zeros
+from nag.numerics.krawczyk import (
+    boxes_in_doubles,
+    find_overlaps,
+    prove_boxes,
+    sharpen_boxes,
+    tell_real_zeros,
+)
 from nag.numerics.point_claims import zero_digits
 from nag.solving.certificate import certify_solutions
 from nag.solving.solutions import SolveResult
@@ -174,6 +181,24 @@ def test_real_and_complex_zeros_are_told_apart() -> None:
     assert boxes.proved.all()
     assert real.tolist() == [True, True, False]
     assert complex_.tolist() == [False, False, True]
+
+
+@given(st.integers(2, 10**6), st.integers(2, 10**6), st.integers(-40, 40))
+def test_radii_by_sharp_residuals_hold_the_zero_and_no_more_than_its_distance(
+    a: int, b: int, off: int
+) -> None:
+    # One coordinate is a square root, a few doubles off; the other is a fraction of it.
+    equations = [x**2 - a, y * b - x]
+    root = a**0.5 + off * np.spacing(a**0.5)
+    points = np.array([[root, a**0.5 / b]], dtype=complex)
+    boxes = prove_boxes(equations, NO_SLICE, points, np.array([1e-6]))
+    sharp = sharpen_boxes(equations, NO_SLICE, boxes, np.array([0]))[0]
+    exact = Fraction(isqrt(a * 10**80), 10**40)
+    for value, point, radius in zip((exact, exact / b), points[0].real, sharp, strict=True):
+        distance = abs(Fraction(float(point)) - value)
+        assert distance - Fraction(1, 10**38) <= Fraction(float(radius))
+        assert float(radius) <= 1.001 * float(distance) + 1e-26 * abs(point)
+    assert (sharp <= boxes.inner[0]).all()
 
 
 def test_zeros_nearer_than_doubles_see_are_not_proved_from_doubles() -> None:

@@ -22,11 +22,11 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.ball_boxes import FineBox, box_about, holds_conjugate, one_zero
+from nag.numerics.ball_boxes import BITS, FineBox, box_about, holds_conjugate, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import neighbours
-from nag.numerics.digits import round_up
-from nag.numerics.discs import UP, DiscPolynomials, Discs, magnitude, matrix_product
+from nag.numerics.digits import in_bits, round_up
+from nag.numerics.discs import LEAST, UP, DiscPolynomials, Discs, magnitude, matrix_product
 from nag.numerics.doubles import UNIT
 from nag.numerics.read_only import equal_values
 
@@ -37,7 +37,7 @@ WIDER, LEAST_SIDE = 2.0, 2.0**-60
 # Boxes are made larger afterwards, by this factor at a time, so that they tell zeros apart.
 GROWTH, GROWN = 1024.0, 1
 # Points that are tested at once, by entries of their Jacobians.
-BLOCK = 2**20
+BLOCK = 2**17
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,9 +104,7 @@ def boxes_in_doubles(
         system = DiscPolynomials.of(polynomials, slices)
     except OverflowError:
         return boxes
-    size = max(1, BLOCK // max(1, system.slopes.matrix.shape[0]))
-    for first in range(0, P, size):
-        block = slice(first, first + size)
+    for block in _in_blocks(system, P):
         with np.errstate(all="ignore"):
             outer, inner, proved = _test_boxes(system, points[block])
         boxes.outer[block], boxes.inner[block], boxes.proved[block] = outer, inner, proved
@@ -137,6 +135,60 @@ def _test_boxes(
         left = left[np.isfinite(outer[left]).all(axis=1)]
     _grow(system, points, inverse, step, outer, proved)
     return outer, inner, proved
+
+
+def sharpen_boxes(
+    polynomials: Sequence[Polynomial], slices: np.ndarray, boxes: Boxes, chosen: np.ndarray
+) -> np.ndarray:
+    """Smaller radii of boxes that zeros lie in, by residuals in more digits.
+
+    The rounding of residuals is nearly all that boxes of doubles hold beside the distance of a
+    point from its zero. All zeros in a box lie in its image, so that one more image is enough.
+
+    Args:
+        polynomials, slices: as many rows as unknowns, of `prove_boxes`.
+        boxes: those it found; chosen: indices of some that were proved in doubles.
+
+    Returns:
+        Radii, none larger than ``inner``, shape ``(len(chosen), n)``.
+    """
+    inner = boxes.inner[chosen]
+    try:
+        system = DiscPolynomials.of(polynomials, slices)
+    except OverflowError:
+        return inner
+    balls = BallPolynomials.of(polynomials, slices)
+    for block in _in_blocks(system, len(chosen)):
+        points = boxes.centres[chosen[block]]
+        with np.errstate(all="ignore"):
+            exact = Discs(points, np.zeros(points.shape))
+            inverse = invert_matrices(system.jacobian(exact).mid)
+            step = _step(inverse, _values_in_balls(balls, points))
+            image = _image(system, points, inner[block], inverse, step)
+        inner[block] = np.fmin(inner[block], image)
+    return inner
+
+
+def _values_in_balls(system: BallPolynomials, points: np.ndarray) -> Discs:
+    """Values at points, shape ``(P, n)``, but for their rounding to doubles exact to many digits.
+
+    Shape ``(P, rows)``.
+    """
+    mid = np.zeros((len(points), len(system)), dtype=complex)
+    rad = np.zeros(mid.shape)
+    with in_bits(BITS[0]):
+        for i, point in enumerate(points.tolist()):
+            found = system.values([flint.acb(z) for z in point], BITS[0]).entries()
+            mid[i] = [complex(value) for value in found]
+            rad[i] = [round_up(value.rad()) for value in found]
+    # Each part of a middle is rounded to the nearest, twice at the most.
+    return Discs(mid, (rad + 4 * UNIT * magnitude(mid)) * UP + LEAST)
+
+
+def _in_blocks(system: DiscPolynomials, count: int) -> Iterator[slice]:
+    """So many points, as many at once as memory is for."""
+    size = max(1, BLOCK // max(1, system.slopes.matrix.shape[0]))
+    return (slice(first, first + size) for first in range(0, count, size))
 
 
 def _grow(

@@ -23,8 +23,8 @@ from nag.numerics.certified_points import CertifiedPoints, Proof, independent_eq
 from nag.numerics.claims import Standing
 from nag.numerics.deflated_system import vanishing_digits
 from nag.numerics.digits import in_bits
-from nag.numerics.discs import DiscPolynomials, Discs, magnitude
-from nag.numerics.krawczyk import fine_box
+from nag.numerics.discs import UP, DiscPolynomials, Discs, magnitude
+from nag.numerics.krawczyk import fine_box, sharpen_boxes
 
 # Decides: Distance in 150 digits from zeros of coordinates that are said to be exact: evidence.
 SAME = 1e-140
@@ -76,7 +76,32 @@ def error_standings(
         radii: shape ``(P, n)``; infinite where nothing is said.
     """
     boxes = SharpBoxes(equations, slices, points)
-    return [_error_standing(boxes, i, row) for i, row in enumerate(radii.tolist())]
+    inner = points.boxes.inner.copy()
+    held = _holds_zeros(points, inner, radii)
+    # What doubles leave open is mostly said by residuals in more digits; few points need balls.
+    simple = np.array([proof is Proof.SIMPLE for proof in points.proofs], dtype=bool)
+    simple[list(points.boxes.fine)] = False
+    if len(equations) + len(slices) == points.points.shape[1]:
+        left = np.flatnonzero(simple & ~held & np.isfinite(radii).all(axis=1))
+        inner[left] = sharpen_boxes(equations, slices, points.boxes, left)
+        held = _holds_zeros(points, inner, radii)
+    return [
+        Standing.PROVED if within else _error_standing(boxes, i, radii[i].tolist())
+        for i, within in enumerate(held.tolist())
+    ]
+
+
+def _holds_zeros(points: CertifiedPoints, inner: np.ndarray, radii: np.ndarray) -> np.ndarray:
+    """Whether doubles say of points that their zeros lie within finite radii, shape ``(P,)``.
+
+    Args:
+        inner: radii about the boxes' centres that the zeros lie in, as ``radii`` of shape
+            ``(P, n)``.
+    """
+    with np.errstate(all="ignore"):
+        off = magnitude(points.points - points.boxes.centres)
+        within = ((off + inner) * UP <= radii).all(axis=1)
+    return within & points.boxes.proved & np.isfinite(radii).all(axis=1)
 
 
 def _error_standing(boxes: SharpBoxes, i: int, radii: Sequence[float]) -> Standing:
