@@ -9,6 +9,7 @@ import jsonschema
 import numpy as np
 import pytest
 
+import nag
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
@@ -21,6 +22,7 @@ from nag.files.solutions_export import (
 )
 from nag.solving.solutions import FORMAT, VERSION, SolveResult
 from nag.solving.solve import solve
+from nag.text.json_text import lay_out, lay_out_parts
 
 CASE = """
 title = "A circle and a cubic"
@@ -127,3 +129,11 @@ def test_too_many_paths_are_one_line_and_status_two(
     )
     assert main(["solve", str(case), "--start", "total", "--quiet"]) == 2
     assert "100000000 paths" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 3])
+def test_what_is_written_part_by_part_is_the_document(count: int, monkeypatch) -> None:
+    monkeypatch.setattr("nag.text.json_text.AT_ONCE", 2)
+    roots = nag.solve(" * ".join(["1", *(f"(x - {k})" for k in range(count))]))
+    text = "".join(lay_out_parts(roots.document_to_write()))
+    assert text == lay_out(roots.document())

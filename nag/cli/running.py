@@ -157,7 +157,9 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
     tell = getattr(options, "tell", None)
     try:
         if answer.document is not None and options.json == STANDARD_OUTPUT:
-            told(document_text(answer.document()).splitlines())
+            document = answer.document()
+            text = document if isinstance(document, str) else "".join(_document_parts(document))
+            told(text.splitlines())
         elif answer.document is not None and options.json is not None:
             write_document(answer.document(), options.json)
         forget_unfinished(options)
@@ -335,15 +337,16 @@ def write_document(
     from nag.files.written_file import write_target
 
     with writing_to(option):
-        written = document if isinstance(document, bytes) else document_text(document)
+        written = document if isinstance(document, bytes | str) else _document_parts(document)
         write_target(target, written)
 
 
-def document_text(document: dict[str, Any] | str) -> str:
-    """A JSON object, or a text, as it is written."""
-    from nag.text.json_text import lay_out
+def _document_parts(document: dict[str, Any]) -> Iterator[str]:
+    """A JSON object as it is written, part by part."""
+    from nag.text.json_text import lay_out_parts
 
-    return document if isinstance(document, str) else lay_out(document) + "\n"
+    yield from lay_out_parts(document)
+    yield "\n"
 
 
 def _write_nothing(lines: Sequence[str]) -> None:

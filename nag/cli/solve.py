@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
     def document_of(found: SolveResult) -> dict[str, Any] | None:
         same = found.system == problem.system
-        return found.document(*name_case(case)) if same else None
+        return found.document_to_write(*name_case(case)) if same else None
 
     try:
         result = problem.solve(start=options.start, run=chosen_run(options, document_of))
@@ -55,7 +55,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         solution_lines(result, case, problem, run_row(options, places=2)),
         result.complete,
         lambda: {
-            **result.document(*name_case(case)),
+            **result.document_to_write(*name_case(case)),
             **({"realisations": found} if (found := realisations(problem, result)) else {}),
         },
         proof_asked_for(options, result),

@@ -7,6 +7,7 @@ A file holds nothing that differs between runs with the same seed.
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -24,7 +25,7 @@ from nag.files.json_values import (
 )
 from nag.files.written_file import write_target
 from nag.solving.solutions import FORMAT, VERSION, PathStatistics, Solution, SolveResult
-from nag.text.json_text import lay_out
+from nag.text.json_text import lay_out_parts
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,12 @@ class SolutionsExport:
 
 def export_text(result: SolveResult, title: str | None = None, file: str | None = None) -> str:
     """The export as JSON text, ASCII, the same for equal arguments."""
-    return lay_out(result.document(title, file)) + "\n"
+    return "".join(_export_parts(result, title, file))
+
+
+def _export_parts(result: SolveResult, title: str | None, file: str | None) -> Iterator[str]:
+    yield from lay_out_parts(result.document_to_write(title, file))
+    yield "\n"
 
 
 def write_solutions(
@@ -69,7 +75,7 @@ def write_solutions(
     for name, text in (("title", title), ("file", file)):
         if text is not None:
             check_type(text, str, name, "a text, or leave it out")
-    write_target(path, export_text(result, title, file))
+    write_target(path, _export_parts(result, title, file))
 
 
 def _solution(table: dict[str, Any], system: PolynomialSystem, place: str) -> Solution:

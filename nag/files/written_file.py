@@ -6,6 +6,7 @@ import contextlib
 import os
 import stat
 import uuid
+from collections.abc import Iterable
 from pathlib import Path
 
 from nag.errors import InputError
@@ -61,27 +62,29 @@ def check_target(path: str | os.PathLike[str]) -> None:
         raise TargetError(f"{target}: is not a file name: {error}") from None
 
 
-def write_target(path: str | os.PathLike[str], text: str | bytes) -> None:
+def write_target(path: str | os.PathLike[str], text: str | bytes | Iterable[str]) -> None:
     """Write a text, as UTF-8, or bytes to ``path`` through a temporary file beside it.
 
-    Whoever reads ``path`` sees the old content or the new, never a part. A symbolic link stays a
-    link; an existing file keeps its permissions; a device or a pipe is written to directly.
+    A text may come in parts, each of which is written before the next one is asked for. Whoever
+    reads ``path`` sees the old content or the new, never a part. A symbolic link stays a link; an
+    existing file keeps its permissions; a device or a pipe is written to directly.
 
     Raises:
         TargetError: if it cannot be written; the old content is then untouched.
     """
     target = Path(path)
-    content = text.encode() if isinstance(text, str) else text
+    content = [text] if isinstance(text, bytes | str) else text
+    parts = (part.encode() if isinstance(part, str) else part for part in content)
     temporary = None
     try:
         real = target.resolve()
         if _is_special(real):
             with real.open("wb") as stream:
-                stream.write(content)
+                stream.writelines(parts)
             return
         temporary = _temporary(real)
         with temporary.open("xb") as stream:
-            stream.write(content)
+            stream.writelines(parts)
             stream.flush()
             os.fsync(stream.fileno())
         with contextlib.suppress(FileNotFoundError):

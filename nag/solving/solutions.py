@@ -11,7 +11,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.to_sympy import to_sympy_point
 from nag.numerics.read_only import ComplexArray, RealArray, equal_values, fixed_array
-from nag.text.json_text import pairs, real_or_null
+from nag.text.json_text import Objects, pairs, real_or_null
 from nag.text.table import count_text, data_frame, one_line
 from nag.tracking.run import Run
 
@@ -347,6 +347,16 @@ class SolveResult(Sequence[Solution]):
             title: of the case that was solved.
             file: of the case.
         """
+        document = self.document_to_write(title, file)
+        for key, value in document.items():
+            if isinstance(value, Objects):
+                document[key] = [each.document() for each in value.things]
+        return document
+
+    def document_to_write(
+        self, title: str | None = None, file: str | None = None
+    ) -> dict[str, Any]:
+        """The same for `nag.text.json_text.lay_out_parts`, without the solutions' objects."""
         return {
             "format": FORMAT,
             "version": VERSION,
@@ -360,9 +370,9 @@ class SolveResult(Sequence[Solution]):
             "notes": list(self.notes),
             "paths": {name: int(count) for name, count in asdict(self.paths).items()},
             "system": self.system.document(),
-            "solutions": [s.document() for s in self.solutions],
+            "solutions": Objects(self.solutions),
             "excluded": self.excluded,
-            "excluded_solutions": [s.document() for s in self.excluded_solutions],
+            "excluded_solutions": Objects(self.excluded_solutions),
             "on_components": pairs(self.on_components),
             "on_excluded": pairs(self.on_excluded),
             "on_doubtful": pairs(self.on_doubtful),

@@ -4,11 +4,27 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+# Objects of a list that are laid out at once.
+AT_ONCE = 1000
 _SCALARS = frozenset((str, int, float, bool, type(None)))
+
+
+@dataclass(frozen=True, eq=False)
+class Objects:
+    """A list of the JSON objects of things, each made when it is written, and not kept."""
+
+    things: Sequence[Any]
+
+    def parts(self) -> Iterator[list[dict[str, Any]]]:
+        """Some at a time, in their order."""
+        for first in range(0, len(self.things), AT_ONCE):
+            yield [each.document() for each in self.things[first : first + AT_ONCE]]
 
 
 def real_or_null(value: float) -> float | None:
@@ -47,6 +63,27 @@ def _lay_out_flat(objects: list[dict[str, Any]], deeper: str) -> str:
     text = text.replace("}\0{", f"\n{deeper}}},\n{deeper}{{\n{deeper}  ")
     text = text.replace("\0", f",\n{deeper}  ")
     return f"{{\n{deeper}  {text}\n{deeper}}}"
+
+
+def lay_out_parts(document: dict[str, Any]) -> Iterator[str]:
+    """What `lay_out` makes of an object, some of whose values may be `Objects`, part by part."""
+    if not document:
+        yield lay_out(document)
+        return
+    start = "{\n"
+    for key, value in document.items():
+        yield f"{start}  {json.dumps(key)}: "
+        start = ",\n"
+        if not isinstance(value, Objects) or not value.things:
+            yield lay_out([] if isinstance(value, Objects) else value, "  ")
+            continue
+        between = "[\n"
+        for some in value.parts():
+            # Without the brackets about them, and the line breaks beside these.
+            yield between + lay_out(some, "  ")[2:-4]
+            between = ",\n"
+        yield "\n  ]"
+    yield "\n}"
 
 
 def lay_out(value: Any, indent: str = "") -> str:
