@@ -54,3 +54,23 @@ def test_rows_that_replace_others_bring_what_they_have_and_leave_the_given_table
 def test_rows_of_tables_follow_each_other() -> None:
     whole = Outer.concatenate([table(0, 2, i1="one"), table(5, 1), table(8, 2, i0="eight")])
     assert rows(whole) == [(0, 0, ""), (1, 10, "one"), (5, 50, ""), (8, 80, "eight"), (9, 90, "")]
+
+
+def test_collected_rows_are_those_put_one_after_another() -> None:
+    parts = [plain(range(3), 1), plain(range(2), None), plain(range(4), 0)]
+    assert_same(Plain.collect(iter(parts), 9), Plain.concatenate(parts))
+
+
+@dataclass(frozen=True, eq=False)
+class Plain(ArrayTable):
+    points: np.ndarray
+    some: Mapping[int, str]
+
+
+def plain(values: range, named: int | None) -> Plain:
+    points = np.array([[v, -v] for v in values], dtype=complex)
+    return Plain(points, {} if named is None else {named: f"of {len(values)}"})
+
+
+def assert_same(one: Plain, other: Plain) -> None:
+    assert np.array_equal(one.points, other.points) and one.some == other.some

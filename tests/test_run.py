@@ -9,6 +9,7 @@ import pytest
 
 import nag
 from nag.decomposition import sample
+from nag.tracking.run import REMARK
 
 EQUATIONS = ["(x^2 + y^2 - 1)*(x^2 + x*y + 3*y^2 - 2)"]
 
@@ -65,9 +66,22 @@ def told_by(call: Callable[..., object], *given: object) -> list[str]:
 
 def test_solving_tells_of_paths_and_of_the_judging_of_their_ends() -> None:
     stages = told_by(nag.solve, ["x^2 + y^2 + z^2 - 5", "x*y*z - 1", "x^3 - y*z + 2"])
-    (tracked,) = (s for s in stages if s.startswith("tracking "))
+    names = list(dict.fromkeys(stage.split(REMARK)[0] for stage in stages))
+    (tracked,) = (s for s in names if s.startswith("tracking "))
     paths = tracked.removeprefix("tracking ")
-    assert stages.index(f"judging the ends of {paths}") == stages.index(tracked) + 1
+    assert names.index(f"judging the ends of {paths}") == names.index(tracked) + 1
+
+
+def test_paths_are_told_of_with_the_doubtful_ones_and_what_became_of_them() -> None:
+    told: list[tuple[str, int, int]] = []
+    equations = ["x*y + y - 1", "y*z + x - 2", "x^2 + x*z - 3"]
+    found = nag.solve(equations, start="total", progress=lambda *step: told.append(step))
+    assert found.paths.tracked == 8 and 0 < found.paths.at_infinity < 8
+    tracked = [step for step in told if step[0].startswith("tracking ")]
+    assert [step[1:] for step in tracked] == [(0, 0), (8, 8)]
+    assert tracked[1][0].endswith(f"{REMARK}{found.paths.at_infinity} doubtful")
+    (judged,) = (stage for stage, *_ in told if stage.startswith("judging "))
+    assert judged.endswith(f"{REMARK}{found.paths.at_infinity} to infinity")
 
 
 def test_each_branch_of_a_system_that_falls_apart_is_told_of() -> None:

@@ -176,7 +176,7 @@ def test_a_generic_start_has_its_points_as_zeros() -> None:
     start = total_degree(system, np.random.default_rng(5), generic=True)
     assert len(start.points) == 3 * 2 * 4
     assert np.abs(values(start.homotopy, start.points, 1.0)).max() < 1e-12
-    affine = start.affine(start.points)
+    affine = start.affine(start.points[:])
     distances = np.abs(affine[:, None] - affine[None]).max(axis=2) + np.eye(len(affine))
     assert distances.min() > 1e-3
     square = jacobian(start.homotopy, start.points, 1.0)[:, :, 1:]

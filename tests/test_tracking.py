@@ -21,6 +21,7 @@ from nag.tracking.newton import refine
 from nag.tracking.paths import PathStatus, Reason
 from nag.tracking.projective import aligned_difference
 from nag.tracking.settings import Settings, find_settings
+from nag.tracking.starts import StartsByIndex
 from nag.tracking.track import run_in_doubles, track
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -253,6 +254,29 @@ def test_paths_with_many_branch_points_before_their_ends_reach_them_in_doubles()
     raw = run_in_doubles(begin.homotopy, starts, Settings(), 1, True)
     # There are 16 finite zeros; ends of the other paths are not regular.
     assert (raw.reason == Reason.NONE).sum() >= 15
+
+
+def test_starts_by_index_are_the_same_whoever_asks():
+    def make(index: np.ndarray) -> np.ndarray:
+        return np.stack([index + 0.5j, index**2 + index.size], axis=1)
+
+    starts = StartsByIndex((2500, 2), make)
+    whole = np.asarray(starts)
+    assert whole[:, 1].real.tolist() == [k**2 + (1024 if k < 2048 else 452) for k in range(2500)]
+    rng = np.random.default_rng(3)
+    for rows in (slice(1000, 1100), slice(-3, None), rng.permutation(2500)[:40], whole[:, 0] == 0):
+        assert np.array_equal(starts[rows], whole[rows])
+    assert starts[:0].shape == (0, 2)
+
+
+def test_paths_do_not_depend_on_how_many_are_in_memory(monkeypatch):
+    homotopy, starts = total_degree(katsura(6), 1)
+    monkeypatch.setattr("nag.tracking.track.BLOCK", 5)
+    parts = track(homotopy, starts)
+    monkeypatch.setattr("nag.tracking.track.BLOCK", 1024)
+    whole = track(homotopy, starts)
+    for name, column in whole.arrays().items():
+        assert np.array_equal(column, parts.arrays()[name]), name
 
 
 def test_a_start_point_off_the_path_is_refused():

@@ -5,7 +5,7 @@ Columns are arrays of first length P, tables, or mappings by index of what only 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any, Self
 
@@ -66,3 +66,25 @@ class ArrayTable:
             else:
                 whole[name] = np.concatenate(parts)
         return replace(tables[0], **whole)  # type: ignore[type-var]
+
+    @classmethod
+    def collect(cls, tables: Iterable[Self], count: int) -> Self:
+        """The same of tables of arrays and mappings that come one by one, and are not kept.
+
+        Args:
+            count: rows of all together; there is at least one table.
+        """
+        whole: dict[str, Any] = {}
+        first, table = 0, None
+        for table in tables:
+            for name, column in table._columns():
+                if isinstance(column, Mapping):
+                    whole.setdefault(name, {}).update({first + k: v for k, v in column.items()})
+                    continue
+                if name not in whole:
+                    whole[name] = np.empty((count, *column.shape[1:]), dtype=column.dtype)
+                whole[name][first : first + len(column)] = column
+            first += len(table)
+        if table is None or first != count:
+            raise ValueError(f"{first} rows came, not {count}")
+        return replace(table, **whole)  # type: ignore[type-var]

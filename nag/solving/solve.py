@@ -31,7 +31,8 @@ from nag.solving.start.choice import check_kind, choose, mixed_volume
 from nag.solving.start.isotropic import isotropic
 from nag.solving.start.target import StartSystem
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, answers_early
+from nag.tracking.paths import PathStatus
+from nag.tracking.run import DEFAULT_RUN, REMARK, UNFINISHED, Run, answers_early
 from nag.tracking.settings import Settings, find_settings, tighten
 from nag.tracking.track import track
 
@@ -285,9 +286,22 @@ AGAIN: tuple[Finder, ...] = (close_ends, doubtful_ends)
 def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult:
     """The zeros that paths from a start system lead to, and those that are found beside them."""
     run = task.run
-    run.tell(f"tracking {len(begin.points)} paths", 0, 0)
-    paths = track(begin.homotopy, begin.points, run.settings, run.threads, known=begin.known)
-    run.tell(f"judging the ends of {len(begin.points)} paths", 0, 0)
+    stage = f"tracking {len(begin.points)} paths"
+    run.tell(stage, 0, 0)
+
+    def tell(done: int, total: int, doubtful: int) -> None:
+        run.tell(f"{stage}{REMARK}{doubtful} doubtful" if doubtful else stage, done, total)
+
+    paths = track(
+        begin.homotopy, begin.points, run.settings, run.threads, known=begin.known, tell=tell
+    )
+    ends = {
+        "to infinity": len(paths.where(PathStatus.AT_INFINITY)),
+        "failed": len(paths.where(PathStatus.FAILED)),
+    }
+    remark = ", ".join(f"{count} {name}" for name, count in ends.items() if count)
+    judging = f"judging the ends of {len(paths)} paths"
+    run.tell(f"{judging}{REMARK}{remark}" if remark else judging, 0, 0)
     search = PathSearch.of(task, task.problem, begin, reason, paths, task.rng)
     if run.found is not None:
         run.found(replace(search.result(), complete=False, notes=(UNFINISHED,)))

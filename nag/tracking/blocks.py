@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from nag.tracking.ledger import Arrays, Ledger
 
+# Blocks that are in memory at once, in this process alone and with an executor.
+ALONE, SHARED = 8, 256
 # A function of a block's arguments and of a number of threads, to arrays.
 Work = Callable[..., Any]
 
@@ -75,8 +77,21 @@ def in_blocks() -> bool:
     return _engine.get() is not None
 
 
+def at_once() -> int:
+    """How many blocks are worked out before the next ones are made; answers do not depend on it.
+
+    What is to be shared is more than what there are workers for.
+    """
+    chosen = _engine.get()
+    return SHARED if chosen is not None and chosen.executor is not None else ALONE
+
+
 def work_out(
-    work: Work, calls: Sequence[tuple[Any, ...]], stage: str, threads: int = 1
+    work: Work,
+    calls: Sequence[tuple[Any, ...]],
+    stage: str,
+    threads: int = 1,
+    told: Callable[[int], None] | None = None,
 ) -> list[tuple[Arrays, bool]]:
     """Results of a function for several arguments, in their order, and which were made here.
 
@@ -85,6 +100,7 @@ def work_out(
         calls: its arguments, see `nag.tracking.ledger.add_content`.
         stage: what it is called where progress is told.
         threads: of what is worked out here.
+        told: called with the number of calls that are done, instead of the engine's ``tell``.
     """
     from nag.tracking.ledger import key_of
 
@@ -104,7 +120,9 @@ def work_out(
             chosen.ledger.keep(keys[k], arrays)
         results[k] = arrays, here
         done += 1
-        if chosen.tell is not None and len(calls) > 1:
+        if told is not None:
+            told(done)
+        elif chosen.tell is not None and len(calls) > 1:
             chosen.tell(f"{stage}, blocks", done, len(calls))
     return [result for result in results if result is not None]
 

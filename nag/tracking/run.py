@@ -19,6 +19,8 @@ from nag.tracking.settings import Settings
 
 # Called with a stage's name, the step reached and the number of steps; 0 if that is not known.
 Progress = Callable[[str, int, int], None]
+# Parts a stage's name from what else is told of how it goes, which makes no other stage of it.
+REMARK = "; "
 # Called with an answer that is not complete yet, of what is known so far; and what it says of that.
 ENDED_EARLY = "the work was ended early: this is what was known by then"
 UNFINISHED = f"{ENDED_EARLY}, some of it perhaps twice and multiplicities perhaps too low"
@@ -35,7 +37,8 @@ class Run:
         seed: of the random numbers.
         threads: for path tracking; answers do not depend on them.
         settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking, or settings of one's own.
-        progress: called with a stage's name, the step reached and the number of steps.
+        progress: called with a stage's name, the step reached and the number of steps. What stands
+            behind a semicolon in the name says how it goes: paths whose ends are still open.
         found: called now and then with what is known already, an incomplete answer, for whoever
             ends the work early: by `nag.decompose`, `nag.solve`, `nag.solve_family`, `nag.motion`,
             `nag.driven_motion`, `nag.modes` and `nag.mobility`; by `nag.solve_family` and

@@ -7,9 +7,10 @@ that prove to have jumped are tracked again.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -23,6 +24,10 @@ from nag.tracking.known import NOTHING, KnownOfPaths
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
 from nag.tracking.settings import Settings, find_settings, tighten
+from nag.tracking.starts import StartsByIndex
+
+if TYPE_CHECKING:
+    from nag.tracking.ends.follow import Unfinished
 
 # Newton's method may move the end of a path by this part of the smallest singular value there, or
 # by what its errors allow.
@@ -40,22 +45,26 @@ PATHS_PER_THREAD = 64
 # Paths of a block in doubles; and so few that they are tracked again in less time than found.
 BLOCK, LEAST_BLOCK = 1024, 32
 
+# Called with numbers of paths: tracked in doubles, all, doubtful so far.
+Tell = Callable[[int, int, int], None]
+
 
 def track(
     homotopy: Homotopy,
-    starts: np.ndarray,
+    starts: np.ndarray | StartsByIndex,
     settings: Settings | str = "default",
     threads: int = 1,
     *,
     endgame: bool = True,
     distinct: bool = True,
     known: KnownOfPaths = NOTHING,
+    tell: Tell | None = None,
 ) -> Paths:
     """Track ``starts`` from t = 1 to t = 0.
 
     Args:
         homotopy: what to track.
-        starts: points at t = 1, regular, shape ``(P, N)``.
+        starts: points at t = 1, regular, shape ``(P, N)``; read some at a time.
         settings: `Settings`, or ``"fast"``, ``"default"``, ``"careful"``.
         threads: number of threads; the result does not depend on it.
         endgame: False where every end is known to be regular: a path need not be safe before its
@@ -63,16 +72,19 @@ def track(
         distinct: the starts are pairwise distinct, so that equal regular ends betray a path jump;
             such paths are tracked again with tighter control.
         known: what is known of the paths beforehand; of use where the starts are distinct.
+        tell: called now and then with the number of paths tracked in doubles, of all, and of those
+            whose ends ask for more digits.
 
     Raises:
         ValueError: if the starts have a wrong shape, or settings an unknown name.
     """
     chosen = find_settings(settings)
-    starts = np.asarray(starts, dtype=np.complex128)
-    if starts.ndim != 2 or starts.shape[1] != homotopy.N:
+    if not isinstance(starts, StartsByIndex):
+        starts = np.asarray(starts, dtype=np.complex128)
+    if len(starts.shape) != 2 or starts.shape[1] != homotopy.N:
         raise NagError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
-    starts = homotopy.normalized(starts)
-    paths = _attempt(homotopy, starts, chosen, threads, endgame, known if distinct else NOTHING)
+    before = known if distinct else NOTHING
+    paths = _attempt(homotopy, starts, chosen, threads, endgame, before, tell)
     for attempt in range(chosen.retries if distinct else 0):
         jumped = collisions(homotopy, paths)
         if attempt == 0:
@@ -172,33 +184,82 @@ class StraightRun:
 
 def _attempt(
     homotopy: Homotopy,
-    starts: np.ndarray,
+    starts: np.ndarray | StartsByIndex,
     settings: Settings,
     threads: int,
     endgame: bool,
     known: KnownOfPaths = NOTHING,
+    tell: Tell | None = None,
 ) -> Paths:
+    from nag.tracking.ends.follow import Unfinished, follow_doubtful
+
     orbits = known.orbits
-    if orbits is not None:
-        starts = starts[orbits.chosen]
-    raw = run_in_doubles(homotopy, starts, settings, threads, endgame)
-    paths, regular = _judge_ends(homotopy, raw)
-    doubtful = paths.where(PathStatus.FAILED)
+    chosen = np.arange(len(starts)) if orbits is None else orbits.chosen
+    left: list[Unfinished] = []
+    paths = Paths.collect(
+        _run_by_stretches(homotopy, starts, chosen, settings, threads, endgame, left, tell),
+        len(chosen),
+    )
+    doubtful, unfinished = paths.where(PathStatus.FAILED), Unfinished.concatenate(left)
     if len(doubtful) and settings.digits >= 32:
         every = paths if orbits is None else orbits.expand(paths, homotopy.groups)
         if known.most is not None and _all_are_found(homotopy, every, known.most):
             paths = paths.mark_infinite(doubtful, homotopy)
         else:
-            infinite, ends = _infinite(homotopy, paths, doubtful[regular[doubtful]])
+            infinite, ends = _infinite(homotopy, paths, doubtful[unfinished.regular])
             if len(infinite):
                 paths = paths.track_again(infinite, ends)
-                doubtful = paths.where(PathStatus.FAILED)
+                rest = ~np.isin(doubtful, infinite)
+                doubtful, unfinished = doubtful[rest], unfinished.select_rows(rest)
             if len(doubtful):
-                more = _follow_doubtful(homotopy, starts, raw, regular, doubtful, settings, threads)
+                more = follow_doubtful(homotopy, unfinished, settings, threads)
                 if not endgame:
                     more = more.mark_failed(more.where(PathStatus.SINGULAR))
                 paths = paths.track_again(doubtful, more)
     return paths if orbits is None else orbits.expand(paths, homotopy.groups)
+
+
+def _run_by_stretches(
+    homotopy: Homotopy,
+    starts: np.ndarray | StartsByIndex,
+    chosen: np.ndarray,
+    settings: Settings,
+    threads: int,
+    endgame: bool,
+    left: list[Unfinished],
+    tell: Tell | None,
+) -> Iterator[Paths]:
+    """Paths in doubles and their ends, judged, some at a time.
+
+    Of where the others were on their way only that of doubtful ones is kept, in ``left``.
+    """
+    from nag.tracking.ends.follow import Unfinished
+
+    stretch, total, open_ = BLOCK * blocks.at_once(), len(chosen), 0
+    for first in range(0, max(total, 1), stretch):
+        begin = homotopy.normalized(starts[chosen[first : first + stretch]])
+
+        def told(done: int, first: int = first, open_: int = open_) -> None:
+            if tell is not None:
+                tell(min(first + done * BLOCK, total), total, open_)
+
+        raw = run_in_doubles(homotopy, begin, settings, threads, endgame, told=told)
+        paths, regular = _judge_ends(homotopy, raw)
+        doubtful = paths.where(PathStatus.FAILED)
+        open_ += len(doubtful)
+        left.append(
+            Unfinished(
+                raw.points[doubtful],
+                raw.reason[doubtful] == Reason.NONE,
+                regular[doubtful],
+                raw.safe[doubtful],
+                raw.safe_t[doubtful],
+                begin[doubtful],
+            )
+        )
+        if tell is not None:
+            tell(min(first + stretch, total), total, open_)
+        yield paths
 
 
 def _infinite(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> tuple[np.ndarray, Paths]:
@@ -207,30 +268,6 @@ def _infinite(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> tuple[np.
 
     found, ends = regular_paths(homotopy, paths.points[chosen], paths.condition[chosen])
     return chosen[found], ends
-
-
-def _follow_doubtful(
-    homotopy: Homotopy,
-    starts: np.ndarray,
-    raw: StraightRun,
-    regular: np.ndarray,
-    doubtful: np.ndarray,
-    settings: Settings,
-    threads: int,
-) -> Paths:
-    """The doubtful paths, followed in more digits."""
-    from nag.tracking.ends.follow import Unfinished, follow_doubtful
-
-    reached = raw.reason[doubtful] == Reason.NONE
-    unfinished = Unfinished(
-        raw.points[doubtful],
-        reached,
-        regular[doubtful],
-        raw.safe[doubtful],
-        raw.safe_t[doubtful],
-        starts[doubtful],
-    )
-    return follow_doubtful(homotopy, unfinished, settings, threads)
 
 
 def _all_are_found(homotopy: Homotopy, paths: Paths, most: int) -> bool:
@@ -250,6 +287,7 @@ def run_in_doubles(
     endgame: bool,
     weights: np.ndarray | None = None,
     member: np.ndarray | None = None,
+    told: Callable[[int], None] | None = None,
 ) -> StraightRun:
     """Track paths once, in doubles alone; nothing is said of their ends.
 
@@ -258,7 +296,7 @@ def run_in_doubles(
     """
     work = _PathsInDoubles(homotopy, starts, settings, endgame, weights, member)
     if blocks.in_blocks() and len(starts) >= LEAST_BLOCK:
-        raw = _run_in_blocks(work, threads)
+        raw = _run_in_blocks(work, threads, told)
     else:
         raw = _run(work, threads)
     # A step takes two values, and the Taylor coefficients of each order.
@@ -283,14 +321,17 @@ class _PathsInDoubles(NamedTuple):
         return self.homotopy, self.starts[rows], self.settings, self.endgame, weights, member
 
 
-def _run_in_blocks(work: _PathsInDoubles, threads: int) -> StraightRun:
+def _run_in_blocks(
+    work: _PathsInDoubles, threads: int, told: Callable[[int], None] | None
+) -> StraightRun:
     """The same in blocks, each of which may be known already, or be worked out elsewhere."""
     calls = [work.block(k) for k in range(0, len(work.starts), BLOCK)]
     from nag.tracking import kernel_arrays
 
     # What is made ready for a homotopy is made, and counted, whoever tracks the paths.
     kernel_arrays.equations(work.homotopy, weights=work.weights)
-    done = [arrays for arrays, _ in blocks.work_out(block_in_doubles, calls, "paths", threads)]
+    found = blocks.work_out(block_in_doubles, calls, "paths", threads, told)
+    done = [arrays for arrays, _ in found]
     return StraightRun(**{name: np.concatenate([b[name] for b in done]) for name in done[0]})
 
 

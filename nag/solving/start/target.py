@@ -19,6 +19,7 @@ from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.known import NOTHING, KnownOfPaths
+from nag.tracking.starts import StartsByIndex
 
 Terms = Mapping[Exponents, Number | complex]
 
@@ -187,7 +188,7 @@ class StartSystem:
     Attributes:
         name: one of `nag.solving.start.KINDS`.
         homotopy: from the start system (t = 1) to the target (t = 0).
-        points: start points, one for each path, shape ``(P, N)``.
+        points: start points, one for each path, shape ``(P, N)``, or such by index.
         groups: the groups of variables that were homogenised together.
         complete: whether each isolated solution of the target is the end of as many paths as its
             multiplicity is.
@@ -197,7 +198,7 @@ class StartSystem:
 
     name: str
     homotopy: Homotopy
-    points: np.ndarray
+    points: np.ndarray | StartsByIndex
     groups: tuple[tuple[int, ...], ...]
     complete: bool = True
     detail: str = ""

@@ -32,10 +32,11 @@ from nag.solving.start.target import (
 )
 from nag.tracking.homotopy import straight_line
 from nag.tracking.known import KnownOfPaths
+from nag.tracking.starts import StartsByIndex
 
 # Longest generic start systems.
 MOST_TERMS = 10_000
-# Start points are kept in memory.
+# Ends are kept in memory.
 MOST_PATHS = 4_000_000
 
 Row = dict[Exponents, complex]
@@ -184,13 +185,12 @@ def _powers(
 
 
 def _roots(
-    n: int, free: list[int], degrees: list[int], constants: np.ndarray
+    n: int, free: list[int], degrees: list[int], constants: np.ndarray, index: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """All combinations of roots of the constants, at the free variables' coordinates.
+    """Combinations of roots of the constants, by index, at the free variables' coordinates.
 
     Points of shape ``(P, 1 + n)``, and the numbers of the roots, shape ``(P, n)``.
     """
-    index = np.arange(prod(degrees))
     points = np.ones((len(index), 1 + n), dtype=np.complex128)
     roots = np.zeros((len(index), n), dtype=np.int64)
     for j, d, c in zip(free, degrees, constants, strict=True):
@@ -242,16 +242,23 @@ def total_degree(
     degrees_of_rows = group_degrees([target.rows[i] for i in rows], groups)
     goal = homogenize_rows([target.rows[i] for i in rows], n, groups, degrees_of_rows)
     begin = homogenize_rows(start_rows, n, groups, degrees_of_rows)
-    points, roots = _roots(n, free, wanted, constants)
-    # What stands there are values of the forms; the adjoint of a unitary matrix is its inverse.
-    columns = [1 + j for j in free]
-    points[:, columns] = points[:, columns] @ forms.conj()
-    if shape.linear:
-        columns = [1 + j for j in shape.solved]
-        known = [0, *(1 + j for j in free)]
-        right = points[:, known] @ matrix[:, known].T
-        points[:, columns] = -np.linalg.solve(matrix[:, columns], right.T).T
-    symmetric = bool(shape.interchange.blocks) and not generic
-    orbits = shape.interchange.orbits(roots, 1) if symmetric else None
+
+    def start_points(index: np.ndarray) -> np.ndarray:
+        points, _ = _roots(n, free, wanted, constants, index)
+        # These are values of the forms; the adjoint of a unitary matrix is its inverse.
+        columns = [1 + j for j in free]
+        points[:, columns] = points[:, columns] @ forms.conj()
+        if shape.linear:
+            columns = [1 + j for j in shape.solved]
+            known = [0, *(1 + j for j in free)]
+            right = points[:, known] @ matrix[:, known].T
+            points[:, columns] = -np.linalg.solve(matrix[:, columns], right.T).T
+        return points
+
+    orbits = None
+    if shape.interchange.blocks and not generic:
+        _, roots = _roots(n, free, wanted, constants, np.arange(paths))
+        orbits = shape.interchange.orbits(roots, 1)
+    points = StartsByIndex((paths, 1 + n), start_points)
     homotopy = straight_line(begin, goal, gamma, matrix)
     return StartSystem("total", homotopy, points, groups, known=KnownOfPaths(orbits=orbits))

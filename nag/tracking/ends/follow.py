@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from nag.numerics.array_table import ArrayTable
 from nag.numerics.doubles import ROUNDED, SLACK
 from nag.numerics.zero_values import NONZERO
 from nag.tracking import blocks
@@ -160,7 +161,7 @@ def _in_words(points: np.ndarray, words: int = 2) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False)
-class Unfinished:
+class Unfinished(ArrayTable):
     """Paths as straight runs in doubles left them.
 
     Attributes:
