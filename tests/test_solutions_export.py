@@ -20,7 +20,7 @@ from nag.files.solutions_export import (
     read_solutions,
     write_solutions,
 )
-from nag.solving.solutions import FORMAT, VERSION, SolveResult
+from nag.solving.solutions import FORMAT, VERSION, Solutions, SolveResult
 from nag.solving.solve import solve
 from nag.text.json_text import lay_out, lay_out_parts
 
@@ -137,3 +137,16 @@ def test_what_is_written_part_by_part_is_the_document(count: int, monkeypatch) -
     roots = nag.solve(" * ".join(["1", *(f"(x - {k})" for k in range(count))]))
     text = "".join(lay_out_parts(roots.document_to_write()))
     assert text == lay_out(roots.document())
+
+
+def test_solutions_are_a_sequence_whose_columns_are_arrays() -> None:
+    roots = nag.solve(["x^2 = 2", "y^2 = 3"]).solutions
+    assert [roots[k] for k in range(4)] == list(roots) == [*roots[:1], *roots[1:]]
+    assert roots[-1] == roots[3] and roots[2] in roots and roots == tuple(roots)
+    assert roots != roots[:3] and roots[:0] == ()
+    with pytest.raises(IndexError):
+        roots[4]
+    again = Solutions.of(list(roots), 2)
+    assert np.array_equal(again.points, np.array([s.point for s in roots]))
+    assert again.accuracy.tolist() == [s.accuracy for s in roots]
+    assert again.radii.keys() == {k for k, s in enumerate(roots) if s.radii is not None}

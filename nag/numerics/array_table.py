@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
-from typing import Any, Self
+from typing import Any, Self, TypeVar, overload
 
 import numpy as np
+
+Record = TypeVar("Record")
 
 
 class ArrayTable:
@@ -88,3 +90,36 @@ class ArrayTable:
         if table is None or first != count:
             raise ValueError(f"{first} rows came, not {count}")
         return replace(table, **whole)  # type: ignore[type-var]
+
+
+class RecordTable(ArrayTable, Sequence[Record]):
+    """A table whose rows are read as records, each made when it is asked for.
+
+    It equals any sequence of equal records.
+    """
+
+    def record(self, i: int) -> Record:
+        """The row ``i``, from 0 on."""
+        raise NotImplementedError
+
+    @overload
+    def __getitem__(self, index: int) -> Record: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Self: ...
+
+    def __getitem__(self, index: int | slice) -> Record | Self:
+        if isinstance(index, slice):
+            return self.select_rows(index)  # type: ignore[arg-type]
+        return self.record(range(len(self))[index])
+
+    def __iter__(self) -> Iterator[Record]:
+        return map(self.record, range(len(self)))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Sequence):
+            return NotImplemented
+        same = len(self) == len(other)
+        return same and all(a == b for a, b in zip(self, other, strict=True))
+
+    __hash__ = None  # type: ignore[assignment]

@@ -33,6 +33,10 @@ SPREAD = 10.0
 NEAR = 1e-6
 
 
+# Pairs of neighbours that are looked at together.
+PAIRS = 1 << 14
+
+
 def radii_of_balls(points: np.ndarray, errors: np.ndarray | float) -> np.ndarray:
     """Radii of the balls that points lie in, from their relative errors, shape ``(P,)``."""
     return SAFETY * np.maximum(LEAST, errors) * (1 + np.linalg.norm(points, axis=1))
@@ -57,7 +61,8 @@ def neighbours(key: np.ndarray, width: np.ndarray) -> Iterator[tuple[np.ndarray,
         width: shape ``(P,)``.
 
     Yields:
-        Indices of the pairs that lie 1, 2, .. places apart in the order of the keys.
+        Indices of the pairs that lie 1, 2, .. places apart in the order of the keys, some at a
+        time.
     """
     order = np.argsort(key, kind="stable")
     key, width = key[order], width[order]
@@ -67,8 +72,9 @@ def neighbours(key: np.ndarray, width: np.ndarray) -> Iterator[tuple[np.ndarray,
         if not (difference <= widest).any():
             return
         near = np.flatnonzero(difference <= np.maximum(width[apart:], width[:-apart]))
-        if len(near):
-            yield order[near], order[near + apart]
+        for first in range(0, len(near), PAIRS):
+            some = near[first : first + PAIRS]
+            yield order[some], order[some + apart]
 
 
 def classify_arrivals(

@@ -36,7 +36,7 @@ from nag.numerics.point_claims import (
 )
 from nag.numerics.read_only import equal_values
 from nag.solving.solution_claims import claims_of_solutions
-from nag.solving.solutions import Solution, SolveResult
+from nag.solving.solutions import Solution, Solutions, SolveResult
 from nag.solving.start.multihomogeneous import best_groups
 from nag.solving.start.target import Target
 from nag.solving.start.total_degree import bezout
@@ -113,9 +113,8 @@ class SolutionsCertificate:
         )
 
     def _false(self, among: np.ndarray) -> dict[str, int]:
-        solutions, proofs = self.result.solutions, self.points.proofs
-        said_real = np.array([s.real for s in solutions], dtype=bool)
-        said_simple = np.array([s.multiplicity == 1 for s in solutions], dtype=bool)
+        proofs, said_real = self.points.proofs, self.result.table.real
+        said_simple = self.result.table.multiplicity == 1
         simple = np.array([p is Proof.SIMPLE for p in proofs], dtype=bool)
         singular = np.array([p in (Proof.EXACT, Proof.DEFLATED) for p in proofs], dtype=bool)
         found = {
@@ -235,12 +234,11 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
     equations = [f for f in system.polynomials if f]
 
     def proved(solutions: Sequence[Solution]) -> CertifiedPoints:
-        places = np.array([s.point for s in solutions], dtype=complex).reshape(-1, system.n)
-        accuracy = np.array([s.accuracy for s in solutions], dtype=float)
-        multiple = np.array([s.multiplicity > 1 for s in solutions], dtype=bool)
+        said = Solutions.of(solutions, system.n)
         # A zero that is alone with its conjugate in a box is real only if coefficients are.
-        said_real = np.array([s.real and not system.imaginary for s in solutions], dtype=bool)
-        return certify_points(system.polynomials, none, places, accuracy, multiple, said_real)
+        real = said.real & (not system.imaginary)
+        multiple = said.multiplicity > 1
+        return certify_points(system.polynomials, none, said.points, said.accuracy, multiple, real)
 
     points = proved(result.solutions)
     same, unknown = find_overlaps(points.boxes)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import flint
 import numpy as np
 
+from nag.numerics.array_table import RecordTable
 from nag.numerics.coincidence import SAFETY
 from nag.numerics.digits import bits_of, in_bits, number_of_words
 from nag.numerics.precise_point import WORKING_DIGITS, PrecisePoint
@@ -73,30 +75,70 @@ class IsolatedZero(NamedTuple):
         return any(float(abs(a - b).mid()) > error * (1 + float(abs(a).mid())) for a, b in pairs)
 
 
-def which_are_real(zeros: Sequence[IsolatedZero]) -> np.ndarray:
+@dataclass(frozen=True, eq=False)
+class IsolatedZeros(RecordTable[IsolatedZero]):
+    """Isolated solutions in the scaled variables: the fields of `IsolatedZero`, as columns."""
+
+    points: np.ndarray
+    multiplicity: np.ndarray
+    residual: np.ndarray
+    accuracy: np.ndarray
+    condition: np.ndarray
+    precision: np.ndarray
+    fine: Mapping[int, PrecisePoint]
+
+    @classmethod
+    def of(cls, zeros: Sequence[IsolatedZero], n: int) -> IsolatedZeros:
+        """Zeros one by one, in ``n`` variables."""
+        return cls(
+            np.array([zero.point for zero in zeros], dtype=complex).reshape(-1, n),
+            np.array([zero.multiplicity for zero in zeros], dtype=np.int64),
+            np.array([zero.residual for zero in zeros], dtype=float),
+            np.array([zero.accuracy for zero in zeros], dtype=float),
+            np.array([zero.condition for zero in zeros], dtype=float),
+            np.array([zero.precision for zero in zeros], dtype=np.int64),
+            {i: zero.fine for i, zero in enumerate(zeros) if zero.fine is not None},
+        )
+
+    def record(self, i: int) -> IsolatedZero:
+        return IsolatedZero(
+            self.points[i],
+            int(self.multiplicity[i]),
+            float(self.residual[i]),
+            float(self.accuracy[i]),
+            float(self.condition[i]),
+            int(self.precision[i]),
+            self.fine.get(i),
+        )
+
+    def join(self, zeros: Sequence[IsolatedZero]) -> IsolatedZeros:
+        """These, and more after them."""
+        if not zeros:
+            return self
+        return self.concatenate([self, self.of(zeros, self.points.shape[1])])
+
+
+def which_are_real(zeros: IsolatedZeros) -> np.ndarray:
     """Which zeros are real, shape ``(k,)``.
 
     Imaginary parts beyond the errors, in the digits that a zero is known to, say that it is not.
     Of a zero in doubles a little beyond its estimated error, another zero that is its conjugate
     says so.
     """
-    if not zeros:
-        return np.zeros(0, dtype=bool)
-    points = np.array([zero.point for zero in zeros])
+    points = zeros.points
     sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
     imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
-    errors = SAFETY * sizes * np.array([zero.accuracy for zero in zeros])
-    in_doubles = np.array([zero.fine is None for zero in zeros], dtype=bool)
-    for i in np.flatnonzero(~in_doubles).tolist():
-        fine = zeros[i].fine
+    errors = SAFETY * sizes * zeros.accuracy
+    in_doubles = np.ones(len(zeros), dtype=bool)
+    for i, fine in zeros.fine.items():
+        in_doubles[i] = False
         parts = np.array([float(abs(z.imag).mid()) for z in fine.centre])
         # A small coordinate may be known far better than others.
         over = parts / np.maximum(fine.radii, VANISHES * (1 + np.abs(points[i])))
         imaginary[i], errors[i] = over.max(initial=0.0), SAFETY
     real = imaginary <= errors
     for i in np.flatnonzero(in_doubles & ~real & (imaginary <= REAL * sizes)).tolist():
-        conjugate = zeros[i].point.conj()
-        others = (zero.point for j, zero in enumerate(zeros) if j != i)
-        least = min((float(np.abs(x - conjugate).max()) for x in others), default=np.inf)
-        real[i] = least > errors[i]
+        apart = np.abs(points - points[i].conj()).max(axis=1)
+        apart[i] = np.inf
+        real[i] = apart.min() > errors[i]
     return real

@@ -101,8 +101,7 @@ def _may_lack(search: PathSearch) -> bool:
 def _known_zeros(search: PathSearch) -> tuple[np.ndarray, np.ndarray]:
     """The zeros that were found, shape ``(k, n)``, and how far they are from the exact ones."""
     isolated = search.ends.isolated
-    points = np.array([z.point for z in isolated]).reshape(-1, search.problem.system.n)
-    accuracy = np.array([z.accuracy for z in isolated])
+    points, accuracy = isolated.points, isolated.accuracy
     # Errors of projective points are relative to all coordinates together.
     sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
     return points, SLACK * accuracy * sizes**2

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import repeat
 
 import numpy as np
 
@@ -20,8 +19,13 @@ from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.doubles import MULTIPLE
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.zero_values import ON, vanishes_at, vanishes_at_point
-from nag.solving.isolated_zero import IsolatedZero, affine_point, which_are_real
-from nag.solving.solutions import LargerSets, Solution
+from nag.solving.isolated_zero import (
+    IsolatedZero,
+    IsolatedZeros,
+    affine_point,
+    which_are_real,
+)
+from nag.solving.solutions import LargerSets, Solutions
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import StartSystem
 from nag.text.table import count_text
@@ -48,19 +52,19 @@ class SortedEnds:
     are no such zeros, or may not be; ``notes``: all else.
     """
 
-    solutions: tuple[Solution, ...]
-    excluded: tuple[Solution, ...]
+    solutions: Solutions
+    excluded: Solutions
     notes: tuple[str, ...]
     larger: LargerSets
     undecided: np.ndarray
     unclear: tuple[str, ...]
     close: np.ndarray
-    isolated: tuple[IsolatedZero, ...]
+    isolated: IsolatedZeros
 
     @cached_property
     def zeros(self) -> int:
         """The number of isolated zeros, by multiplicity."""
-        return sum(zero.multiplicity for zero in self.isolated)
+        return int(self.isolated.multiplicity.sum())
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +136,9 @@ def sort_ends(
     sets: list[tuple[np.ndarray, bool | None]] = []
     close: list[int] = []
     each = problem.added or problem.squared
-    isolated = [] if each else _list_regular(begin, zeros, zeros.regular_indices(), paths)
+    regular = zeros.regular_indices()
+    known = _list_regular(begin, zeros, regular[:0] if each else regular, paths)
+    isolated: list[IsolatedZero] = []
     groups = [*zeros.regular_indices()[:, None], *zeros.groups()] if each else zeros.groups()
     judge = partial(_judge_end, problem, begin, zeros, paths, evaluator, rng)
     whole = begin.complete and not problem.squared
@@ -165,13 +171,14 @@ def sort_ends(
             may_be = "may or may not be an isolated solution, or several that are close together"
         unclear.append(f"{count_text(open_, 'end point')} {may_be}")
     original = problem.target.original
+    every = known.join(isolated)
     return SortedEnds(
-        *_solutions(problem, isolated),
+        *_solutions(problem, every),
         LargerSets.of(n, sets).map_points(original),
         original(np.array(undecided).reshape(-1, n)),
         tuple(unclear),
         np.array(sorted(close), dtype=np.int64),
-        tuple(isolated),
+        every,
     )
 
 
@@ -182,8 +189,9 @@ def add_zeros(
     instead_of: Collection[int] = (),
 ) -> SortedEnds:
     """The same, with more zeros in the scaled variables, some of which replace known ones."""
-    kept = [zero for k, zero in enumerate(ends.isolated) if k not in instead_of]
-    isolated = (*kept, *zeros)
+    kept = np.ones(len(ends.isolated), dtype=bool)
+    kept[list(instead_of)] = False
+    isolated = ends.isolated.select_rows(kept).join(zeros)
     solutions, excluded, notes = _solutions(problem, isolated)
     return replace(ends, solutions=solutions, excluded=excluded, notes=notes, isolated=isolated)
 
@@ -193,7 +201,7 @@ def _select_zeros(
 ) -> tuple[_Zeros, int]:
     """The finite ends that are zeros, and the number of those that are only roughly."""
     finite = paths.where(PathStatus.REGULAR, PathStatus.SINGULAR)
-    points = begin.affine(paths.points[finite])
+    points = begin.affine(_rows(paths.points, finite))
     accuracy = paths.accuracy[finite]
     residual = _residuals(evaluator, points)
     regular = paths.status[finite] == PathStatus.REGULAR
@@ -203,27 +211,31 @@ def _select_zeros(
         # Whether a regular zero is one of all equations is decided exactly, below.
         on |= regular & (residual < NEARLY)
         lost = ~on & (residual < NEARLY)
-    kept = _Zeros(finite[on], points[on], accuracy[on], residual[on], regular[on])
+    rows = _rows(points, np.flatnonzero(on))
+    kept = _Zeros(finite[on], rows, accuracy[on], residual[on], regular[on])
     return kept, int(lost.sum())
+
+
+def _rows(points: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+    """Some rows by indices that increase; the array itself, which may be large, if all."""
+    return points if len(chosen) == len(points) else points[chosen]
 
 
 def _list_regular(
     begin: StartSystem, zeros: _Zeros, chosen: np.ndarray, paths: Paths
-) -> list[IsolatedZero]:
-    """Regular ends as zeros of the equations."""
+) -> IsolatedZeros:
+    """Regular ends as zeros of the equations; ``chosen``: indices that increase."""
     path = zeros.path[chosen]
-    columns = (
+    balls = [(k, paths.balls[i]) for k, i in enumerate(path.tolist()) if i in paths.balls]
+    return IsolatedZeros(
+        _rows(zeros.points, chosen),
+        np.ones(len(chosen), dtype=np.int64),
         zeros.residual[chosen],
         zeros.accuracy[chosen],
         paths.condition[path],
-        paths.precision[path],
+        paths.precision[path].astype(np.int64),
+        {k: affine_point(begin, ball) for k, ball in balls},
     )
-    fine = repeat(None)
-    if paths.balls:
-        balls = [paths.balls.get(i) for i in path.tolist()]
-        fine = [None if ball is None else affine_point(begin, ball) for ball in balls]
-    points = zeros.points[chosen]
-    return list(map(IsolatedZero, points, repeat(1), *(c.tolist() for c in columns), fine))
 
 
 def _judge_end(
@@ -343,48 +355,41 @@ def _points(ends: Sequence[SingularEnd], n: int) -> np.ndarray:
 
 
 def _solutions(
-    problem: SquareProblem, isolated: Sequence[IsolatedZero]
-) -> tuple[tuple[Solution, ...], tuple[Solution, ...], tuple[str, ...]]:
+    problem: SquareProblem, isolated: IsolatedZeros
+) -> tuple[Solutions, Solutions, tuple[str, ...]]:
     """The solutions where nothing vanishes that must not, and those that were left out; notes."""
-    points = np.concatenate(
-        [np.zeros(0), *(s.point for s in isolated)], dtype=np.complex128
-    ).reshape(-1, problem.system.n)
-    accuracy = np.array([s.accuracy for s in isolated])
-    multiplicity = np.array([s.multiplicity for s in isolated], dtype=np.int64)
+    points, accuracy = isolated.points, isolated.accuracy.copy()
     real = which_are_real(isolated)
     # Where the unit is known for i, conjugates solve another system.
     paired = problem.system.imaginary or bool(
-        conjugates_present(points, accuracy, multiplicity, real)
+        conjugates_present(points, accuracy, isolated.multiplicity, real)
     )
-    answers: list[bool | None] = [False] * len(isolated)
+    answers: list[bool | None] = []
     if problem.nonzero:
         answers = [problem.is_excluded(s) for s in isolated]
-    original = np.array(problem.target.original(points), dtype=np.complex128)
-    original.setflags(write=False)
-    for i, (x, zero) in enumerate(zip(original, isolated, strict=True)):
-        if zero.fine is not None:
-            # Coordinates that are small where errors were estimated may be the largest of these.
-            radii = problem.target.original_radii(x, zero.fine.radii)
-            own = np.linalg.norm(radii) / (1 + np.linalg.norm(x))
-            accuracy[i] = max(accuracy[i], own)
-    errors = (accuracy + problem.target.rounding(points)).tolist()
-    solutions = [
-        Solution(
-            point,
-            s.multiplicity,
-            is_real,
-            s.residual,
-            error,
-            s.condition,
-            s.precision,
-            problem.target.original_radii(point, s.radii),
-        )
-        for point, s, is_real, error in zip(original, isolated, real.tolist(), errors, strict=True)
-    ]
-    kept, left_out = (
-        tuple(s for s, answer in zip(solutions, answers, strict=True) if answer is wanted)
-        for wanted in (False, True)
+    original, radii = problem.target.original(points), {}
+    for i, fine in isolated.fine.items():
+        # Coordinates that are small where errors were estimated may be the largest of these.
+        x = original[i]
+        own = np.linalg.norm(problem.target.original_radii(x, fine.radii))
+        accuracy[i] = max(accuracy[i], own / (1 + np.linalg.norm(x)))
+        radii[i] = problem.target.original_radii(x, isolated[i].radii)
+    solutions = Solutions(
+        original,
+        isolated.multiplicity,
+        real,
+        isolated.residual,
+        accuracy + problem.target.rounding(points),
+        isolated.condition,
+        isolated.precision,
+        radii,
     )
+    kept, left_out = solutions, solutions.select_rows(slice(0))
+    if True in answers or None in answers:
+        kept, left_out = (
+            solutions.select_rows(np.array([answer is wanted for answer in answers]))
+            for wanted in (False, True)
+        )
     notes = []
     if None in answers:
         open_ = problem.on_one_side(answers.count(None))

@@ -31,10 +31,12 @@ def has_real_coordinates(solution: Solution) -> bool:
 
 def answer_text(result: SolveResult, is_real: Reality = has_real_coordinates) -> str:
     """The answer in one sentence."""
-    count, real = len(result.solutions), sum(map(is_real, result.solutions))
+    count, real = len(result.solutions), int(_which(result, is_real).sum())
     text = f"{count} isolated solution{'' if count == 1 else 's'}, {real} real"
-    multiple = Counter(s.multiplicity for s in result.solutions if s.multiplicity > 1)
+    multiple = Counter(result.table.multiplicity.tolist())
     for multiplicity, number in sorted(multiple.items()):
+        if multiplicity == 1:
+            continue
         text += f", {number} of multiplicity {multiplicity}"
     if result.excluded:
         text += f"; {result.excluded} more excluded, where a polynomial that must not vanish does"
@@ -43,6 +45,13 @@ def answer_text(result: SolveResult, is_real: Reality = has_real_coordinates) ->
     elif result.perhaps_infinite:
         text += "; whether there is a solution set of positive dimension could not be decided"
     return text
+
+
+def _which(result: SolveResult, is_real: Reality) -> np.ndarray:
+    """Which solutions are real, shape ``(k,)``."""
+    if is_real is has_real_coordinates:
+        return result.table.real
+    return np.array([is_real(s) for s in result.solutions], dtype=bool)
 
 
 def solution_rows(
@@ -55,7 +64,7 @@ def solution_rows(
 
     At most ``columns`` coordinates are shown, the imaginary unit not.
     """
-    ordered = sorted(range(len(result.solutions)), key=lambda i: not is_real(result.solutions[i]))
+    ordered = np.argsort(~_which(result, is_real), kind="stable").tolist()
     names = result.system.own_variables
     columns = len(names) if columns is None else min(columns, len(names))
     dots = ["..."] if len(names) > columns else []
@@ -127,10 +136,10 @@ def _rests_on(result: SolveResult) -> str:
     if not result.solutions:
         return "no points"
     residual, accuracy, condition = (
-        magnitude(float(np.max([getattr(s, name) for s in result.solutions])))
+        magnitude(float(np.max(getattr(result.table, name))))
         for name in ("residual", "accuracy", "condition")
     )
-    digits = max(s.precision for s in result.solutions)
+    digits = int(result.table.precision.max())
     return f"residual {residual}, accuracy {accuracy}, condition {condition}, {digits} digits"
 
 

@@ -2,21 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
+from types import MappingProxyType
 from typing import Any, overload
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.to_sympy import to_sympy_point
-from nag.numerics.read_only import ComplexArray, RealArray, equal_values, fixed_array
+from nag.numerics.array_table import RecordTable
+from nag.numerics.read_only import (
+    BooleanArray,
+    ComplexArray,
+    IntegerArray,
+    RealArray,
+    equal_values,
+    fixed_array,
+)
 from nag.text.json_text import Objects, pairs, real_or_null
 from nag.text.table import count_text, data_frame, one_line
 from nag.tracking.run import Run
 
 # Of exported results.
 FORMAT, VERSION = "nag-solutions", 1
+# Fields of `Solution` that are numbers.
+NUMBERS = {
+    "multiplicity": np.int64,
+    "real": np.bool_,
+    "residual": np.float64,
+    "accuracy": np.float64,
+    "condition": np.float64,
+    "precision": np.int64,
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +91,68 @@ class Solution:
         from nag.solving.shown import solution_text
 
         return solution_text(self)
+
+
+@dataclass(frozen=True, eq=False)
+class Solutions(RecordTable[Solution]):
+    """Isolated solutions: a sequence of `Solution`, kept as columns, shape ``(k,)``.
+
+    Attributes:
+        points: complex, shape ``(k, n)``.
+        radii: those that are known, by index.
+    """
+
+    points: ComplexArray
+    multiplicity: IntegerArray
+    real: BooleanArray
+    residual: RealArray
+    accuracy: RealArray
+    condition: RealArray
+    precision: IntegerArray
+    radii: Mapping[int, RealArray]
+
+    def __post_init__(self) -> None:
+        for name in ("points", *NUMBERS):
+            # Whoever makes the table hands its columns over: they may be large.
+            getattr(self, name).setflags(write=False)
+        fixed = {i: fixed_array(radii) for i, radii in self.radii.items()}
+        object.__setattr__(self, "radii", MappingProxyType(fixed))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        columns = {name: getattr(self, name) for name in NUMBERS}
+        return _solutions, (self.points, columns, dict(self.radii))
+
+    @classmethod
+    def of(cls, solutions: Sequence[Solution], n: int) -> Solutions:
+        """Solutions one by one, in ``n`` variables."""
+        if isinstance(solutions, Solutions):
+            return solutions
+        numbers = {
+            name: np.array([getattr(s, name) for s in solutions], dtype=dtype)
+            for name, dtype in NUMBERS.items()
+        }
+        radii = {i: s.radii for i, s in enumerate(solutions) if s.radii is not None}
+        points = np.array([s.point for s in solutions], dtype=complex).reshape(len(solutions), n)
+        return cls(points=points, radii=radii, **numbers)
+
+    def record(self, i: int) -> Solution:
+        return Solution(
+            self.points[i],
+            int(self.multiplicity[i]),
+            bool(self.real[i]),
+            float(self.residual[i]),
+            float(self.accuracy[i]),
+            float(self.condition[i]),
+            int(self.precision[i]),
+            self.radii.get(i),
+        )
+
+
+def _solutions(
+    points: np.ndarray, columns: Mapping[str, np.ndarray], radii: Mapping[int, np.ndarray]
+) -> Solutions:
+    """What pickles and copies are made of again."""
+    return Solutions(points=points, radii=radii, **columns)
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,7 +264,7 @@ class SolveResult(Sequence[Solution]):
     """
 
     system: PolynomialSystem
-    solutions: tuple[Solution, ...]
+    solutions: Sequence[Solution]
     on_components: ComplexArray
     undecided: ComplexArray
     excluded: int
@@ -195,7 +275,7 @@ class SolveResult(Sequence[Solution]):
     settings: str
     complete: bool
     notes: tuple[str, ...] = ()
-    excluded_solutions: tuple[Solution, ...] = ()
+    excluded_solutions: Sequence[Solution] = ()
     method: str = ""
     pathless: bool = False
     on_excluded: ComplexArray | None = None
@@ -204,6 +284,9 @@ class SolveResult(Sequence[Solution]):
     __eq__ = equal_values
 
     def __post_init__(self) -> None:
+        for name in ("solutions", "excluded_solutions"):
+            table = Solutions.of(getattr(self, name), self.system.n)
+            object.__setattr__(self, name, table)
         for name in ("on_components", "undecided", "on_excluded", "on_doubtful"):
             points = getattr(self, name)
             if points is None:
@@ -240,7 +323,7 @@ class SolveResult(Sequence[Solution]):
         larger = LargerSets.of(system.n) if larger is None else larger
         return cls(
             system=system,
-            solutions=tuple(solutions),
+            solutions=solutions,
             on_components=larger.counting,
             undecided=np.zeros((0, system.n), dtype=complex) if undecided is None else undecided,
             excluded=len(excluded),
@@ -251,7 +334,7 @@ class SolveResult(Sequence[Solution]):
             settings=run.name,
             complete=whole and not doubts,
             notes=tuple(dict.fromkeys([*doubts, *larger.notes, *remarks])),
-            excluded_solutions=tuple(excluded),
+            excluded_solutions=excluded,
             method=method,
             pathless=pathless,
             on_excluded=larger.excluded,
@@ -261,7 +344,12 @@ class SolveResult(Sequence[Solution]):
     @property
     def points(self) -> ComplexArray:
         """The isolated solutions, shape ``(k, n)``."""
-        return np.array([s.point for s in self.solutions]).reshape(-1, self.system.n)
+        return self.table.points
+
+    @property
+    def table(self) -> Solutions:
+        """The isolated solutions as arrays."""
+        return Solutions.of(self.solutions, self.system.n)
 
     @property
     def real(self) -> tuple[Solution, ...]:
@@ -293,14 +381,14 @@ class SolveResult(Sequence[Solution]):
     def __getitem__(self, index: int) -> Solution: ...
 
     @overload
-    def __getitem__(self, index: slice) -> tuple[Solution, ...]: ...
+    def __getitem__(self, index: slice) -> Sequence[Solution]: ...
 
-    def __getitem__(self, index: int | slice) -> Solution | tuple[Solution, ...]:
+    def __getitem__(self, index: int | slice) -> Solution | Sequence[Solution]:
         return self.solutions[index]
 
     def to_numpy(self) -> ComplexArray:
         """The isolated solutions, complex, shape ``(k, n)``, to be written to."""
-        return self.points
+        return self.points.copy()
 
     def to_dataframe(self, real: bool = False) -> Any:
         """A row for each isolated solution: its coordinates, complex, and what is known of it.

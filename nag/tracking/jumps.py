@@ -34,9 +34,8 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     if len(chosen) < 2 or not paths.simple.any():
         return chosen[:0]
     found: set[int] = set()
-    for a, b in coinciding_pairs(
-        homotopy.groups, paths.points[chosen], paths.accuracy[chosen]
-    ).tolist():
+    points = paths.points if len(chosen) == len(paths) else paths.points[chosen]
+    for a, b in coinciding_pairs(homotopy.groups, points, paths.accuracy[chosen]).tolist():
         i, j = chosen[[a, b]].tolist()
         if (paths.simple[i] or paths.simple[j]) and paths.same(homotopy, i, j):
             found |= {i, j}

@@ -21,6 +21,8 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.known import NOTHING, KnownOfPaths
 from nag.tracking.starts import StartsByIndex
 
+# Points that are divided at once.
+BLOCK = 4096
 Terms = Mapping[Exponents, Number | complex]
 
 
@@ -84,7 +86,11 @@ class Target:
 
     def original(self, points: np.ndarray) -> np.ndarray:
         """Values of the original variables, from those of ``y``, shape ``(P, n)``."""
-        return points * self._units + self._origin if self.scales else points
+        if not self.scales:
+            return points
+        found = points * self._units
+        found += self._origin
+        return found
 
     def scaled_points(self, x: np.ndarray) -> np.ndarray:
         """Values of ``y``, from those of the original variables, shape ``(P, n)``."""
@@ -211,7 +217,11 @@ class StartSystem:
         result = np.empty((len(points), n), dtype=np.complex128)
         for k, group in enumerate(self.groups):
             indices = list(group)
-            result[:, indices] = points[:, [shift + i for i in indices]] / points[:, k : k + 1]
+            places = [shift + i for i in indices]
+            # Some at a time, as there may be 10^6 of them.
+            for first in range(0, len(points), BLOCK):
+                some = points[first : first + BLOCK]
+                result[first : first + BLOCK, indices] = some[:, places] / some[:, k : k + 1]
         return result
 
 
