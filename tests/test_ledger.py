@@ -25,6 +25,7 @@ from nag.cli import main
 from nag.errors import InputError
 from nag.files.export import export_text as decomposition_text
 from nag.files.solutions_export import export_text as solutions_text
+from nag.solving.certificate import certify_solutions
 from nag.tracking.blocks import in_blocks, open_engine
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.ledger import Ledger, add_content, key_of
@@ -316,3 +317,21 @@ def test_a_run_that_is_killed_goes_on_to_the_same_answer(seed: int, tmp_path: Pa
     subprocess.run(words, cwd=ROOT, check=True, capture_output=True)
     assert answer.read_bytes() == plain.read_bytes()
     shutil.rmtree(ledger)
+
+
+def test_certificates_are_found_again_block_by_block(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("nag.numerics.krawczyk.MOST_POINTS", 8)
+    result = nag.solve(katsura(5))
+    told: list[tuple[str, int, int]] = []
+
+    def proved() -> dict[str, Any]:
+        return certify_solutions(result).document()
+
+    plain = proved()
+    for found, kept in ((0, 8), (8, 0)):
+        with open_engine(tmp_path, None, lambda *step: told.append(step)) as engine:
+            assert proved() == plain
+        assert engine is not None and engine.ledger is not None
+        assert (engine.ledger.found, engine.ledger.kept) == (found, kept)
+    assert told[:4] == [("proving boxes, blocks", k, 4) for k in range(1, 5)]
+    assert told[4:] == [("proving errors, blocks", k, 4) for k in range(1, 5)]

@@ -37,7 +37,14 @@ from nag.numerics.digits import DIGITS, in_bits, middle, rational_point, to_ball
 from nag.numerics.discs import UP
 from nag.numerics.double_ranks import pivot_rows
 from nag.numerics.doubles import EPS, ROUNDED, SLACK
-from nag.numerics.krawczyk import Boxes, enter_box, find_overlaps, prove_boxes
+from nag.numerics.krawczyk import (
+    Boxes,
+    Share,
+    enter_box,
+    find_overlaps,
+    prove_boxes,
+    work_here,
+)
 from nag.numerics.newton import newton_to_rest
 from nag.numerics.read_only import equal_values
 from nag.numerics.singular_point import Place, analyse
@@ -221,6 +228,7 @@ def certify_points(
     accuracy: np.ndarray,
     singular: np.ndarray,
     real: np.ndarray | None = None,
+    share: Share = work_here,
 ) -> CertifiedPoints:
     """Prove what can be proved of points of a zero set on a slice.
 
@@ -232,6 +240,7 @@ def certify_points(
         singular: which of the points are known to be singular, shape ``(P,)``.
         real: which of them are said to be real, shape ``(P,)``: which one of several zeros is meant
             where doubles do not tell them apart.
+        share: who works out what doubles are to prove.
     """
     equations = [f for f in polynomials if f]
     found, proofs = _nothing_proved(points), [Proof.NONE] * len(points)
@@ -239,7 +248,7 @@ def certify_points(
     reach = _reach(accuracy)
     finite = np.isfinite(points).all(axis=1)
     tested = np.flatnonzero(~singular & finite)
-    refuted = _regular(equations, slices, found, proofs, tested, reach)
+    refuted = _regular(equations, slices, found, proofs, tested, reach, share)
     if len(equations) + len(slices) == n:
         _close_together(
             BallPolynomials.of(equations, slices), found, proofs, tested, accuracy, real
@@ -290,6 +299,7 @@ def _regular(
     proofs: list[Proof],
     tested: np.ndarray,
     reach: np.ndarray,
+    share: Share = work_here,
 ) -> set[int]:
     """Prove simple zeros next to the points ``tested``; those proved to be next to none."""
     boxes, points = found.boxes, found.points
@@ -297,7 +307,8 @@ def _regular(
     if count > n:
         return _prove_overdetermined(equations, slices, found, proofs, tested, reach)
     if count == n:
-        _enter(boxes, tested, prove_boxes(equations, slices, points[tested], reach[tested]))
+        near = points[tested], reach[tested]
+        _enter(boxes, tested, prove_boxes(equations, slices, *near, share=share))
         for i in tested[boxes.proved[tested]].tolist():
             proofs[i] = Proof.SIMPLE
     return set()

@@ -14,8 +14,10 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from typing import Any
 
 import flint
 import numpy as np
@@ -36,8 +38,20 @@ INFLATIONS = 4
 WIDER, LEAST_SIDE = 2.0, 2.0**-60
 # Boxes are made larger afterwards, by this factor at a time, so that they tell zeros apart.
 GROWTH, GROWN = 1024.0, 1
-# Points that are tested at once, by entries of their Jacobians.
-BLOCK = 2**17
+# Points of a block at the most, and by entries of their Jacobians.
+MOST_POINTS, BLOCK = 1024, 2**19
+
+# Works out the results of a function, arrays by name, for the arguments of several calls, in their
+# order; what they are called where progress is told.
+Work = Callable[..., Mapping[str, np.ndarray]]
+Share = Callable[[Work, Sequence[tuple[Any, ...]], str], Iterable[Mapping[str, np.ndarray]]]
+
+
+def work_here(
+    work: Work, calls: Sequence[tuple[Any, ...]], stage: str
+) -> Iterator[Mapping[str, np.ndarray]]:
+    """One after another, here."""
+    return (work(*call) for call in calls)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +82,7 @@ def prove_boxes(
     points: np.ndarray,
     reach: np.ndarray,
     in_balls: Callable[[int], bool] = lambda _: True,
+    share: Share = work_here,
 ) -> Boxes:
     """Prove a simple zero next to each point.
 
@@ -78,8 +93,9 @@ def prove_boxes(
         points: complex, shape ``(P, n)``.
         reach: how far from the points zeros may be to count, relative to their size, ``(P,)``.
         in_balls: which points, by their indices, are looked at in more digits than doubles have.
+        share: who works out what doubles are to prove.
     """
-    found = boxes_in_doubles(polynomials, slices, points)
+    found = boxes_in_doubles(polynomials, slices, points, share)
     sizes = np.maximum(1.0, np.abs(points).max(axis=1, initial=0.0))
     found.proved[~(found.inner.max(axis=1, initial=0.0) < reach * sizes)] = False
     left = [i for i in np.flatnonzero(~found.proved).tolist() if in_balls(i)]
@@ -94,21 +110,33 @@ def prove_boxes(
 
 
 def boxes_in_doubles(
-    polynomials: Sequence[Polynomial], slices: np.ndarray, points: np.ndarray
+    polynomials: Sequence[Polynomial],
+    slices: np.ndarray,
+    points: np.ndarray,
+    share: Share = work_here,
 ) -> Boxes:
     """The boxes that doubles suffice to prove."""
     P, n = points.shape
     none = np.zeros(P, dtype=bool)
     boxes = Boxes(points.copy(), np.full((P, n), np.inf), np.full((P, n), np.inf), none, {})
-    try:
-        system = DiscPolynomials.of(polynomials, slices)
-    except OverflowError:
-        return boxes
-    for block in _in_blocks(system, P):
-        with np.errstate(all="ignore"):
-            outer, inner, proved = _test_boxes(system, points[block])
-        boxes.outer[block], boxes.inner[block], boxes.proved[block] = outer, inner, proved
+    blocks = _blocks(len(polynomials) + len(slices), n, P)
+    calls = [(tuple(polynomials), slices, points[block]) for block in blocks]
+    for block, found in zip(blocks, share(prove_block, calls, "proving boxes"), strict=True):
+        for name in ("outer", "inner", "proved"):
+            getattr(boxes, name)[block] = found[name]
     return boxes
+
+
+def prove_block(
+    polynomials: Sequence[Polynomial], slices: np.ndarray, points: np.ndarray, threads: int = 1
+) -> dict[str, np.ndarray]:
+    """A block of `boxes_in_doubles`, by the names of its arrays in `Boxes`."""
+    blank = np.full(points.shape, np.inf)
+    found = blank, blank, np.zeros(len(points), dtype=bool)
+    # A coefficient may be too large for a double.
+    with suppress(OverflowError), np.errstate(all="ignore"):
+        found = _test_boxes(DiscPolynomials.of(polynomials, slices), points)
+    return dict(zip(("outer", "inner", "proved"), found, strict=True))
 
 
 def _test_boxes(
@@ -138,7 +166,11 @@ def _test_boxes(
 
 
 def sharpen_boxes(
-    polynomials: Sequence[Polynomial], slices: np.ndarray, boxes: Boxes, chosen: np.ndarray
+    polynomials: Sequence[Polynomial],
+    slices: np.ndarray,
+    boxes: Boxes,
+    chosen: np.ndarray,
+    share: Share = work_here,
 ) -> np.ndarray:
     """Smaller radii of boxes that zeros lie in, by residuals in more digits.
 
@@ -148,25 +180,37 @@ def sharpen_boxes(
     Args:
         polynomials, slices: as many rows as unknowns, of `prove_boxes`.
         boxes: those it found; chosen: indices of some that were proved in doubles.
+        share: who works it out.
 
     Returns:
         Radii, none larger than ``inner``, shape ``(len(chosen), n)``.
     """
-    inner = boxes.inner[chosen]
+    blocks = _blocks(len(polynomials) + len(slices), boxes.centres.shape[1], len(chosen))
+    calls = [
+        (tuple(polynomials), slices, boxes.centres[some], boxes.inner[some])
+        for some in (chosen[block] for block in blocks)
+    ]
+    found = share(sharpen_radii, calls, "proving errors")
+    return np.concatenate([boxes.inner[:0], *(each["inner"] for each in found)])
+
+
+def sharpen_radii(
+    polynomials: Sequence[Polynomial],
+    slices: np.ndarray,
+    points: np.ndarray,
+    inner: np.ndarray,
+    threads: int = 1,
+) -> dict[str, np.ndarray]:
+    """A block of `sharpen_boxes`, about points."""
     try:
         system = DiscPolynomials.of(polynomials, slices)
     except OverflowError:
-        return inner
-    balls = BallPolynomials.of(polynomials, slices)
-    for block in _in_blocks(system, len(chosen)):
-        points = boxes.centres[chosen[block]]
-        with np.errstate(all="ignore"):
-            exact = Discs(points, np.zeros(points.shape))
-            inverse = invert_matrices(system.jacobian(exact).mid)
-            step = _step(inverse, _values_in_balls(balls, points))
-            image = _image(system, points, inner[block], inverse, step)
-        inner[block] = np.fmin(inner[block], image)
-    return inner
+        return {"inner": inner}
+    values = _values_in_balls(BallPolynomials.of(polynomials, slices), points)
+    with np.errstate(all="ignore"):
+        inverse = invert_matrices(system.jacobian(Discs(points, np.zeros(points.shape))).mid)
+        image = _image(system, points, inner, inverse, _step(inverse, values))
+    return {"inner": np.fmin(inner, image)}
 
 
 def _values_in_balls(system: BallPolynomials, points: np.ndarray) -> Discs:
@@ -185,10 +229,10 @@ def _values_in_balls(system: BallPolynomials, points: np.ndarray) -> Discs:
     return Discs(mid, (rad + 4 * UNIT * magnitude(mid)) * UP + LEAST)
 
 
-def _in_blocks(system: DiscPolynomials, count: int) -> Iterator[slice]:
+def _blocks(rows: int, n: int, count: int) -> list[slice]:
     """So many points, as many at once as memory is for."""
-    size = max(1, BLOCK // max(1, system.slopes.matrix.shape[0]))
-    return (slice(first, first + size) for first in range(0, count, size))
+    size = min(MOST_POINTS, max(1, BLOCK // max(1, rows * n)))
+    return [slice(first, min(first + size, count)) for first in range(0, count, size)]
 
 
 def _grow(

@@ -24,7 +24,7 @@ from nag.numerics.claims import Standing
 from nag.numerics.deflated_system import vanishing_digits
 from nag.numerics.digits import in_bits
 from nag.numerics.discs import UP, DiscPolynomials, Discs, magnitude
-from nag.numerics.krawczyk import fine_box, sharpen_boxes
+from nag.numerics.krawczyk import Share, fine_box, sharpen_boxes, work_here
 
 # Decides: Distance in 150 digits from zeros of coordinates that are said to be exact: evidence.
 SAME = 1e-140
@@ -68,12 +68,17 @@ def multiplicity_standings(points: CertifiedPoints, said: Sequence[int]) -> list
 
 
 def error_standings(
-    equations: Sequence[Polynomial], slices: np.ndarray, points: CertifiedPoints, radii: np.ndarray
+    equations: Sequence[Polynomial],
+    slices: np.ndarray,
+    points: CertifiedPoints,
+    radii: np.ndarray,
+    share: Share = work_here,
 ) -> list[Standing]:
     """That no coordinate of a zero is further from that of its point than ``radii``.
 
     Args:
         radii: shape ``(P, n)``; infinite where nothing is said.
+        share: who works out what doubles are to prove.
     """
     boxes = SharpBoxes(equations, slices, points)
     inner = points.boxes.inner.copy()
@@ -83,7 +88,7 @@ def error_standings(
     simple[list(points.boxes.fine)] = False
     if len(equations) + len(slices) == points.points.shape[1]:
         left = np.flatnonzero(simple & ~held & np.isfinite(radii).all(axis=1))
-        inner[left] = sharpen_boxes(equations, slices, points.boxes, left)
+        inner[left] = sharpen_boxes(equations, slices, points.boxes, left, share)
         held = _holds_zeros(points, inner, radii)
     return [
         Standing.PROVED if within else _error_standing(boxes, i, radii[i].tolist())

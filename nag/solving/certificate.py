@@ -40,6 +40,7 @@ from nag.solving.solutions import Solution, Solutions, SolveResult
 from nag.solving.start.multihomogeneous import best_groups
 from nag.solving.start.target import Target
 from nag.solving.start.total_degree import bezout
+from nag.tracking.blocks import share
 
 if TYPE_CHECKING:
     from nag.solving.certified_paths import ProvedPaths
@@ -238,7 +239,9 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
         # A zero that is alone with its conjugate in a box is real only if coefficients are.
         real = said.real & (not system.imaginary)
         multiple = said.multiplicity > 1
-        return certify_points(system.polynomials, none, said.points, said.accuracy, multiple, real)
+        return certify_points(
+            system.polynomials, none, said.points, said.accuracy, multiple, real, share
+        )
 
     points = proved(result.solutions)
     same, unknown = find_overlaps(points.boxes)

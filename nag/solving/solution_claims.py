@@ -35,6 +35,7 @@ from nag.numerics.point_claims import (
 )
 from nag.solving.path_ends import NEARLY
 from nag.solving.solutions import Solution, SolveResult
+from nag.tracking.blocks import share
 
 if TYPE_CHECKING:
     from nag.solving.certificate import SolutionsCertificate
@@ -83,7 +84,7 @@ def _claims_of_points(
         ),
         "accuracy": (
             "that its point is no further from a zero than it says",
-            error_standings(equations, none, points, radii),
+            error_standings(equations, none, points, radii, share),
         ),
         "real": (
             ["that it is real" if s.real else "that it is not real" for s in solutions],

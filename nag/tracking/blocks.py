@@ -127,6 +127,27 @@ def work_out(
     return [result for result in results if result is not None]
 
 
+def share(work: Work, calls: Sequence[tuple[Any, ...]], stage: str) -> Iterator[Arrays]:
+    """Results of a function for several arguments, in their order, few of them in memory.
+
+    They are kept or shared where someone does; a single call is worked out in less time.
+    """
+    chosen = _engine.get()
+    if chosen is None or len(calls) < 2:
+        yield from (work(*call) for call in calls)
+        return
+    some = at_once()
+    for first in range(0, len(calls), some):
+
+        def told(done: int, first: int = first) -> None:
+            if chosen.tell is not None:
+                chosen.tell(f"{stage}, blocks", first + done, len(calls))
+
+        yield from (
+            found for found, _ in work_out(work, calls[first : first + some], stage, 1, told)
+        )
+
+
 def _results(
     chosen: Engine,
     work: Work,
