@@ -9,7 +9,7 @@ import pytest
 
 import nag
 from nag.decomposition import sample
-from nag.tracking.run import REMARK
+from nag.text.progress import REMARK
 
 EQUATIONS = ["(x^2 + y^2 - 1)*(x^2 + x*y + 3*y^2 - 2)"]
 

@@ -283,6 +283,17 @@ def test_progress_is_not_written_more_often_than_it_can_be_read(kind, wait, monk
     assert "splitting: 2" not in written
 
 
+def test_a_line_says_how_a_stage_goes_and_that_is_no_other_stage(monkeypatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr("nag.cli.running.time.monotonic", lambda: now[0])
+    terminal = Terminal()
+    with progress_line(terminal) as progress:
+        for step, now[0], remark in ((0, 20.0, ""), (30, 80.0, "; 7 doubtful")):
+            progress(f"paths{remark}", step, 120)
+    last = terminal.getvalue().split("\r\x1b[K")[-2]
+    assert last.startswith("[#####---------------] 25 % paths: 30 of 120, 7 doubtful (1 min 20 s")
+
+
 def test_a_line_says_the_rate_and_the_time_left_of_its_stage(monkeypatch) -> None:
     now = [0.0]
     monkeypatch.setattr("nag.cli.running.time.monotonic", lambda: now[0])

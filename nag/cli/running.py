@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 from nag.cli.arguments import UsageError
 from nag.numerics.linear_algebra_threads import VARIABLES
+from nag.text.progress import draw_bar, stage_name, stage_text
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -371,7 +372,7 @@ def check_option_target(option: str, target: str, source: str = "") -> None:
 
 
 class ProgressLine:
-    """How far the work is: one line on a terminal, written over; elsewhere a line every minute.
+    """How far the work is: one line on a terminal, with a bar; elsewhere a line every minute.
 
     Called as ``line(stage, done, total)``, from any thread; a ``total`` of 0 means not known. From
     then on until `erase` the line stands; `show` keeps its times up to date.
@@ -391,7 +392,7 @@ class ProgressLine:
         self._stage_started, self._stage_first = self._started, 0
 
     def __call__(self, stage: str, done: int, total: int) -> None:
-        if stage != self.stage or done < self._done:
+        if stage_name(stage) != stage_name(self.stage) or done < self._done:
             self._stage_started, self._stage_first = time.monotonic(), done
         self.stage, self._done, self._total = stage, done, total
         self._standing = True
@@ -399,9 +400,7 @@ class ProgressLine:
 
     def stage_text(self) -> str:
         """The stage that was told last, and how far it was."""
-        if self._total:
-            return f"{self.stage}: {self._done} of {self._total}"
-        return f"{self.stage}: {self._done}" if self._done else self.stage
+        return stage_text(self.stage, self._done, self._total)
 
     def show(self) -> None:
         """Write the line, if it is time to."""
@@ -410,7 +409,8 @@ class ProgressLine:
         if self._quiet or not self._standing or now - self._last < wait:
             return
         self._last = now
-        text = f"{self.stage_text()}{self._speed(now)}"
+        bar = draw_bar(self._done, self._total) if self._terminal else ""
+        text = f"{bar}{' ' if bar else ''}{self.stage_text()}{self._speed(now)}"
         with contextlib.suppress(OSError, ValueError):
             if self._terminal:
                 width = os.get_terminal_size(self._stream.fileno()).columns if self._real else 80
@@ -470,9 +470,9 @@ class TellParent:
 
     def __call__(self, stage: str, done: int, total: int) -> None:
         now = time.monotonic()
-        if stage == self._stage and now - self._last < INTERVAL and done != total:
+        if stage_name(stage) == self._stage and now - self._last < INTERVAL and done != total:
             return
-        self._last, self._stage = now, stage
+        self._last, self._stage = now, stage_name(stage)
         name = stage.replace("\n", " ").replace("\t", " ")
         self._write(f"{name}\t{int(done)}\t{int(total)}\n")
 

@@ -30,9 +30,10 @@ from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import check_kind, choose, mixed_volume
 from nag.solving.start.isotropic import isotropic
 from nag.solving.start.target import StartSystem
+from nag.text.progress import REMARK
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import PathStatus
-from nag.tracking.run import DEFAULT_RUN, REMARK, UNFINISHED, Run, answers_early
+from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, answers_early
 from nag.tracking.settings import Settings, find_settings, tighten
 from nag.tracking.track import track
 

@@ -19,8 +19,6 @@ from nag.tracking.settings import Settings
 
 # Called with a stage's name, the step reached and the number of steps; 0 if that is not known.
 Progress = Callable[[str, int, int], None]
-# Parts a stage's name from what else is told of how it goes, which makes no other stage of it.
-REMARK = "; "
 # Called with an answer that is not complete yet, of what is known so far; and what it says of that.
 ENDED_EARLY = "the work was ended early: this is what was known by then"
 UNFINISHED = f"{ENDED_EARLY}, some of it perhaps twice and multiplicities perhaps too low"
