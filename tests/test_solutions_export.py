@@ -150,3 +150,17 @@ def test_solutions_are_a_sequence_whose_columns_are_arrays() -> None:
     assert np.array_equal(again.points, np.array([s.point for s in roots]))
     assert again.accuracy.tolist() == [s.accuracy for s in roots]
     assert again.radii.keys() == {k for k, s in enumerate(roots) if s.radii is not None}
+
+
+def test_the_command_writes_solutions_as_arrays(tmp_path: Path, capsys) -> None:
+    case, file = tmp_path / "case.toml", tmp_path / "roots.npz"
+    case.write_text(CASE)
+    assert main(["solve", str(case), "--points", str(file), "--quiet"]) == 0
+    roots = nag.solve(nag.read_case(case))
+    with np.load(file, allow_pickle=False) as arrays:
+        assert np.array_equal(arrays["points"], roots.points)
+        assert arrays["variables"].tolist() == ["x", "y"]
+        for name in ("multiplicity", "real", "residual", "accuracy", "condition", "precision"):
+            assert arrays[name].tolist() == [getattr(root, name) for root in roots]
+    assert main(["solve", str(case), "--points", str(tmp_path / "no" / "f.npz"), "--quiet"]) == 2
+    assert "--points" in capsys.readouterr().err

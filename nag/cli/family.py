@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import io
 import os
 from collections import Counter
 from typing import TYPE_CHECKING, Any
@@ -22,7 +21,7 @@ from nag.cli.running import (
     answer_of,
     chosen_run,
     name_case,
-    write_document,
+    write_arrays,
 )
 
 if TYPE_CHECKING:
@@ -122,7 +121,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError(f"{options.case}: {error}") from None
     found = solve_members(solved, values, run=how)
     if options.points is not None:
-        write_document(_arrays(found, found.variables, family.parameters), options.points, "points")
+        write_arrays(_arrays(found, family.parameters), options.points, "points")
     real = found.real_counts.tolist()
     general = len(solved.points)
     rows = [
@@ -182,21 +181,13 @@ def _tally(real: list[int]) -> str:
     return ", ".join(f"{n} for {count_text(members, 'member')}" for n, members in counts)
 
 
-def _arrays(
-    found: FamilySolutions, variables: tuple[str, ...], parameters: tuple[str, ...]
-) -> bytes:
+def _arrays(found: FamilySolutions, parameters: tuple[str, ...]) -> dict[str, Any]:
+    """The arrays of ``--points``, by name."""
     import numpy as np
 
-    stream = io.BytesIO()
-    np.savez(
-        stream,
-        variables=np.array(variables),
-        parameters=np.array(parameters),
-        values=found.values,
-        points=found.points,
-        status=found.status,
-        errors=found.errors,
-        one_by_one=found.one_by_one,
-        complete=found.complete,
-    )
-    return stream.getvalue()
+    names = ("values", "points", "status", "errors", "one_by_one", "complete")
+    return {
+        "variables": np.array(found.variables),
+        "parameters": np.array(parameters),
+        **{name: getattr(found, name) for name in names},
+    }

@@ -342,6 +342,20 @@ def write_document(
         write_target(target, written)
 
 
+def write_arrays(arrays: dict[str, Any], target: str, option: str) -> None:
+    """Write arrays by name to the file that an option names, one after the other.
+
+    Raises:
+        UsageError: if the file cannot be written.
+    """
+    import numpy as np
+
+    from nag.files.written_file import write_target
+
+    with writing_to(option):
+        write_target(target, lambda stream: np.savez(stream, **arrays))
+
+
 def _document_parts(document: dict[str, Any]) -> Iterator[str]:
     """A JSON object as it is written, part by part."""
     from nag.text.json_text import lay_out_parts

@@ -16,7 +16,7 @@ from nag.cli.arguments import (
     read_problem,
 )
 from nag.cli.certify import proof_asked_for
-from nag.cli.running import CommandAnswer, chosen_run, name_case, run_row
+from nag.cli.running import CommandAnswer, chosen_run, name_case, run_row, write_arrays
 
 if TYPE_CHECKING:
     from nag.solving.solutions import SolveResult
@@ -29,6 +29,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_format(parser)
     add_running(parser)
     add_certify(parser)
+    parser.add_argument(
+        "--points", metavar="FILE", help="write the solutions to FILE as NumPy arrays (.npz)"
+    )
     add_start(
         parser,
         "start system (default: auto, parameter where the case has a [family] whose number of "
@@ -38,8 +41,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> CommandAnswer:
     """All isolated solutions of a case."""
+    import numpy as np
+
     from nag.errors import StartError
     from nag.report.solutions import realisations, solution_lines
+    from nag.solving.solutions import NUMBERS
 
     case, problem = read_problem(options)
 
@@ -51,6 +57,11 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         result = problem.solve(start=options.start, run=chosen_run(options, document_of))
     except StartError as error:
         raise UsageError(f"{options.case}: {error}") from None
+    if options.points is not None:
+        table = result.table
+        arrays = {name: getattr(table, name) for name in ("points", *NUMBERS)}
+        names = np.array(result.system.variables, dtype=str)
+        write_arrays({**arrays, "variables": names}, options.points, "points")
     return CommandAnswer(
         solution_lines(result, case, problem, run_row(options, places=2)),
         result.complete,

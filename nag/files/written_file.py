@@ -6,8 +6,9 @@ import contextlib
 import os
 import stat
 import uuid
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import BinaryIO
 
 from nag.errors import InputError
 
@@ -62,10 +63,14 @@ def check_target(path: str | os.PathLike[str]) -> None:
         raise TargetError(f"{target}: is not a file name: {error}") from None
 
 
-def write_target(path: str | os.PathLike[str], text: str | bytes | Iterable[str]) -> None:
+Content = str | bytes | Iterable[str] | Callable[[BinaryIO], None]
+
+
+def write_target(path: str | os.PathLike[str], content: Content) -> None:
     """Write a text, as UTF-8, or bytes to ``path`` through a temporary file beside it.
 
-    A text may come in parts, each of which is written before the next one is asked for. Whoever
+    A text may come in parts, each of which is written before the next one is asked for; or a
+    function writes what it has to. Whoever
     reads ``path`` sees the old content or the new, never a part. A symbolic link stays a link; an
     existing file keeps its permissions; a device or a pipe is written to directly.
 
@@ -73,18 +78,16 @@ def write_target(path: str | os.PathLike[str], text: str | bytes | Iterable[str]
         TargetError: if it cannot be written; the old content is then untouched.
     """
     target = Path(path)
-    content = [text] if isinstance(text, bytes | str) else text
-    parts = (part.encode() if isinstance(part, str) else part for part in content)
     temporary = None
     try:
         real = target.resolve()
         if _is_special(real):
             with real.open("wb") as stream:
-                stream.writelines(parts)
+                _write(stream, content)
             return
         temporary = _temporary(real)
         with temporary.open("xb") as stream:
-            stream.writelines(parts)
+            _write(stream, content)
             stream.flush()
             os.fsync(stream.fileno())
         with contextlib.suppress(FileNotFoundError):
@@ -95,3 +98,11 @@ def write_target(path: str | os.PathLike[str], text: str | bytes | Iterable[str]
     finally:
         if temporary is not None:
             temporary.unlink(missing_ok=True)
+
+
+def _write(stream: BinaryIO, content: Content) -> None:
+    if callable(content):
+        content(stream)
+        return
+    parts = [content] if isinstance(content, bytes | str) else content
+    stream.writelines(part.encode() if isinstance(part, str) else part for part in parts)
