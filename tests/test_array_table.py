@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.numerics.array_table import ArrayTable
+from nag.numerics.array_table import ArrayTable, map_rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,3 +74,13 @@ def plain(values: range, named: int | None) -> Plain:
 
 def assert_same(one: Plain, other: Plain) -> None:
     assert np.array_equal(one.points, other.points) and one.some == other.some
+
+
+def test_values_of_rows_are_the_same_whatever_is_worked_out_at_once(monkeypatch) -> None:
+    points = np.random.default_rng(1).normal(size=(10, 3))
+    whole = np.abs(points).max(axis=1) + points[:, 0]
+    for rows in (3, 5, 10, 4096):
+        monkeypatch.setattr("nag.numerics.array_table.ROWS", rows)
+        found = map_rows(lambda some, one: np.abs(some).max(axis=1) + one, points, points[:, 0])
+        assert np.array_equal(found, whole)
+    assert map_rows(lambda some: some[:, 0], points[:0]).shape == (0,)

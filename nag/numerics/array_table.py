@@ -5,13 +5,32 @@ Columns are arrays of first length P, tables, or mappings by index of what only 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any, Self, TypeVar, overload
 
 import numpy as np
 
 Record = TypeVar("Record")
+# Rows whose values are worked out at once.
+ROWS = 4096
+
+
+def map_rows(function: Callable[..., np.ndarray], *columns: np.ndarray) -> np.ndarray:
+    """What a function makes of rows, one value each, some at a time.
+
+    What it needs on the way is never there for all rows together.
+
+    Args:
+        function: of arrays of some rows, to an array of as many values.
+        columns: of the same first length P.
+    """
+    count = len(columns[0])
+    found = [
+        function(*(column[first : first + ROWS] for column in columns))
+        for first in range(0, max(count, 1), ROWS)
+    ]
+    return np.concatenate(found)
 
 
 class ArrayTable:

@@ -405,6 +405,10 @@ def distinct_simple(groups: Sequence[CertifiedPoints]) -> int:
 def joined_boxes(groups: Sequence[CertifiedPoints], *proofs: Proof) -> Boxes:
     """The boxes of all points with one of these proofs, group by group."""
     parts = [(g, g.having(*proofs)) for g in groups]
+    for g, chosen in parts:
+        if len(chosen) == len(g.points) == sum(len(some) for _, some in parts):
+            # All boxes are those of one group, and may be many.
+            return g.boxes
     fine, start = {}, 0
     for g, chosen in parts:
         fine |= {

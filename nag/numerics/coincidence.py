@@ -11,6 +11,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from nag.numerics.array_table import map_rows
+
 # Decides: Estimated errors that two points may be apart and be one: what the balls are wider by.
 SAFETY = 1e2
 # Decides, measured: Least relative error of a point in doubles. The same ones lay within 1e-15,
@@ -39,7 +41,8 @@ PAIRS = 1 << 14
 
 def radii_of_balls(points: np.ndarray, errors: np.ndarray | float) -> np.ndarray:
     """Radii of the balls that points lie in, from their relative errors, shape ``(P,)``."""
-    return SAFETY * np.maximum(LEAST, errors) * (1 + np.linalg.norm(points, axis=1))
+    sizes = map_rows(lambda some: np.linalg.norm(some, axis=1), points)
+    return SAFETY * np.maximum(LEAST, errors) * (1 + sizes)
 
 
 def coincident(points: np.ndarray, x: np.ndarray, error: np.ndarray | float) -> np.ndarray:
@@ -159,7 +162,8 @@ def conjugates_present(
     tolerance = 2 * radii_of_balls(points, accuracy)
     # Conjugate points share their real parts.
     weights = np.exp(1j * np.arange(1, n + 1) ** 2).real
-    for i, j in neighbours(points.real @ weights, np.sqrt(n) * tolerance):
+    key = map_rows(lambda some: some.real @ weights, points)
+    for i, j in neighbours(key, np.sqrt(n) * tolerance):
         distance = np.linalg.norm(points[i] - points[j].conj(), axis=1)
         pair = (distance <= np.maximum(tolerance[i], tolerance[j])) & ~taken[i] & ~taken[j]
         pair &= multiplicity[i] == multiplicity[j]

@@ -24,6 +24,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.array_table import map_rows
 from nag.numerics.ball_boxes import BITS, FineBox, box_about, holds_conjugate, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import neighbours
@@ -96,7 +97,7 @@ def prove_boxes(
         share: who works out what doubles are to prove.
     """
     found = boxes_in_doubles(polynomials, slices, points, share)
-    sizes = np.maximum(1.0, np.abs(points).max(axis=1, initial=0.0))
+    sizes = map_rows(lambda some: np.maximum(1.0, np.abs(some).max(axis=1, initial=0.0)), points)
     found.proved[~(found.inner.max(axis=1, initial=0.0) < reach * sizes)] = False
     left = [i for i in np.flatnonzero(~found.proved).tolist() if in_balls(i)]
     if not left:
@@ -331,15 +332,17 @@ def find_overlaps(boxes: Boxes) -> tuple[list[tuple[int, int]], list[tuple[int, 
 
 def _candidates(boxes: Boxes) -> Iterator[tuple[int, int]]:
     """Pairs of proved boxes whose doubles do not tell the zeros apart, smaller index first."""
-    places = np.flatnonzero(boxes.proved)
-    centres, inner = boxes.centres[places], boxes.inner[places]
+    places, centres, inner = np.flatnonzero(boxes.proved), boxes.centres, boxes.inner
+    if len(places) < len(centres):
+        centres, inner = centres[places], inner[places]
     n = centres.shape[1]
     if n == 0:
         return
     # Of size one, so that the sum over a box's radii, twice, bounds what the key may differ by.
     weights = np.exp(1j * np.arange(1, n + 1) ** 2)
-    key = (centres @ weights).real
-    rounding = np.abs(centres).sum(axis=1) * (n + 8) * 8 * UNIT
+    key = map_rows(lambda some: (some @ weights).real, centres)
+    sizes = map_rows(lambda some: np.abs(some).sum(axis=1), centres)
+    rounding = sizes * (n + 8) * 8 * UNIT
     width = (4 * inner.sum(axis=1) + 2 * rounding) * UP
     for first, second in neighbours(key, width):
         distance = np.abs(centres[first] - centres[second]) / UP
@@ -366,14 +369,19 @@ def tell_real_zeros(boxes: Boxes, system: PolynomialSystem) -> tuple[np.ndarray,
     zero. Where coefficients are not real the conjugate says nothing, so none is proved real; all
     coordinates count but the imaginary unit itself.
     """
-    imaginary = np.abs(boxes.centres.imag)
     counting = slice(0, system.n - system.imaginary)
+
+    def holds(centres: np.ndarray, inner: np.ndarray, outer: np.ndarray) -> np.ndarray:
+        return ((2 * np.abs(centres.imag) + inner) * UP < outer).all(axis=1)
+
+    def is_off(centres: np.ndarray, inner: np.ndarray) -> np.ndarray:
+        return (np.abs(centres.imag) > inner * UP)[:, counting].any(axis=1)
+
     # Points that are not proved may be of any size.
     with np.errstate(over="ignore"):
-        real = boxes.proved & ((2 * imaginary + boxes.inner) * UP < boxes.outer).all(axis=1)
+        real = boxes.proved & map_rows(holds, boxes.centres, boxes.inner, boxes.outer)
     real &= not system.imaginary
-    off_axis = imaginary > boxes.inner * UP
-    complex_ = boxes.proved & off_axis[:, counting].any(axis=1)
+    complex_ = boxes.proved & map_rows(is_off, boxes.centres, boxes.inner)
     for i in boxes.fine:
         box = boxes.fine[i]
         real[i] = not system.imaginary and holds_conjugate(box)

@@ -16,6 +16,7 @@ import numpy as np
 from nag.algebra.factoring import factor_into_irreducibles
 from nag.algebra.number import EQUALITY_DIGITS
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.array_table import map_rows
 from nag.numerics.ball_boxes import BITS, FineBox, box_about, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import regular_block
@@ -103,10 +104,16 @@ def _holds_zeros(points: CertifiedPoints, inner: np.ndarray, radii: np.ndarray) 
         inner: radii about the boxes' centres that the zeros lie in, as ``radii`` of shape
             ``(P, n)``.
     """
+
+    def within(
+        place: np.ndarray, centres: np.ndarray, inner: np.ndarray, radii: np.ndarray
+    ) -> np.ndarray:
+        near = (magnitude(place - centres) + inner) * UP <= radii
+        return (near & np.isfinite(radii)).all(axis=1)
+
     with np.errstate(all="ignore"):
-        off = magnitude(points.points - points.boxes.centres)
-        within = ((off + inner) * UP <= radii).all(axis=1)
-    return within & points.boxes.proved & np.isfinite(radii).all(axis=1)
+        found = map_rows(within, points.points, points.boxes.centres, inner, radii)
+    return found & points.boxes.proved
 
 
 def _error_standing(boxes: SharpBoxes, i: int, radii: Sequence[float]) -> Standing:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import flint
 import numpy as np
 
-from nag.numerics.array_table import RecordTable
+from nag.numerics.array_table import RecordTable, map_rows
 from nag.numerics.coincidence import SAFETY
 from nag.numerics.digits import bits_of, in_bits, number_of_words
 from nag.numerics.precise_point import WORKING_DIGITS, PrecisePoint
@@ -126,8 +126,8 @@ def which_are_real(zeros: IsolatedZeros) -> np.ndarray:
     says so.
     """
     points = zeros.points
-    sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
-    imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
+    sizes = 1 + map_rows(lambda some: np.abs(some).max(axis=1, initial=0.0), points)
+    imaginary = map_rows(lambda some: np.abs(some.imag).max(axis=1, initial=0.0), points)
     errors = SAFETY * sizes * zeros.accuracy
     in_doubles = np.ones(len(zeros), dtype=bool)
     for i, fine in zeros.fine.items():

@@ -11,6 +11,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.imaginary_unit import has_unit
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import most_zeros
+from nag.numerics.array_table import map_rows
 from nag.numerics.certified_points import (
     CertifiedPoints,
     Proof,
@@ -73,9 +74,9 @@ def _claims_of_points(
     none = np.zeros((0, 1 + system.n), dtype=complex)
     # Points that are no solutions may be of any size.
     with np.errstate(all="ignore"):
-        sizes = 1 + np.linalg.norm(points.points, axis=1, keepdims=True)
-        radii = np.array([s.accuracy for s in solutions]).reshape(-1, 1) * sizes
-    radii = np.broadcast_to(radii, points.points.shape)
+        sizes = 1 + map_rows(lambda some: np.linalg.norm(some, axis=1), points.points)
+        radii = np.array([s.accuracy for s in solutions]) * sizes
+    radii = np.broadcast_to(radii[:, None], points.points.shape)
     said = {
         "point": ("that its point is a zero of the equations", zero_standings(points)),
         "multiplicity": (
