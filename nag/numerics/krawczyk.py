@@ -43,13 +43,14 @@ GROWTH, GROWN = 1024.0, 1
 MOST_POINTS, BLOCK = 1024, 2**19
 
 # Works out the results of a function, arrays by name, for the arguments of several calls, in their
-# order; what they are called where progress is told.
+# order, each made when it is needed; how many there are, and what they are called where progress is
+# told.
 Work = Callable[..., Mapping[str, np.ndarray]]
-Share = Callable[[Work, Sequence[tuple[Any, ...]], str], Iterable[Mapping[str, np.ndarray]]]
+Share = Callable[[Work, Iterable[tuple[Any, ...]], int, str], Iterable[Mapping[str, np.ndarray]]]
 
 
 def work_here(
-    work: Work, calls: Sequence[tuple[Any, ...]], stage: str
+    work: Work, calls: Iterable[tuple[Any, ...]], count: int, stage: str
 ) -> Iterator[Mapping[str, np.ndarray]]:
     """One after another, here."""
     return (work(*call) for call in calls)
@@ -121,8 +122,9 @@ def boxes_in_doubles(
     none = np.zeros(P, dtype=bool)
     boxes = Boxes(points.copy(), np.full((P, n), np.inf), np.full((P, n), np.inf), none, {})
     blocks = _blocks(len(polynomials) + len(slices), n, P)
-    calls = [(tuple(polynomials), slices, points[block]) for block in blocks]
-    for block, found in zip(blocks, share(prove_block, calls, "proving boxes"), strict=True):
+    calls = ((tuple(polynomials), slices, points[block]) for block in blocks)
+    done = share(prove_block, calls, len(blocks), "proving boxes")
+    for block, found in zip(blocks, done, strict=True):
         for name in ("outer", "inner", "proved"):
             getattr(boxes, name)[block] = found[name]
     return boxes
@@ -187,11 +189,11 @@ def sharpen_boxes(
         Radii, none larger than ``inner``, shape ``(len(chosen), n)``.
     """
     blocks = _blocks(len(polynomials) + len(slices), boxes.centres.shape[1], len(chosen))
-    calls = [
+    calls = (
         (tuple(polynomials), slices, boxes.centres[some], boxes.inner[some])
         for some in (chosen[block] for block in blocks)
-    ]
-    found = share(sharpen_radii, calls, "proving errors")
+    )
+    found = share(sharpen_radii, calls, len(blocks), "proving errors")
     return np.concatenate([boxes.inner[:0], *(each["inner"] for each in found)])
 
 

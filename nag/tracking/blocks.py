@@ -7,9 +7,10 @@ not matter where and when a block is worked out, nor by how many.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextvars import ContextVar
 from dataclasses import dataclass
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -127,25 +128,28 @@ def work_out(
     return [result for result in results if result is not None]
 
 
-def share(work: Work, calls: Sequence[tuple[Any, ...]], stage: str) -> Iterator[Arrays]:
+def share(work: Work, calls: Iterable[tuple[Any, ...]], count: int, stage: str) -> Iterator[Arrays]:
     """Results of a function for several arguments, in their order, few of them in memory.
 
     They are kept or shared where someone does; a single call is worked out in less time.
+
+    Args:
+        work, stage: see `work_out`.
+        calls: ``count`` of them, each made when it is needed.
     """
     chosen = _engine.get()
-    if chosen is None or len(calls) < 2:
+    if chosen is None or count < 2:
         yield from (work(*call) for call in calls)
         return
-    some = at_once()
-    for first in range(0, len(calls), some):
+    left = iter(calls)
+    for first in range(0, count, at_once()):
 
         def told(done: int, first: int = first) -> None:
             if chosen.tell is not None:
-                chosen.tell(f"{stage}, blocks", first + done, len(calls))
+                chosen.tell(f"{stage}, blocks", first + done, count)
 
-        yield from (
-            found for found, _ in work_out(work, calls[first : first + some], stage, 1, told)
-        )
+        some = list(islice(left, at_once()))
+        yield from (found for found, _ in work_out(work, some, stage, 1, told))
 
 
 def _results(
