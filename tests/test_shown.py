@@ -113,8 +113,8 @@ class Table(HTMLParser):
 
 def test_a_notebook_shows_a_row_for_each_kind_of_component() -> None:
     rows = Table(nag.decompose(["(x^2 + y^2 - 1)*(x - y)*(x + y)"])._repr_html_()).rows
-    assert rows[0][:4] == ["dimension", "degree", "multiplicity", "count"]
-    assert [row[:4] for row in rows[1:]] == [["1", "1", "1", "2"], ["1", "2", "1", "1"]]
+    assert rows[0][:5] == ["number", "dimension", "degree", "multiplicity", "count"]
+    assert [row[:5] for row in rows[1:]] == [["1-2", "1", "1", "1", "2"], ["3", "1", "2", "1", "1"]]
 
 
 def test_a_notebook_shows_a_row_for_each_solution_joint_point_and_equation() -> None:

@@ -12,10 +12,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem, system_line
 from nag.cli.running import INTERVAL, MINUTE, progress_line
 from nag.report.agreement import AgreementKind, agreement_text, compare
 from nag.text.table import align, label_lines, magnitude, printable
+from nag.witness.frame import expand_orbits
 from nag.witness.shown import component_table, multidegree_text, remarks, title_line
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
@@ -75,7 +77,17 @@ def test_like_components_are_counted_together() -> None:
 def test_an_orbit_counts_with_all_its_members() -> None:
     orbit = decomposition(component(1, 2, orbit=8))
     assert title_line(orbit) == "8 components of dimension 1, degree 2"
-    assert component_table(orbit)[1].split()[3] == "8"
+    assert component_table(orbit)[1].split()[4] == "8"
+
+
+def test_rows_name_the_components_by_the_numbers_that_commands_take() -> None:
+    swap = SignedPermutation((1, 0, 2), (1, 1, 1))
+    pair = component(1, 2, orbit=2, images=(swap,))
+    found = decomposition(component(2, 1), pair, component(1, 3), pair)
+    rows = [line.split()[:3] for line in component_table(found)[1:]]
+    assert rows == [["1", "2", "1"], ["2-3,", "5-6", "1"], ["4", "1", "3"]]
+    kinds_in_order = [c.degree for c in expand_orbits(found).components]
+    assert kinds_in_order == [1, 2, 2, 3, 2, 2]
 
 
 def test_a_row_shows_the_worst_of_its_components() -> None:
@@ -86,16 +98,18 @@ def test_a_row_shows_the_worst_of_its_components() -> None:
             component(1, 4, residual=math.nan),
         )
     )
-    headings = "dimension  degree  multiplicity  count  status       residual  accuracy  digits"
+    headings = (
+        "number  dimension  degree  multiplicity  count  status       residual  accuracy  digits"
+    )
     assert table[0] == headings
     assert [line.split() for line in table[1:]] == [
-        ["1", "2", "1", "2", "irreducible", "5.0e-13", "4.0e-09", "16"],
-        ["1", "4", "1", "1", "irreducible", "?", "3.0e-15", "32"],
+        ["1-2", "1", "2", "1", "2", "irreducible", "5.0e-13", "4.0e-09", "16"],
+        ["3", "1", "4", "1", "1", "irreducible", "?", "3.0e-15", "32"],
     ]
 
 
 def test_an_unknown_multiplicity_is_a_question_mark() -> None:
-    assert component_table(decomposition(undecided(1, 2)))[1].split()[2:5] == [
+    assert component_table(decomposition(undecided(1, 2)))[1].split()[3:6] == [
         "?",
         "1",
         "undecided",

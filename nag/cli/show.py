@@ -125,10 +125,10 @@ def _describe_answer(document: dict[str, Any]) -> list[Row]:
 
 
 def _describe_components(found: Decomposition) -> list[list[str] | list[Row]]:
-    from nag.witness.shown import numbered_table, remarks
+    from nag.witness.shown import component_table, remarks
 
     notes = [("open", line) for line in remarks(found)]
-    return [str(found).splitlines(), numbered_table(found), notes]
+    return [str(found).splitlines(), component_table(found), notes]
 
 
 def _describe_case(

@@ -133,6 +133,11 @@ def _image_of_fine(point: PointInWords, symmetry: SignedPermutation, n: int) -> 
     return PointInWords(np.concatenate([moved, point.words[n:]]), point.curvature)
 
 
+def count_expanded(component: WitnessSet) -> int:
+    """How many components `expand_orbits` makes of one: its orbit, if its symmetries are known."""
+    return component.orbit if len(component.images) == component.orbit - 1 else 1
+
+
 def expand_orbits(decomposition: Decomposition) -> Decomposition:
     """The same decomposition with all components of each orbit, every one on a slice of its own.
 
@@ -140,7 +145,7 @@ def expand_orbits(decomposition: Decomposition) -> Decomposition:
     """
     components: list[WitnessSet] = []
     for component in decomposition.components:
-        if len(component.images) != component.orbit - 1:
+        if count_expanded(component) < component.orbit:
             components.append(component)
             continue
         components.append(replace(component, orbit=1, images=()))

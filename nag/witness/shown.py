@@ -20,7 +20,7 @@ from nag.text.table import (
     point_text,
     printable,
 )
-from nag.witness.frame import expand_orbits
+from nag.witness.frame import count_expanded
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 if TYPE_CHECKING:
@@ -123,11 +123,20 @@ def _like(component: WitnessSet) -> tuple[object, ...]:
 
 
 def component_rows(decomposition: Decomposition) -> list[list[str]]:
-    """Headings, and one row for components that are alike, with the worst residual among them."""
+    """Headings, and one row for components that are alike, with the worst residual among them.
+
+    Each row begins with the numbers by which commands take its components, those of an orbit apart.
+    """
     alike: dict[tuple[object, ...], list[WitnessSet]] = {}
+    numbers: dict[tuple[object, ...], list[int]] = {}
+    following = 1
     for component in decomposition.components:
-        alike.setdefault(_like(component), []).append(component)
-    rows = [_row(group) for group in alike.values()]
+        key = _like(component)
+        alike.setdefault(key, []).append(component)
+        after = following + count_expanded(component)
+        numbers.setdefault(key, []).extend(range(following, after))
+        following = after
+    rows = [{"number": _numbers_text(numbers[key])} | _row(group) for key, group in alike.items()]
     if not decomposition.system.groups:
         rows = [{k: v for k, v in row.items() if k != "multidegree"} for row in rows]
     return [list(rows[0]), *(list(row.values()) for row in rows)] if rows else []
@@ -136,21 +145,7 @@ def component_rows(decomposition: Decomposition) -> list[list[str]]:
 def component_table(decomposition: Decomposition) -> list[str]:
     """The same as aligned lines."""
     rows = component_rows(decomposition)
-    return align(rows, [rows[0].index("status")]) if rows else []
-
-
-def numbered_table(decomposition: Decomposition) -> list[str]:
-    """The same, and the numbers by which commands take the components, those of an orbit apart."""
-    expanded = expand_orbits(decomposition)
-    rows = component_rows(expanded)
-    alike: dict[tuple[object, ...], list[int]] = {}
-    for number, component in enumerate(expanded.components, 1):
-        alike.setdefault(_like(component), []).append(number)
-    if not rows:
-        return []
-    names = ["component", *map(_numbers_text, alike.values())]
-    rows = [[name, *row] for name, row in zip(names, rows, strict=True)]
-    return align(rows, [0, rows[0].index("status")])
+    return align(rows, [0, rows[0].index("status")]) if rows else []
 
 
 def _numbers_text(numbers: Sequence[int]) -> str:
