@@ -100,6 +100,9 @@ def _read_export(
 def write(result: Decomposition | SolveResult, path: str | os.PathLike[str]) -> None:
     """Write a decomposition or solutions to a file from which `read` gives an equal one.
 
+    The file is what ``nag decompose`` and ``nag solve`` write with ``--json``. Documents of other
+    commands say less than their results hold, so these are kept by `pickle`.
+
     Raises:
         nag.InputError: if the file cannot be written.
         nag.NagError: if ``result`` is neither.
@@ -121,7 +124,8 @@ def write(result: Decomposition | SolveResult, path: str | os.PathLike[str]) -> 
         write_solutions(result, path)  # type: ignore[arg-type]
     else:
         raise NagError(
-            f"result: {value_text(result)} is given; give what nag.decompose or nag.solve returns"
+            f"result: {value_text(result)} is given; give what nag.decompose, nag.intersect or "
+            "nag.solve returns: other results are kept by pickle, or by their command's --json"
         )
 
 

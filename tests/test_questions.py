@@ -34,6 +34,9 @@ def test_what_is_written_is_read_again_equal(export: Path, tmp_path: Path) -> No
     solved = nag.solve(["x^2 + y^2 - 1", "x - y"])
     nag.write(solved, tmp_path / "solved.json")
     assert nag.read(tmp_path / "solved.json") == solved
+    met = nag.intersect(export, 1, 2)
+    nag.write(met, tmp_path / "met.json")
+    assert nag.read(tmp_path / "met.json") == met
     assert nag.read(CASES / "bennett.toml").kind == "mechanism"
 
 
@@ -83,7 +86,8 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
         (lambda: nag.intersect("x - y", 1, 2), "second: 2"),
         (lambda: nag.local("x^2 - 1"), "it has none with a name"),
         (lambda: nag.certify("x^2 - 1"), "give what nag.solve or nag.decompose returns"),
-        (lambda: nag.write("x", "file"), "give what nag.decompose or nag.solve returns"),
+        (lambda: nag.write(nag.sample("x*y"), "file"), "Samples is given; give what nag.decompose"),
+        (lambda: nag.write("x", "file"), "give what nag.decompose, nag.intersect or nag.solve"),
         (lambda: nag.eliminate("x - y", onto="z"), "'z' is not one of the variables"),
         (lambda: nag.eliminate(["x", "y"]), "nothing to eliminate from"),
     ],
