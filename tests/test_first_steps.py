@@ -101,7 +101,7 @@ def test_an_export_shows_the_numbers_of_its_components(
     nag.write(found, path)
     assert main([str(path)]) == 0
     lines = capsys.readouterr().out.splitlines()
-    start = next(i for i, line in enumerate(lines) if line.startswith("component  "))
+    start = next(i for i, line in enumerate(lines) if line.startswith("number  "))
     rows = [line.split("  ")[0].strip() for line in lines[start + 1 :]]
     numbers = [
         list(range(int(t.split("-")[0]), int(t.split("-")[-1]) + 1))
