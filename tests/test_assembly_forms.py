@@ -374,6 +374,10 @@ STRETCHED = {
         0,
         1,
     ),
+    # The pinned points' coordinates along the frame's vectors are larger than one.
+    "line beside a triangle in space": (3, "ABCD", "CA 1, CD 2, AD 3, AB 2, DB 2", 0, 2),
+    # No frame rests on the pinned bars, which are a triangle in line.
+    "triangles in line in space": (3, "ABCD", "AB 1, BC 2, AC 3, CD 1, BD 3", 0, 4),
     # A bar from each stretched pair's end to the other's: the second line follows from the first.
     "lines that share two points": (2, "ABCD", "AB 1, BC 1, AC 2, CD 1, BD 2", 0, 2),
 }
@@ -388,6 +392,52 @@ def test_points_that_lengths_put_in_line_move_as_real_ones_do(name):
     assert (found.local_dimension, found.tangent_dimension) == (local, tangent)
     assert "are in line" in found.sentence
     assert found.doubt == ""
+
+
+STRETCHED_LINKS = {
+    # Links beside A-B 1, C-D 3 and a base and coupler; local and tangent dimension.
+    "alone": ({"base": "AD6", "coupler": "BC2"}, 0, 2),
+    "a link hangs on it": ({"base": "AD6", "coupler": "BC2", "x": "BE2"}, 1, 3),
+    "a plate in line hangs on it": (
+        {"base": "AD6", "coupler": "BC2", "x": {"B": (0, 0), "E": (1, 0), "F": (2, 0)}},
+        1,
+        3,
+    ),
+    "the ground hangs on it": ({"ground": "XA6", "base": "AD6", "coupler": "BC2"}, 1, 3),
+    # A plate turns as one, so that a pin in line with two others does not move across by itself.
+    "pins in line with others": (
+        {"base": {"A": (0, 0), "D": (6, 0), "E": (8, 0)}, "coupler": "BC2"},
+        0,
+        2,
+    ),
+    "a coupler of pins in line": (
+        {
+            "base": {"A": (0, 0), "E": (2, 1), "D": (6, 0)},
+            "coupler": {"B": (0, 0), "F": (1, 0), "C": (2, 0)},
+            "x": "EF1",
+        },
+        0,
+        1,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", STRETCHED_LINKS)
+def test_a_stretched_linkage_moves_as_its_real_assemblies_do(name):
+    links, local, tangent = STRETCHED_LINKS[name]
+    ground = "ground" if "ground" in links else "base"
+    found = nag.mobility(nag.Linkage.of({**links, "left": "AB1", "right": "CD3"}, ground))
+    assert (found.local_dimension, found.tangent_dimension) == (local, tangent)
+    assert "are in line" in found.sentence
+
+
+def test_links_that_lengths_forbid_are_no_rigid_ones():
+    # Stretched, its pin F is at E, and no link of length 1 is between them.
+    base = {"A": (0, 0), "E": (2, 0), "D": (6, 0)}
+    coupler = {"B": (0, 0), "F": (1, 0), "C": (2, 0)}
+    links = {"base": base, "left": "AB1", "coupler": coupler, "right": "CD3", "x": "EF1"}
+    with pytest.raises(NoAssembly, match="do not fit there"):
+        nag.mobility(nag.Linkage.of(links, "base"))
 
 
 def test_coincident_points_follow_from_lengths():

@@ -198,17 +198,20 @@ class FrameworkModel(AssemblyModel):
 
     @property
     def _has_real_frame(self) -> bool:
-        """Whether the pinned triangle is one: no side of it is longer than the other two."""
+        """Whether the pinned triangle is one: no side of it is longer than the other two.
+
+        No frame rests on a triangle where the third point moves.
+        """
         framework = self.framework
-        if framework.dimension == 2 or framework.placement is not None:
+        known = framework.dimension == 2 or framework.placement is not None
+        if known or self.has_moving_third:
             return True
         first, second, third = self.pinned
         s, t, opposite = (
             framework.squared_length(p, q)
             for p, q in ((first, second), (first, third), (second, third))
         )
-        if s is None or t is None or opposite is None:
-            return True
+        assert s is not None and t is not None and opposite is not None
         return bool(4 * s * t > (s + t - opposite) * (s + t - opposite))
 
 

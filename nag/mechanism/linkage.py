@@ -259,9 +259,9 @@ class LinkageModel(AssemblyModel):
 
     @property
     def sides(self) -> tuple[Side, ...]:
-        """Pairs of pins of a link; those of two links that share both once."""
+        """Pairs of pins of a link in loops; those of two links that share both once."""
         found: dict[frozenset[str], Side] = {}
-        for link in self.linkage.links:
+        for link in self.in_loops:
             for j, second in enumerate(link.pins):
                 for i, first in enumerate(link.pins[:j]):
                     gaps = (p - q for p, q in zip(link.shape[i], link.shape[j], strict=True))

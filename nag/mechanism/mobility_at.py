@@ -38,6 +38,7 @@ from nag.mechanism.quaternion import R
 from nag.mechanism.real_assemblies import (
     count_real,
     lines_of_real,
+    obstacle,
     of_real_assemblies,
     real_assemblies,
     real_doubt,
@@ -503,7 +504,7 @@ def _in_general(
     """The mobility at a general configuration of parts that may be assembled."""
     if detail == "local":
         raise NagError("the parts are not assembled; give a point, an assembly of them")
-    forced, problem = lines_of_real(problem), of_real_assemblies(problem)
+    given, forced, problem = problem, lines_of_real(problem), of_real_assemblies(problem)
     found = problem.decompose(run=run)
     components = expand_orbits(found).components
     if found.complete and not components:
@@ -517,7 +518,7 @@ def _in_general(
     free = problem.free
     tangent = None if known is None else known.corank
     if forced is not None and known is not None and problem.parts is not None:
-        tangent = tangent_dimension_at(problem.parts, known.points[0])
+        tangent = tangent_dimension_at(given, problem.parts, known.points[0])
     curves = [c for c in components if c.dimension == 1] if detail == "curves" else []
     doubt = ""
     if known is not None and known.dimension and problem.parts is not None:
@@ -566,6 +567,9 @@ def _with_real_ones(
     """
     parts = problem.parts
     assert parts is not None
+    reason = obstacle(parts)
+    if reason:
+        raise NoAssembly(f"its parts have no real assembly: {reason}")
     number, real = count_real(problem, components)
     if real is None:
         return list(components)

@@ -29,7 +29,7 @@ from nag.mechanism.framework_model import (
     space_models,
 )
 from nag.mechanism.straight_lines import ForcedLines, Line, find_forced_lines
-from nag.numerics.double_ranks import SINGULAR, numerical_corank
+from nag.numerics.double_ranks import matrix_corank
 from nag.numerics.doubles import ROUGH
 from nag.numerics.zero_values import ON
 from nag.text.table import count_text
@@ -115,21 +115,29 @@ def _in_line(line: Line, places: Mapping[str, Sequence[Polynomial]]) -> Iterator
             yield z - x - (y - x) * share
 
 
-def tangent_dimension_at(parts: AssemblyModel, point: np.ndarray) -> int:
+def tangent_dimension_at(given: Problem, parts: AssemblyModel, point: np.ndarray) -> int:
     """The dimension of first-order motions of parts, without what lengths force on real ones.
 
     Args:
+        given: the problem of the parts, without places in line.
         parts: as `of_real_assemblies` gives them.
         point: a real assembly, or a general one of a component.
     """
+    if isinstance(parts, FrameworkModel):
+        return _framework_motions_at(parts, point)
+    # A link is held, so that the equations' own motions are those that count.
+    own = given.system
+    return matrix_corank(Evaluator.of(own.polynomials, own.n).balanced_jacobian(point))
+
+
+def _framework_motions_at(parts: FrameworkModel, point: np.ndarray) -> int:
+    """First-order motions of the points without those of the whole, whichever are pinned."""
     names = [side.ends for side in parts.sides]
     places = parts.place_polynomials()
-    flat = [f for own in places.values() for f in own]
-    values = Evaluator.of(flat, parts.system.n).values(np.asarray(point)[None])[0]
+    where = [complex(x) for x in point]
+    at = np.array([[complex(f(where)) for f in own] for own in places.values()])
     index = {name: i for i, name in enumerate(places)}
-    at = values.reshape(len(places), -1)
-    if isinstance(parts, FrameworkModel):
-        at = at * np.sqrt([float(m) for m in parts.metric])
+    at = at * np.sqrt([float(m) for m in parts.metric])
     d = at.shape[1]
     rows = np.zeros((len(names), at.size), dtype=complex)
     for row, (first, second) in zip(rows, names, strict=True):
@@ -140,14 +148,13 @@ def tangent_dimension_at(parts: AssemblyModel, point: np.ndarray) -> int:
         turn[i, j], turn[j, i] = 1, -1
     shifts = [np.tile(unit, len(at)) for unit in np.eye(d)]
     motions = np.array([*shifts, *((at @ turn).ravel() for turn in turns)])
-    free = [_corank(rows, at.size), at.size - _corank(motions, at.size)]
-    return free[0] - free[1]
+    return _corank(rows) - (at.size - _corank(motions))
 
 
-def _corank(rows: np.ndarray, columns: int) -> int:
+def _corank(rows: np.ndarray) -> int:
     size = np.linalg.norm(rows, axis=1, keepdims=True)
     balanced = rows / np.where(size > 0, size, 1.0)
-    return numerical_corank(np.linalg.svd(balanced, compute_uv=False), columns, SINGULAR)
+    return matrix_corank(balanced)
 
 
 def real_assemblies(parts: AssemblyModel, seed: int = 0) -> Iterator[IterationEnd]:
