@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import jsonschema
@@ -164,3 +165,14 @@ def test_the_command_writes_solutions_as_arrays(tmp_path: Path, capsys) -> None:
             assert arrays[name].tolist() == [getattr(root, name) for root in roots]
     assert main(["solve", str(case), "--points", str(tmp_path / "no" / "f.npz"), "--quiet"]) == 2
     assert "--points" in capsys.readouterr().err
+
+
+def test_two_options_do_not_name_one_file(tmp_path, capsys) -> None:
+    case, file = tmp_path / "a.txt", tmp_path / "a.out"
+    case.write_text("x^2 - 2\n")
+    again = tmp_path / "." / "b" / ".." / "a.out"
+    (tmp_path / "b").mkdir()
+    told = ["solve", str(case), "--quiet", "--json", str(file), "--points"]
+    assert main([*told, str(again)]) == 2 and not file.exists()
+    assert "--points" in (said := capsys.readouterr().err) and "--json" in said
+    assert main(["solve", str(case), "--quiet", "--json", os.devnull, "--points", os.devnull]) == 0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import os
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -266,6 +267,11 @@ def test_multidegrees_are_compared_where_they_are_known() -> None:
     )
 
 
+@pytest.fixture(autouse=True)
+def a_terminal_that_erases(monkeypatch) -> None:
+    monkeypatch.setenv("TERM", "xterm")
+
+
 class Terminal(io.StringIO):
     def isatty(self) -> bool:
         return True
@@ -282,6 +288,35 @@ def test_progress_is_shown_on_a_terminal_and_erased_and_quiet_is_quiet() -> None
     with progress_line(quiet, quiet=True) as progress:
         assert progress is None
     assert pipe.getvalue() == quiet.getvalue() == ""
+
+
+def test_a_terminal_that_takes_no_line_away_is_written_to_as_a_file_is(monkeypatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr("nag.cli.running.time.monotonic", lambda: now[0])
+    monkeypatch.setenv("TERM", "dumb")
+    terminal = Terminal()
+    with progress_line(terminal) as progress:
+        now[0] = MINUTE
+        progress("slicing", 1, 3)
+    assert terminal.getvalue().startswith("nag: slicing: 1 of 3")
+    assert "\x1b" not in terminal.getvalue() and terminal.getvalue().endswith("\n")
+
+
+@pytest.mark.skipif(not hasattr(os, "openpty"), reason="there are no pseudo-terminals")
+@pytest.mark.parametrize("columns, least, most", [(0, 70, 79), (40, 30, 39)])
+def test_a_line_is_no_wider_than_its_terminal(columns, least, most) -> None:
+    import fcntl
+    import struct
+    import termios
+
+    leader, follower = os.openpty()
+    fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 0, columns, 0, 0))
+    with open(follower, "w") as stream, progress_line(stream) as progress:
+        assert progress is not None
+        progress("slicing " * 30, 1, 3)
+        line = os.read(leader, 4096).decode().removeprefix("\r\x1b[K")
+    os.close(leader)
+    assert least <= len(line) <= most
 
 
 @pytest.mark.parametrize("kind, wait", [(Terminal, INTERVAL), (io.StringIO, MINUTE)])

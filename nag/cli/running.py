@@ -33,6 +33,8 @@ MINUTE = 60.0
 WORKING = "working"
 
 _ERASE = "\r\x1b[K"
+# Columns of a terminal that does not know how many it has.
+WIDTH = 80
 
 
 # No dataclass: loading those takes a fifth of the time of `nag --help`.
@@ -193,10 +195,16 @@ def begin(options: argparse.Namespace) -> None:
     for name in VARIABLES:
         os.environ.setdefault(name, "1")
     source = getattr(options, "case", None) or getattr(options, "export", "")
+    written: dict[str, str] = {}
     for name in TARGETS:
         target = getattr(options, name, None)
         if target is not None and (name, target) != ("json", STANDARD_OUTPUT):
             check_option_target(name, target, source if isinstance(source, str) else "")
+            file = os.path.realpath(target)
+            # Devices and pipes are not replaced.
+            if file in written and (os.path.isfile(file) or not os.path.exists(file)):
+                raise UsageError(f"--{name}: {target}: --{written[file]} names this file too")
+            written[file] = name
 
 
 @contextlib.contextmanager
@@ -385,8 +393,15 @@ def check_option_target(option: str, target: str, source: str = "") -> None:
         raise UsageError(f"--{option}: {target}: is the case file; name another file")
 
 
+def _can_erase(stream: TextIO) -> bool:
+    """Whether a stream leads to a terminal that knows how to take a line away."""
+    return stream.isatty() and os.environ.get("TERM") != "dumb"
+
+
 class ProgressLine:
     """How far the work is: one line on a terminal, with a bar; elsewhere a line every minute.
+
+    A terminal that cannot take a line away, ``TERM=dumb``, is elsewhere.
 
     Called as ``line(stage, done, total)``, from any thread; a ``total`` of 0 means not known. From
     then on until `erase` the line stands; `show` keeps its times up to date.
@@ -397,7 +412,7 @@ class ProgressLine:
 
     def __init__(self, stream: TextIO, quiet: bool = False) -> None:
         self._stream = stream
-        self._terminal = stream.isatty()
+        self._terminal = _can_erase(stream)
         self._quiet = quiet
         self._started = time.monotonic()
         self._last = self._started - (INTERVAL if self._terminal else 0.0)
@@ -427,20 +442,19 @@ class ProgressLine:
         text = f"{bar}{' ' if bar else ''}{self.stage_text()}{self._speed(now)}"
         with contextlib.suppress(OSError, ValueError):
             if self._terminal:
-                width = os.get_terminal_size(self._stream.fileno()).columns if self._real else 80
-                self._stream.write(f"{_ERASE}{text[: width - 1]}")
+                self._stream.write(f"{_ERASE}{text[: self._width - 1]}")
                 self._shown = True
             else:
                 self._stream.write(f"nag: {text}\n")
             self._stream.flush()
 
     @property
-    def _real(self) -> bool:
-        """Whether the terminal has a size."""
+    def _width(self) -> int:
+        """Columns of the terminal; one that nobody has told its size says 0."""
         try:
-            return os.isatty(self._stream.fileno())
+            return os.get_terminal_size(self._stream.fileno()).columns or WIDTH
         except (OSError, ValueError):
-            return False
+            return WIDTH
 
     def _speed(self, now: float) -> str:
         """Seconds since the start; steps a second and the time left of the stage."""
@@ -532,7 +546,7 @@ def compilation_notice(stream: TextIO, quiet: bool = False) -> Iterator[None]:
 
     def notice(name: str) -> None:
         if not given:
-            start = _ERASE if stream.isatty() else ""
+            start = _ERASE if _can_erase(stream) else ""
             stream.write(f"{start}compiling the run, once; this takes a few seconds ...\n")
             stream.flush()
         given.append(name)
