@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from dataclasses import fields, replace
 from fractions import Fraction
 
@@ -429,3 +430,13 @@ def test_settings_of_ones_own_are_exported_by_a_name() -> None:
         VALIDATOR.validate(document)
         assert document["settings"] == "custom"
         assert answer.complete
+
+
+@pytest.mark.skipif(not os.path.isdir("/dev/fd"), reason="there are no names of what is open")
+def test_a_pipe_that_has_no_name_of_its_own_is_written_to() -> None:
+    reader, writer = os.pipe()
+    check_target(f"/dev/fd/{writer}")
+    write_target(f"/dev/fd/{writer}", ["some ", "text"])
+    os.close(writer)
+    with open(reader, "rb") as stream:
+        assert stream.read() == b"some text"

@@ -42,9 +42,9 @@ def check_target(path: str | os.PathLike[str]) -> None:
     """
     target = Path(path)
     try:
-        real = target.resolve()
-        if _is_special(real):
+        if _is_special(target):
             return
+        real = target.resolve()
         if real.is_dir():
             raise TargetError(f"{target}: is a directory; name a file")
         if not real.parent.is_dir():
@@ -70,9 +70,9 @@ def write_target(path: str | os.PathLike[str], content: Content) -> None:
     """Write a text, as UTF-8, or bytes to ``path`` through a temporary file beside it.
 
     A text may come in parts, each of which is written before the next one is asked for; or a
-    function writes what it has to. Whoever
-    reads ``path`` sees the old content or the new, never a part. A symbolic link stays a link; an
-    existing file keeps its permissions; a device or a pipe is written to directly.
+    function writes what it has to. Whoever reads ``path`` sees the old content or the new, never a
+    part. A symbolic link stays a link; an existing file keeps its permissions; a device or a pipe
+    is written to directly.
 
     Raises:
         TargetError: if it cannot be written; the old content is then untouched.
@@ -80,11 +80,12 @@ def write_target(path: str | os.PathLike[str], content: Content) -> None:
     target = Path(path)
     temporary = None
     try:
-        real = target.resolve()
-        if _is_special(real):
-            with real.open("wb") as stream:
+        if _is_special(target):
+            # By its own name: what `/dev/stdout` leads to may have none.
+            with target.open("wb") as stream:
                 _write(stream, content)
             return
+        real = target.resolve()
         temporary = _temporary(real)
         with temporary.open("xb") as stream:
             _write(stream, content)
