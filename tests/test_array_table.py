@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.numerics.array_table import ArrayTable, map_rows
+from nag.solving.isolated_zero import IsolatedZero, IsolatedZeros
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,3 +85,10 @@ def test_values_of_rows_are_the_same_whatever_is_worked_out_at_once(monkeypatch)
         found = map_rows(lambda some, one: np.abs(some).max(axis=1) + one, points, points[:, 0])
         assert np.array_equal(found, whole)
     assert map_rows(lambda some: some[:, 0], points[:0]).shape == (0,)
+
+
+def test_records_that_hold_arrays_are_compared_by_value() -> None:
+    zeros = [IsolatedZero(np.array([k, 1j]), 1, 0.0, 1e-16, 2.0, 16) for k in range(3)]
+    table = IsolatedZeros.of(zeros, 2)
+    assert table == IsolatedZeros.of(zeros, 2) == zeros and table != zeros[:2]
+    assert table != [*zeros[:2], zeros[0]]

@@ -135,11 +135,29 @@ def test_results_are_sequences_and_tables() -> None:
         assert again == copy.deepcopy(result) == result and "\n" not in repr(result)
 
 
+def test_solutions_are_shown_in_one_line_and_printed_a_line_each() -> None:
+    solved = nag.solve(["x^60 - 1"])
+    assert repr(solved.solutions) == "<Solutions: 60 isolated solutions, 2 real>"
+    assert repr(solved[:1]) in (
+        "<Solutions: 1 isolated solution, 1 real>",
+        "<Solutions: 1 isolated solution, 0 real>",
+    )
+    title, first, *_, last = str(solved.solutions).splitlines()
+    assert title == repr(solved.solutions) and first == repr(solved[0]) and last == "and 20 more"
+
+
 def test_results_are_frames_of_pandas() -> None:
     solved = nag.solve(["x^2 - 2", "y - x"]).to_dataframe()
     assert list(solved.columns)[:3] == ["x", "y", "multiplicity"] and len(solved) == 2
     real = nag.solve(["x^3 - 8", "y - x"]).to_dataframe(real=True)
     assert real["x"].tolist() == [2.0] and real["x"].dtype == float
+    complex_ = nag.solve(["x^2 + 1", "y - x"])
+    nothing = complex_.to_dataframe(real=True)
+    assert list(nothing.columns)[:3] == ["x", "y", "multiplicity"] and len(nothing) == 0
+    frame = complex_.to_dataframe()
+    frame.loc[:, "x"] = 0
+    assert frame["x"].tolist() == [0, 0]
+    assert abs(complex_.points[:, 0]).tolist() == pytest.approx([1, 1])
     gaussian = nag.solve(nag.system(["x - I"], imaginary="I")).to_dataframe()
     assert list(gaussian.columns)[:2] == ["x", "multiplicity"] and gaussian["x"].tolist() == [1j]
     found = nag.decompose(CIRCLE_AND_LINE).to_dataframe()

@@ -11,6 +11,8 @@ from typing import Any, Self, TypeVar, overload
 
 import numpy as np
 
+from nag.numerics.read_only import equal_entries
+
 Record = TypeVar("Record")
 # Rows whose values are worked out at once.
 ROWS = 4096
@@ -139,6 +141,6 @@ class RecordTable(ArrayTable, Sequence[Record]):
         if not isinstance(other, Sequence):
             return NotImplemented
         same = len(self) == len(other)
-        return same and all(a == b for a, b in zip(self, other, strict=True))
+        return same and all(map(equal_entries, self, other))
 
     __hash__ = None  # type: ignore[assignment]

@@ -43,17 +43,20 @@ def equal_values(one: object, other: object) -> bool:
     if type(one) is not type(other) or not is_dataclass(one):
         return False
     return all(
-        _equal(getattr(one, each.name), getattr(other, each.name))
+        equal_entries(getattr(one, each.name), getattr(other, each.name))
         for each in fields(one)
         if each.compare
     )
 
 
-def _equal(one: object, other: object) -> bool:
+def equal_entries(one: object, other: object) -> bool:
+    """Whether two fields or records agree, arrays in them by value."""
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
         return one.dtype == other.dtype and np.array_equal(one, other, equal_nan=True)
     if isinstance(one, tuple | list) and isinstance(other, tuple | list):
-        return len(one) == len(other) and all(map(_equal, one, other))
+        return len(one) == len(other) and all(map(equal_entries, one, other))
     if isinstance(one, Mapping) and isinstance(other, Mapping):
-        return one.keys() == other.keys() and all(_equal(one[key], other[key]) for key in one)
+        return one.keys() == other.keys() and all(
+            equal_entries(one[key], other[key]) for key in one
+        )
     return bool(one == other)

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from nag.algebra.system import system_line
-from nag.text.table import count_text, html_table, lines_of, magnitude
+from nag.text.table import count_text, html_table, lines_of, magnitude, named_line
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from nag.solving.solutions import Solution, SolveResult
+    from nag.solving.solutions import Solution, Solutions, SolveResult
 
 # Longer lists are left to the export.
 MOST_ROWS = 40
@@ -130,6 +130,19 @@ def solution_text(solution: Solution) -> str:
             ("condition", magnitude(solution.condition)),
         ],
     )
+
+
+def solutions_line(solutions: Solutions) -> str:
+    """Solutions in one line, however many there are."""
+    count = count_text(len(solutions), "isolated solution")
+    return named_line(solutions, f": {count}, {int(solutions.real.sum())} real")
+
+
+def solutions_text(solutions: Solutions) -> str:
+    """Solutions, a line for each of the first ones."""
+    lines = [solution_line(each) for each in solutions[:MOST_ROWS]]
+    left = len(solutions) - len(lines)
+    return "\n".join([solutions_line(solutions), *lines, *([f"and {left} more"] if left else [])])
 
 
 def _rests_on(result: SolveResult) -> str:

@@ -135,6 +135,16 @@ class Solutions(RecordTable[Solution]):
         points = np.array([s.point for s in solutions], dtype=complex).reshape(len(solutions), n)
         return cls(points=points, radii=radii, **numbers)
 
+    def __repr__(self) -> str:
+        from nag.solving.shown import solutions_line
+
+        return solutions_line(self)
+
+    def __str__(self) -> str:
+        from nag.solving.shown import solutions_text
+
+        return solutions_text(self)
+
     def record(self, i: int) -> Solution:
         return Solution(
             self.points[i],
@@ -399,14 +409,12 @@ class SolveResult(Sequence[Solution]):
         Raises:
             nag.NagError: if pandas is not installed.
         """
-        solutions = self.real if real else self.solutions
+        table = self.table.select_rows(self.table.real) if real else self.table
         names = self.system.own_variables
-        points = np.array([s.point for s in solutions]).reshape(len(solutions), -1)
-        if real:
-            points = points.real
+        points = table.points.real if real else table.points
         columns: dict[str, Any] = {name: points[:, i] for i, name in enumerate(names)}
         for name in ("multiplicity", "real", "residual", "accuracy", "condition"):
-            columns[name] = [getattr(s, name) for s in solutions]
+            columns[name] = getattr(table, name)
         return data_frame(columns)
 
     def to_sympy(self) -> list[dict[Any, Any]]:
