@@ -38,9 +38,13 @@ def draw_bar(done: int, total: int) -> str:
     """A bar of the part that is done; empty where that is not known.
 
     >>> draw_bar(3, 8)
-    '[#######-------------] 38 %'
+    '[#######-------------] 37 %'
+    >>> draw_bar(8191, 8192)[-4:]
+    '99 %'
     """
     if not total:
         return ""
-    full = min(max(done, 0), total) * BAR // total
-    return f"[{'#' * full}{'-' * (BAR - full)}] {100 * done / total:.0f} %"
+    # Rounded down: the whole is said only of the whole.
+    done = min(max(done, 0), total)
+    full = done * BAR // total
+    return f"[{'#' * full}{'-' * (BAR - full)}] {100 * done // total} %"

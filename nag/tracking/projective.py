@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from nag.numerics.array_table import map_rows
 from nag.numerics.coincidence import neighbours
 from nag.numerics.doubles import SLACK
 from nag.tracking.homotopy import norms
@@ -15,8 +16,6 @@ Groups = Sequence[Sequence[int]]
 # Relative error of a point that is known to all digits: rounding of two homogeneous coordinates,
 # and of their quotient.
 ROUNDING = 5 * 2.0**-53
-# Points whose keys are worked out at once.
-BLOCK = 4096
 
 
 def aligned_difference(groups: Groups, first: np.ndarray, second: np.ndarray) -> np.ndarray:
@@ -50,11 +49,8 @@ def coinciding_pairs(groups: Groups, points: np.ndarray, errors: np.ndarray) -> 
     # |<v, x>|^2 for a fixed v is the same for all multiples of x, and sorts the points.
     key = np.zeros(len(points))
     for indices in groups:
-        # Some at a time, as there may be 10^6 of them.
-        weights = np.exp(1j * np.arange(len(indices)) ** 2)
-        for first in range(0, len(points), BLOCK):
-            some = points[first : first + BLOCK, list(indices)]
-            key[first : first + BLOCK] += np.abs(some @ weights) ** 2
+        places, weights = list(indices), np.exp(1j * np.arange(len(indices)) ** 2)
+        key += map_rows(lambda some, p=places, w=weights: np.abs(some[:, p] @ w) ** 2, points)
     pairs = [np.zeros((0, 2), dtype=np.int64)]
     for i, j in neighbours(key, 2 * points.shape[1] * radii):
         apart = norms(aligned_difference(groups, points[i], points[j]))

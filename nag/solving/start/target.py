@@ -13,6 +13,7 @@ from nag.algebra.combinations import of_fewest_terms
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.errors import NagError
+from nag.numerics.array_table import ROWS
 from nag.numerics.doubles import EPS, UNIT
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
@@ -21,8 +22,6 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.known import NOTHING, KnownOfPaths
 from nag.tracking.starts import StartsByIndex
 
-# Points that are divided at once.
-BLOCK = 4096
 Terms = Mapping[Exponents, Number | complex]
 
 
@@ -219,9 +218,9 @@ class StartSystem:
             indices = list(group)
             places = [shift + i for i in indices]
             # Some at a time, as there may be 10^6 of them.
-            for first in range(0, len(points), BLOCK):
-                some = points[first : first + BLOCK]
-                result[first : first + BLOCK, indices] = some[:, places] / some[:, k : k + 1]
+            for first in range(0, len(points), ROWS):
+                some = points[first : first + ROWS]
+                result[first : first + ROWS, indices] = some[:, places] / some[:, k : k + 1]
         return result
 
 
