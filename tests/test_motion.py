@@ -23,6 +23,7 @@ from nag.kinematics.motion import Motion, MotionError, motion_of
 from nag.kinematics.path import Curve
 from nag.kinematics.poses import Poses, pose_steps, turn_product
 from nag.kinematics.scene import Scene, SceneJoint, scene_of
+from nag.kinematics.spherical_chart import SphericalChart
 from nag.kinematics.walks import walks_of
 from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
@@ -211,6 +212,10 @@ def curve_of(vertices: list[tuple[float, float]], edges: list[RealEdge], *pieces
     return RealCurve(("x", "y"), (), made, tuple(edges), tuple(pieces), PictureVerdict.COMPLETE)
 
 
+# Coordinates of a plane as they are.
+PLANE = SphericalChart(2, (), ())
+
+
 def lemniscate_lobe(sign: float) -> list[tuple[float, float]]:
     """One lobe of (x^2 + y^2)^2 = x^2 - y^2, from the node to the node."""
     angles = np.linspace(-np.pi / 2, np.pi / 2, 81)
@@ -221,7 +226,7 @@ def lemniscate_lobe(sign: float) -> list[tuple[float, float]]:
 def test_a_motion_goes_straight_on_through_a_node() -> None:
     lobes = [arc(0, 0, lemniscate_lobe(s)) for s in (1.0, -1.0)]
     piece = RealPiece(PieceKind.ARC_NETWORK, (0, 1), (0,))
-    (walk,) = walks_of(curve_of([(0.0, 0.0)], lobes, piece))
+    (walk,) = walks_of(curve_of([(0.0, 0.0)], lobes, piece), PLANE)
     assert walk.closed and len(walk.chart) == 161
     steps = np.diff(np.concatenate([walk.chart, walk.chart[1:2]]), axis=0)
     steps = steps / np.linalg.norm(steps, axis=1, keepdims=True)
@@ -239,7 +244,7 @@ def test_two_circles_that_cross_are_two_motions() -> None:
             points = [(middle + math.cos(a + turn), math.sin(a + turn)) for a in own]
             edges.append(arc(ends[k], ends[1 - k], points))
     piece = RealPiece(PieceKind.ARC_NETWORK, (0, 1, 2, 3), (0, 1))
-    walks = walks_of(curve_of([(0.0, high), (0.0, -high)], edges, piece))
+    walks = walks_of(curve_of([(0.0, high), (0.0, -high)], edges, piece), PLANE)
     assert [w.closed for w in walks] == [True, True]
     for walk, middle in zip(walks, (-0.5, 0.5), strict=True):
         radii = np.linalg.norm(walk.chart - np.array([middle, 0.0]), axis=1)
@@ -255,7 +260,7 @@ def test_a_motion_turns_back_at_a_cusp_and_ends_where_an_arc_is_open() -> None:
     )
     piece = RealPiece(PieceKind.ARC_NETWORK, (0, 1), (0, 1))
     curve = RealCurve(("x", "y"), (), vertices, tuple(branches), (piece,), PictureVerdict.COMPLETE)
-    (walk,) = walks_of(curve)
+    (walk,) = walks_of(curve, PLANE)
     assert not walk.closed and len(walk.chart) == 39
     assert walk.vertices == ((0, 19),)
     assert np.sign(walk.chart[0, 1]) == -np.sign(walk.chart[-1, 1])
@@ -264,12 +269,49 @@ def test_a_motion_turns_back_at_a_cusp_and_ends_where_an_arc_is_open() -> None:
 def test_a_closed_walk_may_begin_anywhere() -> None:
     lobes = [arc(0, 0, lemniscate_lobe(s)) for s in (1.0, -1.0)]
     piece = RealPiece(PieceKind.ARC_NETWORK, (0, 1), (0,))
-    (walk,) = walks_of(curve_of([(0.0, 0.0)], lobes, piece))
+    (walk,) = walks_of(curve_of([(0.0, 0.0)], lobes, piece), PLANE)
     turned = walk.begin_at(7)
     assert np.abs(turned.chart[[0, -1]] - walk.chart[7]).max() < 1e-12
     assert len(turned.chart) == len(walk.chart)
     for vertex, index in turned.vertices:
         assert vertex == 0 and np.abs(turned.chart[index]).max() < 1e-12
+
+
+def test_a_walk_through_infinity_of_a_quaternion_is_smooth_there() -> None:
+    # The hyperbola b^2 - c^2 = 1 of quaternions (1, 0, b, c), a loop that meets infinity twice.
+    t = np.linspace(0, 2 * np.pi, 201) - 0.3
+    points = np.stack([0 * t, 1 / np.cos(t), np.tan(t)], axis=1)
+    unit = np.stack([np.cos(t), 0 * t, 1 + 0 * t, np.sin(t)], axis=1) / math.sqrt(2)
+    system = nag.system("a", "a b c", groups=[("a", "b", "c")], nonzero="1 + a^2 + b^2 + c^2")
+    coordinates = SphericalChart.of(system)
+    edge = RealEdge(None, None, points, points)
+    piece = RealPiece(PieceKind.CLOSED_LOOP, (0,), ())
+    curve = RealCurve(("a", "b", "c"), (), (), (edge,), (piece,), PictureVerdict.COMPLETE)
+    (walk,) = walks_of(curve, coordinates)
+    assert walk.closed and np.allclose(walk.chart[:, [3, 0, 1, 2]], unit, rtol=0, atol=1e-14)
+    turned = walk.begin_at(70)
+    assert np.linalg.norm(np.diff(turned.chart, axis=0), axis=1).max() < 0.04
+    assert np.allclose(coordinates.points(walk.chart), points, rtol=1e-12, atol=1e-12)
+
+
+def test_a_spherical_joint_turns_by_half_a_turn_as_by_any_other() -> None:
+    """Quaternions of this rod pass infinity of their chart; lengths are those of traced loops."""
+    joints = [
+        nag.Joint("A", "revolute", ("base", "crank"), (0, 0, 0), (0, 0, 1)),
+        nag.Joint("B", "universal", ("crank", "rod"), (1, 0, 0), (0, 0, 1), (0, 1, 0)),
+        nag.Joint("C", "spherical", ("rod", "rocker"), (3, 1, 2)),
+        nag.Joint("D", "revolute", ("rocker", "base"), (4, 0, 0), (0, 1, 0)),
+    ]
+    motion = nag.motion(nag.Mechanism("base", tuple(joints)), circuit="all", samples=120)
+    assert motion.complete and len(motion.circuits) == 2
+    lengths = sorted(circuit.length for circuit in motion.circuits)
+    assert lengths == pytest.approx([13.68, 13.74], abs=0.02)
+    scene = motion.scene
+    for circuit in motion.circuits:
+        assert circuit.closed and not circuit.crossings
+        assert joint_errors(scene, circuit.poses).max() < FIT
+        steps = pose_steps(circuit.poses, scene.centres, scene.size)
+        assert steps.max() < 1.01 * circuit.length / 120
 
 
 def test_the_table_has_a_column_for_each_number(moved) -> None:
@@ -365,7 +407,8 @@ def test_steps_onto_a_curve_of_more_equations_than_it_needs_do_not_run_along_it(
     problem = read_problem("spatial/bricard-plane-symmetric")
     curve = trace_loop(problem, start_of(problem), step=0.05)
     path = Curve(curve, problem.system, scene_of(problem))
-    chart = curve.edges[0].chart
+    (walk,) = walks_of(curve, path.coordinates)
+    chart = walk.chart
     steps = np.diff(chart, axis=0)
     middle = path.sharpen((chart[1:] + chart[:-1]) / 2)
     along = ((middle - chart[:-1]) * steps).sum(axis=1) / (steps**2).sum(axis=1)

@@ -30,7 +30,7 @@ from nag.kinematics.path import Curve, Path, sample_path, singular_places
 from nag.kinematics.poses import Poses, pose_distances
 from nag.kinematics.scene import Scene, scene_of
 from nag.kinematics.turning_points import Values, values_along
-from nag.kinematics.walks import CurveWalk, points_of, walks_of
+from nag.kinematics.walks import CurveWalk, walks_of
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import obstacle
@@ -101,8 +101,8 @@ class Circuit:
         through_reference: whether that lies on it.
         arc: how far each sample is from the first, shape ``(k,)``: the root of the sum over bodies
             of squared angles, and squared ways over the size of the mechanism.
-        points: in the variables of the equations, shape ``(k, n)``; infinite where a half-angle is
-            that of half a turn from its chart's middle.
+        points: in the variables of the equations, shape ``(k, n)``; very large where a
+            joint's turn is that of half a turn from its chart's middle.
         poses: of all bodies.
         values: angles and slides of the joints.
         crossings: singular configurations on its way.
@@ -690,7 +690,7 @@ def _circuits_on(
         reference = np.array([float(x) for x in problem.reference])
     curve = Curve(real, problem.system, scene)
     found = []
-    for walk in walks_of(real):
+    for walk in walks_of(real, curve.coordinates):
         begun = None if reference is None else _begin_at(curve, walk, reference)
         if begun is not None or which != "reference":
             on = begun is not None
@@ -709,13 +709,11 @@ def _each_once(scene: Scene, circuits: Iterable[_FoundCircuit]) -> list[_FoundCi
 
 def _begin_at(curve: Curve, walk: CurveWalk, reference: np.ndarray) -> CurveWalk | None:
     """A walk with a point of the curve on it, begun there if it is closed; None if it is not."""
-    real = curve.real
-    at, turns = reference.copy(), [t.variable for t in real.turns]
-    for turn in real.turns:
-        at[turn.variable] = turn.angles(reference[turn.variable])
-    shifts = np.zeros_like(walk.chart)
-    shifts[:, turns] = np.round((walk.chart[:, turns] - at[turns]) / np.pi) * np.pi
-    gaps = walk.chart - at - shifts
+    coordinates = walk.coordinates
+    at = coordinates.aligned(
+        np.repeat(coordinates.chart(reference[None]), len(walk.chart), axis=0), walk.chart
+    )
+    gaps = walk.chart - at
     nearest = int(np.linalg.norm(gaps, axis=1).argmin())
     if np.linalg.norm(gaps[nearest]) < SAME:
         return walk.begin_at(nearest)
@@ -724,7 +722,7 @@ def _begin_at(curve: Curve, walk: CurveWalk, reference: np.ndarray) -> CurveWalk
     shares = np.clip(-(gaps[:-1] * steps).sum(axis=1) / squares, 0.0, 1.0)
     distances = np.linalg.norm(gaps[:-1] + shares[:, None] * steps, axis=1)
     segment = int(distances.argmin())
-    target = at + shifts[segment]
+    target = at[segment]
     point = walk.chart[segment] + shares[segment] * steps[segment]
     ahead = steps[segment] / np.sqrt(squares[segment])
     for _ in range(APPROACHES):
@@ -759,7 +757,7 @@ def _sample(
             on_reference and walk.closed,
             on_reference,
             path.arc[step],
-            points_of(curve.real, path.chart[step]),
+            curve.coordinates.points(path.chart[step]),
             poses,
             _part(values, step, path.length / 2 if twice else np.inf),
             (),
@@ -783,7 +781,7 @@ def _within_reach(curve: Curve, walk: CurveWalk) -> tuple[CurveWalk, bool]:
     if (first == 0 and last == len(walk.chart) - 1) or last - first < 1:
         return walk, True
     vertices = tuple((v, i - first) for v, i in walk.vertices if first <= i <= last)
-    return CurveWalk(walk.piece, False, walk.chart[first : last + 1], vertices), True
+    return replace(walk, chart=walk.chart[first : last + 1], vertices=vertices), True
 
 
 def _return_to_start(poses: Poses) -> Poses:
@@ -861,7 +859,10 @@ def _passages(made: _FoundCircuit) -> list[_Passage]:
             places.append((arc, chart))
     return [
         _Passage(
-            made, arc, points_of(path.curve.real, chart[None])[0], path.curve.poses(chart[None])
+            made,
+            arc,
+            path.curve.coordinates.points(chart[None])[0],
+            path.curve.poses(chart[None]),
         )
         for arc, chart in sorted(places, key=lambda p: p[0])
         if arc < made.end

@@ -15,7 +15,8 @@ from nag.algebra.evaluation import Evaluator, PlacedDerivatives
 from nag.algebra.system import PolynomialSystem
 from nag.kinematics.poses import Poses, pose_steps
 from nag.kinematics.scene import Scene
-from nag.kinematics.walks import CurveWalk, points_of
+from nag.kinematics.spherical_chart import SphericalChart
+from nag.kinematics.walks import CurveWalk
 from nag.real.curve import RealCurve
 
 # Decides: Singular values of equations along a curve, over the largest, that are zero: Newton's
@@ -52,53 +53,46 @@ class Curve:
 
     def poses(self, chart: np.ndarray) -> Poses:
         """Where the bodies are at points of a chart."""
-        return self.scene.lift(points_of(self.real, chart))
+        return self.scene.lift(self.coordinates.points(chart))
+
+    @cached_property
+    def coordinates(self) -> SphericalChart:
+        """Those of its charts."""
+        return SphericalChart.of(self.system)
 
     @cached_property
     def _equations(self) -> tuple[Evaluator, PlacedDerivatives]:
-        """The equations, homogeneous in each turn, with their derivatives.
-
-        The last variables, one for each turn, are those that make them homogeneous.
-        """
-        turns = [turn.variable for turn in self.real.turns]
-        n = self.system.n + len(turns)
+        """The equations, homogeneous in each group of the chart, with their derivatives."""
+        coordinates = self.coordinates
         given = Evaluator.of(self.system.polynomials, self.system.n)
         rows = []
         for coefficients in given.coefficients:
             there = np.flatnonzero(coefficients)
             exponents = given.exponents[there]
-            missing = exponents[:, turns].max(axis=0, initial=0) - exponents[:, turns]
-            whole = map(tuple, np.hstack([exponents, missing]).tolist())
+            degrees = [exponents[:, list(own)].sum(axis=1) for own in coordinates.groups]
+            missing = [own.max(initial=0) - own for own in degrees]
+            whole = map(tuple, np.column_stack([exponents, *missing]).tolist())
             rows.append(dict(zip(whole, coefficients[there].tolist(), strict=True)))
         monomials = sorted({e for row in rows for e in row})
         table = np.array([[row.get(e, 0.0) for e in monomials] for row in rows])
         table = table.reshape(len(rows), len(monomials))
-        evaluator = Evaluator(n, np.array(monomials, dtype=np.int64).reshape(-1, n), table)
-        return evaluator, evaluator.placed_derivatives(n)
+        size = coordinates.size
+        evaluator = Evaluator(size, np.array(monomials, dtype=np.int64).reshape(-1, size), table)
+        return evaluator, evaluator.placed_derivatives(size)
 
     def equations_at(self, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Values and Jacobians by the chart's coordinates, rows of length one.
 
-        Shapes ``(k, rows)`` and ``(k, rows, n)``. A turn enters by cosine and sine of its
-        half-angle, so that nothing is special where its variable is infinite.
+        The last rows, whose values are zero, are those of the lengths of groups. Shapes
+        ``(k, rows)`` and ``(k, rows, size)``.
         """
         evaluator, derivatives = self._equations
-        n, turns = self.system.n, self.real.turns
-        points = np.hstack([chart, np.ones((len(chart), len(turns)))])
-        slopes = np.ones_like(points)
-        for k, turn in enumerate(turns):
-            c, s = np.cos(chart[:, turn.variable]), np.sin(chart[:, turn.variable])
-            points[:, turn.variable] = turn.centre * c + turn.radius * s
-            slopes[:, turn.variable] = turn.radius * c - turn.centre * s
-            points[:, n + k], slopes[:, n + k] = c, -s
-        values = evaluator.values(points).real
-        whole = derivatives(points).real * slopes[:, None, :]
-        rows = whole[:, :, :n]
-        for k, turn in enumerate(turns):
-            rows[:, :, turn.variable] += whole[:, :, n + k]
+        values, rows = evaluator.values(chart).real, derivatives(chart).real
         sizes = np.linalg.norm(rows, axis=2)
         sizes = np.where(sizes > 0, sizes, 1.0)
-        return values / sizes, rows / sizes[:, :, None]
+        lengths = self.coordinates.directions_of_scaling(chart)
+        none = np.zeros(lengths.shape[:2])
+        return np.hstack([values / sizes, none]), np.hstack([rows / sizes[:, :, None], lengths])
 
     def sharpen(self, chart: np.ndarray) -> np.ndarray:
         """Points of a chart, brought onto the curve by Newton's method on all equations.
@@ -115,7 +109,7 @@ class Curve:
             parts = (u.transpose(0, 2, 1) @ values[:, :, None])[:, :, 0]
             parts = np.where(kept, parts / np.where(kept, s, 1.0), 0.0)
             step = (v.transpose(0, 2, 1) @ parts[:, :, None])[:, :, 0]
-            chart -= step
+            chart = self.coordinates.normalised(chart - step)
             if float(np.abs(step).max(initial=0.0)) < ARRIVED:
                 break
         return chart
@@ -129,7 +123,7 @@ class Path:
         curve: what it runs on.
         walk: how.
         arc: how far each sample is from the first, in radians and sizes, shape ``(k,)``.
-        chart: of the samples, shape ``(k, n)``.
+        chart: of the samples, shape ``(k, size)``, in the coordinates of the walk.
         poses: at the samples, with continuous signs.
         vertices: those of the real curve on the way, each with how far it is from the first sample.
     """
@@ -146,6 +140,12 @@ class Path:
         """The whole way."""
         return float(self.arc[-1])
 
+    @property
+    def before_first(self) -> np.ndarray:
+        """The sample before the first of a closed motion, which is the last but one."""
+        last = self.chart[-2:]
+        return self.walk.coordinates.continuous(np.vstack([self.chart[:1], last[::-1]]))[2]
+
 
 def singular_places(path: Path) -> list[tuple[float, np.ndarray]]:
     """Where the rank of the equations drops on a path: how far along it is, and the chart there.
@@ -161,7 +161,7 @@ def singular_places(path: Path) -> list[tuple[float, np.ndarray]]:
     count = len(chart)
     found = []
     for i in range(0 if path.walk.closed else 1, count - 1):
-        before = chart[i - 1] if i else chart[-2] - chart[-1] + chart[0]
+        before = chart[i - 1] if i else path.before_first
         around = sizes[i - 1 if i else count - 2], sizes[i + 1]
         if sizes[i] > min(around) or sizes[i] > PROMISING * usual:
             continue

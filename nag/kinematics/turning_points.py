@@ -98,7 +98,7 @@ def _extremes(
     if path.walk.closed:
         # One sample more before the first, which is the last but one.
         own = np.concatenate([[own[-2] - own[-1] + own[0]], own])
-        chart = np.concatenate([[chart[-2] - chart[-1] + chart[0]], chart])
+        chart = np.concatenate([path.before_first[None], chart])
     steps = np.diff(own)
     # A value that stays the same to rounding has no direction of its own.
     signs = np.sign(np.where(np.abs(steps) < STILL / 10, 0.0, steps))

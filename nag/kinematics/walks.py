@@ -7,10 +7,12 @@ cusp, where they are not, leaves over is paired as it lies nearest to that.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from nag.kinematics.spherical_chart import SphericalChart
 from nag.real.curve import RealCurve, VertexKind
 
 # An end of an edge: its index, and whether it is the last point.
@@ -24,45 +26,40 @@ class CurveWalk:
     Attributes:
         piece: index of the connected piece that it runs on.
         closed: whether it returns to where it began.
-        chart: coordinates along it, shape ``(k, n)``, as those of `nag.real.curve.RealEdge.chart`,
-            continuous all along it. Of a closed walk the last point is the first.
+        chart: points along it, shape ``(k, size)``, in the coordinates of `coordinates`, continuous
+            all along it. Of a closed walk the last point is the first, up to signs of groups.
         vertices: the vertices on its way, each with the index of the point there; of a closed walk
             none at the last point.
+        coordinates: those of the chart.
     """
 
     piece: int
     closed: bool
     chart: np.ndarray
     vertices: tuple[tuple[int, int], ...]
+    coordinates: SphericalChart
 
     def begin_at(self, index: int) -> CurveWalk:
         """A closed walk, begun at another point."""
         if index == 0 or not self.closed:
             return self
         last = len(self.chart) - 1
-        shift = self.chart[-1] - self.chart[0]
-        chart = np.concatenate([self.chart[index:], self.chart[1 : index + 1] + shift])
+        whole = np.concatenate([self.chart[index:], self.chart[1 : index + 1]])
         turned = {(v, (i - index) % last) for v, i in self.vertices}
-        return CurveWalk(self.piece, True, chart, tuple(sorted(turned, key=lambda p: p[1])))
+        vertices = tuple(sorted(turned, key=lambda p: p[1]))
+        return replace(self, chart=self.coordinates.continuous(whole), vertices=vertices)
 
     def insert(self, segment: int, point: np.ndarray) -> CurveWalk:
         """The same with one point more, after that of index ``segment``."""
         chart = np.insert(self.chart, segment + 1, point, axis=0)
         vertices = tuple((v, i + (i > segment)) for v, i in self.vertices)
-        return CurveWalk(self.piece, self.closed, chart, vertices)
+        return replace(self, chart=chart, vertices=vertices)
 
 
-def points_of(curve: RealCurve, chart: np.ndarray) -> np.ndarray:
-    """Points in the curve's variables from those of a chart."""
-    points = np.array(chart)
-    for turn in curve.turns:
-        points[:, turn.variable] = turn.centre + turn.radius * np.tan(chart[:, turn.variable])
-    return points
-
-
-def walks_of(curve: RealCurve) -> tuple[CurveWalk, ...]:
+def walks_of(curve: RealCurve, coordinates: SphericalChart) -> tuple[CurveWalk, ...]:
     """All motions along a real curve, each edge in one of them; isolated points are none."""
-    partner = _pair_ends(curve)
+    charts = [coordinates.continuous(coordinates.chart(edge.points)) for edge in curve.edges]
+    partner = _pair_ends(curve, charts, coordinates)
     walks = []
     for number, piece in enumerate(curve.pieces):
         left = set(piece.edges)
@@ -70,11 +67,13 @@ def walks_of(curve: RealCurve) -> tuple[CurveWalk, ...]:
             start = min(left)
             way = _follow(curve, partner, start)
             left -= {edge for edge, _ in way}
-            walks.append(_join(curve, number, way, partner))
+            walks.append(_join(curve, number, way, partner, charts, coordinates))
     return tuple(walks)
 
 
-def _pair_ends(curve: RealCurve) -> dict[End, End]:
+def _pair_ends(
+    curve: RealCurve, charts: Sequence[np.ndarray], coordinates: SphericalChart
+) -> dict[End, End]:
     """For each end of an edge at a finite vertex the one in which a motion goes on."""
     ends: dict[int, list[End]] = {}
     for k, edge in enumerate(curve.edges):
@@ -83,7 +82,12 @@ def _pair_ends(curve: RealCurve) -> dict[End, End]:
                 ends.setdefault(vertex, []).append((k, last))
     partner: dict[End, End] = {}
     for own in ends.values():
-        directions = [_direction(curve, end) for end in own]
+        # A vertex is at the end of several edges, with the signs of each.
+        starts = [_begin_at_end(charts, end) for end in own]
+        aligned = [
+            coordinates.continuous(np.vstack([starts[0][:1], start]))[1:] for start in starts
+        ]
+        directions = [_direction(start) for start in aligned]
         pairs = sorted(
             (float(directions[i] @ directions[j]), i, j)
             for i in range(len(own))
@@ -95,11 +99,14 @@ def _pair_ends(curve: RealCurve) -> dict[End, End]:
     return partner
 
 
-def _direction(curve: RealCurve, end: End) -> np.ndarray:
-    """The unit vector into an edge from one of its ends, by a circle through three points."""
+def _begin_at_end(charts: Sequence[np.ndarray], end: End) -> np.ndarray:
+    """The first points of an edge from one of its ends, three at most."""
     edge, last = end
-    chart = curve.edges[edge].chart
-    chart = chart[::-1] if last else chart
+    return (charts[edge][::-1] if last else charts[edge])[:3]
+
+
+def _direction(chart: np.ndarray) -> np.ndarray:
+    """The unit vector into an edge from its first point, by a circle through three points."""
     if len(chart) < 3:
         vector = chart[-1] - chart[0]
     else:
@@ -133,20 +140,22 @@ def _follow(curve: RealCurve, partner: dict[End, End], start: int) -> list[tuple
 
 
 def _join(
-    curve: RealCurve, piece: int, way: list[tuple[int, bool]], partner: dict[End, End]
+    curve: RealCurve,
+    piece: int,
+    way: list[tuple[int, bool]],
+    partner: dict[End, End],
+    charts: Sequence[np.ndarray],
+    coordinates: SphericalChart,
 ) -> CurveWalk:
     """The chart along edges, made continuous from one to the next."""
     parts: list[np.ndarray] = []
     vertices: list[tuple[int, int]] = []
-    turns = [turn.variable for turn in curve.turns]
     length = 0
     for edge_number, forwards in way:
         edge = curve.edges[edge_number]
-        chart = np.array(edge.chart if forwards else edge.chart[::-1])
+        chart = charts[edge_number] if forwards else charts[edge_number][::-1]
         ends = (edge.start, edge.end) if forwards else (edge.end, edge.start)
         if parts:
-            gap = parts[-1][-1, turns] - chart[0, turns]
-            chart[:, turns] += np.round(gap / np.pi) * np.pi
             chart = chart[1:]
         elif _is_finite(curve, ends[0]):
             vertices.append((ends[0], 0))
@@ -161,7 +170,8 @@ def _join(
     if closed and vertices:
         # What ends where it began is there once.
         vertices = [(v, i) for v, i in vertices if i < length - 1]
-    return CurveWalk(piece, closed, np.concatenate(parts), tuple(vertices))
+    whole = coordinates.continuous(np.concatenate(parts))
+    return CurveWalk(piece, closed, whole, tuple(vertices), coordinates)
 
 
 def _is_finite(curve: RealCurve, vertex: int | None) -> bool:

@@ -66,12 +66,7 @@ class ProjectiveClosure:
                 weighted[tuple(e)] = Fraction(float(form[i]))
         pencil = Polynomial(count + n, everything), Polynomial(count + n, weighted)
         norms = tuple(
-            tuple(
-                _homogeneous(f, groups)
-                for f in system.nonzero
-                if system.groups and _is_norm(f, group)
-            )
-            for group in groups
+            tuple(_homogeneous(f, groups) for f in _norms_of(system, group)) for group in groups
         )
         scale = max(abs(float(c)) for c in form)
         return cls(n, groups, (*exact, *pencil), scale, norms)
@@ -216,6 +211,29 @@ class ProjectiveClosure:
             patches[g] = np.where(self.group_of == g, point, 0)
         s = np.linalg.svd(np.vstack([own, patches]), compute_uv=False)
         return float(s[self.size - 2] / s[0])
+
+
+def homogeneous_norms(system: PolynomialSystem, group: Sequence[int]) -> tuple[Polynomial, ...]:
+    """The norms of a group of variables, in their common denominator and the variables.
+
+    Where none of them vanishes, infinity of the variables is a configuration like others.
+    """
+    place = {i: 1 + k for k, i in enumerate(group)}
+    found = []
+    for f in _norms_of(system, group):
+        terms = {}
+        for e, c in f.terms.items():
+            own = [0] * (1 + len(group))
+            for i in group:
+                own[place[i]] = e[i]
+            own[0] = f.degree - sum(own)
+            terms[tuple(own)] = c
+        found.append(Polynomial(1 + len(group), terms))
+    return tuple(found)
+
+
+def _norms_of(system: PolynomialSystem, group: Sequence[int]) -> list[Polynomial]:
+    return [f for f in system.nonzero if system.groups and _is_norm(f, group)]
 
 
 def _is_norm(f: Polynomial, group: Sequence[int]) -> bool:
