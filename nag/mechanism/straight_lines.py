@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 
 from nag.algebra.number import Number, is_zero, square_root
 from nag.mechanism.assembly import Side
@@ -89,6 +89,8 @@ def find_forced_lines(sides: Sequence[Side]) -> ForcedLines:
     lines: list[Line] = [{s.ends[0]: zero, s.ends[1]: square_root(s.squared)} for s in sides]
     names = {frozenset(s.ends): (s.name,) for s in sides}
     order = [s.name for s in sides]
+    lengths = {s.name: square_root(s.squared) for s in sides}
+    own_ways = {name: Way(x, float(x), (name,)) for name, x in lengths.items()}
     stretched: list[str] = []
     while True:
         known = _known_distances(lines, names)
@@ -107,12 +109,18 @@ def find_forced_lines(sides: Sequence[Side]) -> ForcedLines:
             if len(own) > len(line) == 2:
                 first, last = line
                 way = known[first, last]
-                others = [n for p in own for q in line if p != q for n in ways[q, p].names]
-                round_it = [n for n in dict.fromkeys(others) if n not in way.names]
+                places = sorted(own, key=lambda p: float(own[p]))
+                steps = [n for step in pairwise(places) for n in ways[step].names]
+                round_it = [n for n in dict.fromkeys(steps) if n not in way.names]
                 round_it.sort(key=order.index)
                 if round_it:
-                    text = f"{way.names[0]} is as long as {join_words(round_it)} together"
-                    stretched.append(text)
+                    # Some steps are known as differences of sides, which are no way in all.
+                    summed = Way(Fraction(0), 0.0, ())
+                    for name in round_it:
+                        summed += own_ways[name]
+                    whole = summed.compared_with(way) == 0
+                    text = f"{join_words(round_it)}{' together' if whole else ' allow'}"
+                    stretched.append(f"{way.names[0]} is as long as {text}")
             longer.append(own)
         joined = _join_lines(longer)
         if joined is None:
