@@ -223,10 +223,12 @@ def test_exports_say_that_coordinates_are_isotropic(tmp_path) -> None:
     assert main(["sample", str(file), "--real"]) == 2
 
 
-def test_singular_real_assemblies_are_found_on_the_components(capsys) -> None:
+def test_a_stretched_inversor_moves_where_its_rhombus_is_folded(capsys) -> None:
     assert main(["decompose", str(CASES / "planar" / "peaucellier.toml")]) == 0
     text = " ".join(capsys.readouterr().out.split())
-    assert "real ones were found on 2 components, isolated there" in text
+    # Where the rhombus is folded onto itself, its end P turns about the other two.
+    assert "so placed it moves with 1 freedom; a real one was found" in text
+    assert "bar O-B is as long as bar O-A, bar B-C and bar A-C together" in text
 
 
 @pytest.mark.parametrize(

@@ -71,7 +71,7 @@ def lines_of_real(problem: Problem) -> ForcedLines | None:
     if parts is None or parts.reference is not None:
         return None
     forced = _forced_lines(tuple(parts.sides))
-    return forced if forced.stretched else None
+    return forced if forced.lines else None
 
 
 def of_real_assemblies(problem: Problem) -> Problem:

@@ -72,7 +72,12 @@ class ForcedLines:
     @property
     def text(self) -> str:
         """Which places are in line, and by which sides."""
-        each = [join_words(sorted(line, key=lambda p: float(line[p]))) for line in self.lines]
+        each = []
+        for line in self.lines:
+            places = sorted(line, key=lambda p: float(line[p]))
+            # Where all but one fall together nothing is in line.
+            if sum(not is_zero(line[q] - line[p]) for p, q in pairwise(places)) > 1:
+                each.append(join_words(places))
         return f"{'; '.join(each)} are in line: {'; '.join(self.stretched)}"
 
 
@@ -107,20 +112,13 @@ def find_forced_lines(sides: Sequence[Side]) -> ForcedLines:
         for line in lines:
             own = _with_places_between(line, ways)
             if len(own) > len(line) == 2:
-                first, last = line
-                way = known[first, last]
-                places = sorted(own, key=lambda p: float(own[p]))
-                steps = [n for step in pairwise(places) for n in ways[step].names]
-                round_it = [n for n in dict.fromkeys(steps) if n not in way.names]
-                round_it.sort(key=order.index)
-                if round_it:
-                    # Some steps are known as differences of sides, which are no way in all.
-                    summed = Way(Fraction(0), 0.0, ())
-                    for name in round_it:
-                        summed += own_ways[name]
-                    whole = summed.compared_with(way) == 0
-                    text = f"{join_words(round_it)}{' together' if whole else ' allow'}"
-                    stretched.append(f"{way.names[0]} is as long as {text}")
+                way = _way_round(line, own, ways, own_ways)
+                if way is not None:
+                    first, last = line
+                    whole = join_words(sorted(way.names, key=order.index))
+                    stretched.append(
+                        f"{known[first, last].names[0]} is as long as {whole} together"
+                    )
             longer.append(own)
         joined = _join_lines(longer)
         if joined is None:
@@ -166,6 +164,28 @@ def _shortest_ways(known: dict[tuple[str, str], Way]) -> dict[tuple[str, str], W
             if now is None or way.compared_with(now) < 0:
                 ways[first, last] = way
     return ways
+
+
+def _way_round(
+    line: Line,
+    longer: Line,
+    ways: dict[tuple[str, str], Way],
+    own_ways: dict[str, Way],
+) -> Way | None:
+    """The sides of one way as long as a side, by places between its ends; None if none is known.
+
+    Distances that are differences of sides are parts of no way.
+    """
+    first, last = line
+    between = sorted((p for p in longer if p not in line), key=lambda p: float(longer[p]))
+    for places in ([first, *between, last], *([first, p, last] for p in between)):
+        names = {n: None for step in pairwise(places) for n in ways[step].names}
+        way = Way(Fraction(0), 0.0, ())
+        for name in names:
+            way += own_ways[name]
+        if len(names) > 1 and way.compared_with(ways[first, last]) == 0:
+            return way
+    return None
 
 
 def _with_places_between(line: Line, ways: dict[tuple[str, str], Way]) -> Line:
