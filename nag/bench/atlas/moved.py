@@ -96,7 +96,8 @@ SPARSE: dict[str, tuple[str, ...]] = {
     ),
     "sparse-linkages": (
         "planar/burmester-focal", "planar/roberts-cognates", "planar/roberts-seven-bar",
-        "planar/slider-crank", "planar/stephenson-six-bar", "planar/watt-six-bar",
+        "planar/slider-crank", "planar/stephenson-six-bar", "planar/two-kites",
+        "planar/watt-six-bar",
         "spatial/four-sliders", "spatial/rccc",
     ),
     "sparse-frameworks": (
