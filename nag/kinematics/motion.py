@@ -710,7 +710,7 @@ def _each_once(scene: Scene, circuits: Iterable[_FoundCircuit]) -> list[_FoundCi
 def _begin_at(curve: Curve, walk: CurveWalk, reference: np.ndarray) -> CurveWalk | None:
     """A walk with a point of the curve on it, begun there if it is closed; None if it is not."""
     coordinates = walk.coordinates
-    at = coordinates.aligned(
+    at = coordinates.align_signs(
         np.repeat(coordinates.chart(reference[None]), len(walk.chart), axis=0), walk.chart
     )
     gaps = walk.chart - at

@@ -109,7 +109,7 @@ class Curve:
             parts = (u.transpose(0, 2, 1) @ values[:, :, None])[:, :, 0]
             parts = np.where(kept, parts / np.where(kept, s, 1.0), 0.0)
             step = (v.transpose(0, 2, 1) @ parts[:, :, None])[:, :, 0]
-            chart = self.coordinates.normalised(chart - step)
+            chart = self.coordinates.normalise(chart - step)
             if float(np.abs(step).max(initial=0.0)) < ARRIVED:
                 break
         return chart
@@ -144,7 +144,7 @@ class Path:
     def before_first(self) -> np.ndarray:
         """The sample before the first of a closed motion, which is the last but one."""
         last = self.chart[-2:]
-        return self.walk.coordinates.continuous(np.vstack([self.chart[:1], last[::-1]]))[2]
+        return self.walk.coordinates.make_continuous(np.vstack([self.chart[:1], last[::-1]]))[2]
 
 
 def singular_places(path: Path) -> list[tuple[float, np.ndarray]]:

@@ -60,7 +60,7 @@ class SphericalChart:
     def _evaluators(self) -> list[Evaluator]:
         return [Evaluator.of([f], f.n) for f in self.norms]
 
-    def normalised(self, chart: np.ndarray) -> np.ndarray:
+    def normalise(self, chart: np.ndarray) -> np.ndarray:
         """The same points with groups of length one, shape ``(k, size)``."""
         chart = np.array(chart)
         for columns, norm in zip(self.columns, self._evaluators, strict=True):
@@ -72,7 +72,7 @@ class SphericalChart:
 
     def chart(self, points: np.ndarray) -> np.ndarray:
         """Coordinates of points in the variables, shape ``(k, n)``, with positive denominators."""
-        return self.normalised(np.hstack([points, np.ones((len(points), len(self.groups)))]))
+        return self.normalise(np.hstack([points, np.ones((len(points), len(self.groups)))]))
 
     def points(self, chart: np.ndarray) -> np.ndarray:
         """Points in the variables; very large where denominators vanish."""
@@ -84,7 +84,7 @@ class SphericalChart:
             points[:, own] /= below[:, None]
         return points
 
-    def aligned(self, chart: np.ndarray, to: np.ndarray) -> np.ndarray:
+    def align_signs(self, chart: np.ndarray, to: np.ndarray) -> np.ndarray:
         """Points with the signs of groups that bring them next to others, or to one."""
         chart = np.array(chart)
         for columns in self.columns:
@@ -92,7 +92,7 @@ class SphericalChart:
             chart[np.ix_(away, columns)] *= -1
         return chart
 
-    def continuous(self, chart: np.ndarray) -> np.ndarray:
+    def make_continuous(self, chart: np.ndarray) -> np.ndarray:
         """Points along a curve with signs of groups that do not jump; those of the first stay."""
         chart = np.array(chart)
         for columns in self.columns:

@@ -47,7 +47,7 @@ class CurveWalk:
         whole = np.concatenate([self.chart[index:], self.chart[1 : index + 1]])
         turned = {(v, (i - index) % last) for v, i in self.vertices}
         vertices = tuple(sorted(turned, key=lambda p: p[1]))
-        return replace(self, chart=self.coordinates.continuous(whole), vertices=vertices)
+        return replace(self, chart=self.coordinates.make_continuous(whole), vertices=vertices)
 
     def insert(self, segment: int, point: np.ndarray) -> CurveWalk:
         """The same with one point more, after that of index ``segment``."""
@@ -58,7 +58,7 @@ class CurveWalk:
 
 def walks_of(curve: RealCurve, coordinates: SphericalChart) -> tuple[CurveWalk, ...]:
     """All motions along a real curve, each edge in one of them; isolated points are none."""
-    charts = [coordinates.continuous(coordinates.chart(edge.points)) for edge in curve.edges]
+    charts = [coordinates.make_continuous(coordinates.chart(edge.points)) for edge in curve.edges]
     partner = _pair_ends(curve, charts, coordinates)
     walks = []
     for number, piece in enumerate(curve.pieces):
@@ -85,7 +85,7 @@ def _pair_ends(
         # A vertex is at the end of several edges, with the signs of each.
         starts = [_begin_at_end(charts, end) for end in own]
         aligned = [
-            coordinates.continuous(np.vstack([starts[0][:1], start]))[1:] for start in starts
+            coordinates.make_continuous(np.vstack([starts[0][:1], start]))[1:] for start in starts
         ]
         directions = [_direction(start) for start in aligned]
         pairs = sorted(
@@ -170,7 +170,7 @@ def _join(
     if closed and vertices:
         # What ends where it began is there once.
         vertices = [(v, i) for v, i in vertices if i < length - 1]
-    whole = coordinates.continuous(np.concatenate(parts))
+    whole = coordinates.make_continuous(np.concatenate(parts))
     return CurveWalk(piece, closed, whole, tuple(vertices), coordinates)
 
 

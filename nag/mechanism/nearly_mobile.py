@@ -310,7 +310,7 @@ def find_near_motion(
     standing = len(chains.held)
     values, _ = chains.singular()
     chains, tangent = _hold_near_freedoms(chains, tolerance)
-    leading = np.isin(np.arange(len(tangent)), chains.leading)
+    leading = np.isin(np.arange(len(tangent)), chains.telling_coordinates)
     driven = _most_moved(np.abs(tangent) * leading, chains.turning)
     tangent = tangent if tangent[driven] > 0 else -tangent
     walk = _follow_both_ways(chains, tangent)
@@ -462,7 +462,7 @@ class Chains:
         return np.array([s.turns for s in self.screws])
 
     @cached_property
-    def leading(self) -> Array:
+    def telling_coordinates(self) -> Array:
         """Numbers of the screws that tell where all are."""
         others = [k for k in range(len(self.screws)) if k not in self.aside]
         return np.array(others or range(len(self.screws)))
@@ -794,10 +794,14 @@ def follow_motion(chains: Chains, tangent: Array) -> Walk:
         if np.abs(q[~chains.turning]).max(initial=0) > LONGEST_SLIDE:
             end = End.FAR
             break
-        away = np.where(chains.turning, (q + pi) % (2 * pi) - pi, q)[chains.leading]
+        away = np.where(chains.turning, (q + pi) % (2 * pi) - pi, q)[chains.telling_coordinates]
         distance = np.linalg.norm(away)
         left |= bool(distance > 3 * STEP)
-        if left and distance < 0.75 * STEP and (secant * tangent)[chains.leading].sum() > 0:
+        if (
+            left
+            and distance < 0.75 * STEP
+            and (secant * tangent)[chains.telling_coordinates].sum() > 0
+        ):
             end = End.CLOSED
             break
     return Walk(np.array(positions), np.array(tangents), (end,))

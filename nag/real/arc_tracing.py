@@ -99,7 +99,7 @@ def trace_arcs(
     """
     count = len(starts)
     sense = np.sign(end - begin)
-    angle, x = begin.astype(float).copy(), closure.normalised(starts)
+    angle, x = begin.astype(float).copy(), closure.normalise(starts)
     speeds = _speeds(closure, intervals, angle, x) * sense[:, None]
     lengths = np.linalg.norm(speeds, axis=1)
     if not (np.isfinite(lengths) & (lengths > 0)).all():
@@ -114,7 +114,7 @@ def trace_arcs(
         h, old = step[active], angle[active]
         guess = x[active] + h[:, None] * tangent[active] + (h**2 / 2)[:, None] * bend[active]
         found, first, good = bring_to_curve(closure, guess, tangent[active], h)
-        found = closure.aligned(found, x[active])
+        found = closure.align_signs(found, x[active])
         chord = np.linalg.norm(found - x[active], axis=1)
         there = intervals.only(active).angles(closure.values(found)[:, -2:])
         next_ = tangents_at(closure, found, tangent[active])
@@ -178,7 +178,7 @@ def bring_to_curve(
     closure: ProjectiveClosure, x: np.ndarray, tangent: np.ndarray, step: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Points of the curve across tangents from guesses, first corrections, and success."""
-    x, rounding = closure.normalised(x), np.maximum(ROUNDED, MOVED * step)
+    x, rounding = closure.normalise(x), np.maximum(ROUNDED, MOVED * step)
     first, last = np.zeros(len(x)), np.full(len(x), np.inf)
     done, good = np.zeros(len(x), dtype=bool), np.ones(len(x), dtype=bool)
     for k in range(MOST_CORRECTIONS):
@@ -190,7 +190,7 @@ def bring_to_curve(
         fine = np.isfinite(sizes) & (sizes < 1)
         moved = x[todo].copy()
         moved[fine] -= delta[fine]
-        x[todo] = closure.normalised(moved)
+        x[todo] = closure.normalise(moved)
         if k == 0:
             first[todo] = sizes
         small = sizes < ARRIVED
@@ -248,7 +248,7 @@ def _land(
         matrix, right, values = _over(closure, intervals.at(angles), x)
         right[:, -1] = values
         delta = _solve(matrix, right)
-        x = closure.aligned(closure.normalised(x - np.nan_to_num(delta)), x)
+        x = closure.align_signs(closure.normalise(x - np.nan_to_num(delta)), x)
     return x
 
 

@@ -174,7 +174,7 @@ def _end_of_interval(
 def _real_points(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray:
     """Real homogeneous points, from such whose groups have any complex factors."""
     # Affine points over finite values are real, and so are those that are divided by their length.
-    return closure.normalised(points.real)
+    return closure.normalise(points.real)
 
 
 @dataclass(frozen=True, eq=False)
@@ -303,7 +303,7 @@ def _edge(
     if begin not in index:
         points = _begun_afar(closure, points)
     for i in range(1, len(points)):
-        points[i] = closure.aligned(points[i : i + 1], points[i - 1])[0]
+        points[i] = closure.align_signs(points[i : i + 1], points[i - 1])[0]
     affine = closure.refined(closure.affine(even_points(closure, points, turns)))
     if begin not in index:
         affine[-1] = affine[0]

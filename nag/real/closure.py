@@ -112,7 +112,7 @@ class ProjectiveClosure:
         slopes[:, -1] *= self.scale
         return slopes
 
-    def normalised(self, points: np.ndarray) -> np.ndarray:
+    def normalise(self, points: np.ndarray) -> np.ndarray:
         """Points with the coordinates of each group of length one."""
         squares = np.zeros((len(points), len(self.groups)))
         for g in range(len(self.groups)):
@@ -122,7 +122,7 @@ class ProjectiveClosure:
     def homogeneous(self, x: np.ndarray) -> np.ndarray:
         """Affine points, shape ``(P, n)``, as homogeneous ones."""
         ones = np.ones((len(x), len(self.groups)), dtype=x.dtype)
-        return self.normalised(np.hstack([ones, x]))
+        return self.normalise(np.hstack([ones, x]))
 
     def affine(self, points: np.ndarray) -> np.ndarray:
         """Homogeneous points as affine ones; where they are infinite, very large."""
@@ -180,7 +180,7 @@ class ProjectiveClosure:
             result = np.maximum(result, np.linalg.norm(apart, axis=2))
         return result
 
-    def aligned(self, points: np.ndarray, to: np.ndarray) -> np.ndarray:
+    def align_signs(self, points: np.ndarray, to: np.ndarray) -> np.ndarray:
         """Real points with the signs of groups that bring them next to others, or to one."""
         signs = np.ones((len(points), len(self.groups)))
         for g in range(len(self.groups)):
@@ -218,18 +218,11 @@ def homogeneous_norms(system: PolynomialSystem, group: Sequence[int]) -> tuple[P
 
     Where none of them vanishes, infinity of the variables is a configuration like others.
     """
-    place = {i: 1 + k for k, i in enumerate(group)}
-    found = []
-    for f in _norms_of(system, group):
-        terms = {}
-        for e, c in f.terms.items():
-            own = [0] * (1 + len(group))
-            for i in group:
-                own[place[i]] = e[i]
-            own[0] = f.degree - sum(own)
-            terms[tuple(own)] = c
-        found.append(Polynomial(1 + len(group), terms))
-    return tuple(found)
+    place = {i: k for k, i in enumerate(group)}
+    positions = [place.get(i, 0) for i in range(system.n)]
+    own = range(len(group))
+    norms = (f.with_variables(len(group), positions) for f in _norms_of(system, group))
+    return tuple(_homogeneous(f, [own]) for f in norms)
 
 
 def _norms_of(system: PolynomialSystem, group: Sequence[int]) -> list[Polynomial]:

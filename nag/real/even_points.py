@@ -52,7 +52,7 @@ def even_points(
     found, first, good = bring_to_curve(closure, guess, directions, spacing)
     if not (good & (first < CORRECTION * spacing)).all():
         return points
-    return np.vstack([kept[:1], closure.aligned(found, guess), kept[-1:]])
+    return np.vstack([kept[:1], closure.align_signs(found, guess), kept[-1:]])
 
 
 def _on_cubics(
@@ -85,7 +85,7 @@ def _insert_points(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray
         good &= first < CORRECTION * spacing
         if not good.any():
             break
-        found = closure.aligned(found, guess)
+        found = closure.align_signs(found, guess)
         points = np.insert(points, wide[good] + 1, found[good], axis=0)
     return points
 

@@ -148,7 +148,7 @@ def join_middles(
     Raises:
         UnclearDigitsError: if two points seem to have one conjugate.
     """
-    points = closure.normalised(np.array(middles))
+    points = closure.normalise(np.array(middles))
     points = np.array([_turned_real(closure, point) for point in points])
     real = find_own_conjugates(closure.distances(points.conj(), points))
     return SpecialFibre(pencil, points, np.array(sheets, dtype=int), real)

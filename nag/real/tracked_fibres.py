@@ -134,7 +134,7 @@ class TrackedFibres:
         paths = self.over(np.array([t, 1.0]) / max(1.0, abs(t)))
         if len(paths.where(PathStatus.REGULAR)) < len(paths):
             raise FibreError("a path to another fibre failed")
-        return self.closure.normalised(paths.points), np.maximum(paths.accuracy, ROUNDED)
+        return self.closure.normalise(paths.points), np.maximum(paths.accuracy, ROUNDED)
 
     def points_over(self, t: complex) -> np.ndarray:
         """Normalised points over a value that is not special, shape ``(d, size)``.
@@ -177,7 +177,7 @@ class TrackedFibres:
         paths = self.over(np.array([1.0, 0.0]), endgame=True)
         if len(paths.where(PathStatus.REGULAR, PathStatus.SINGULAR)) < len(paths):
             raise FibreError("a path to the fibre over infinity failed")
-        points = self.closure.normalised(paths.points)
+        points = self.closure.normalise(paths.points)
         together = find_clusters(self.closure.distances(points, points), HIT, MISS)
         middles = [points[own[0]] for own in together]
         pencil = np.array([1.0, 0.0])
@@ -294,7 +294,7 @@ def _bring_to_value(closure: ProjectiveClosure, points: np.ndarray, t: float) ->
         scale = np.linalg.norm(matrix, axis=2)
         step = np.einsum("pij,pj->pi", np.linalg.pinv(matrix / scale[..., None]), right / scale)
         sizes = np.linalg.norm(step, axis=1)
-        x = closure.normalised(x - step)
+        x = closure.normalise(x - step)
     moved = np.diag(closure.distances(start, x))
     apart = closure.distances(start, start) + 2 * np.eye(len(x))
     if not (sizes < ARRIVED).all() or (moved > 0.1 * apart.min(axis=1)).any():
