@@ -109,7 +109,7 @@ def test_an_answer_says_all_that_it_rests_on(engine, case, capsys) -> None:
     rows = {line.split()[0]: " ".join(line.split()[1:]) for line in lines[1:] if line.strip()}
     assert rows["system"] == "2 variables (x, y), 1 equation: 1 of degree 2"
     assert rows["answer"] == "2 components of dimension 1, degree 1"
-    assert rows["1"] == "1 1 2 irreducible 0.0e+00 5.0e-17 32"
+    assert rows["1-2"] == "1 1 1 2 irreducible 0.0e+00 5.0e-17 32"
     assert "1 at crossing: on 2 components of dimension 1, degree 1" in out
     assert "elsewhere is no solution of the equations" in out
     assert rows["paths"] == "2 tracked, 0 to infinity, 0 failed"
