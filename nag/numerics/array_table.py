@@ -11,6 +11,7 @@ from typing import Any, Self, TypeVar, overload
 
 import numpy as np
 
+from nag.numerics.large_arrays import empty_array, leave_to_file
 from nag.numerics.read_only import equal_entries
 
 Record = TypeVar("Record")
@@ -19,20 +20,46 @@ ROWS = 4096
 
 
 def map_rows(function: Callable[..., np.ndarray], *columns: np.ndarray) -> np.ndarray:
-    """What a function makes of rows, one value each, some at a time.
+    """What a function makes of rows, some at a time.
 
     What it needs on the way is never there for all rows together.
 
     Args:
-        function: of arrays of some rows, to an array of as many values.
+        function: of arrays of some rows, to an array with as many rows.
         columns: of the same first length P.
     """
     count = len(columns[0])
-    found = [
-        function(*(column[first : first + ROWS] for column in columns))
-        for first in range(0, max(count, 1), ROWS)
-    ]
-    return np.concatenate(found)
+    found = function(*(column[:ROWS] for column in columns))
+    if count <= ROWS:
+        return found
+    whole = empty_array((count, *found.shape[1:]), found.dtype)
+    whole[:ROWS] = found
+    for first in range(ROWS, count, ROWS):
+        whole[first : first + ROWS] = function(*(c[first : first + ROWS] for c in columns))
+        leave_to_file(whole, *columns)
+    return whole
+
+
+def copy_rows(column: np.ndarray) -> np.ndarray:
+    """The same rows, which may be written to."""
+    return map_rows(np.array, column)
+
+
+def take_rows(column: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+    """Some rows of a column, by their indices, some at a time."""
+    rows = map_rows(lambda some: column[some], chosen)
+    leave_to_file(column)
+    return rows
+
+
+def join_columns(parts: Sequence[np.ndarray]) -> np.ndarray:
+    """The rows of one column after those of another; there is at least one."""
+    first, dtype = 0, np.result_type(*parts)
+    whole = empty_array((sum(map(len, parts)), *parts[0].shape[1:]), dtype)
+    for part in parts:
+        whole[first : first + len(part)] = part
+        first += len(part)
+    return whole
 
 
 class ArrayTable:
@@ -56,7 +83,7 @@ class ArrayTable:
             elif isinstance(column, ArrayTable):
                 chosen[name] = column.select_rows(indices)
             else:
-                chosen[name] = column[indices]
+                chosen[name] = take_rows(column, indices)
         return replace(self, **chosen)  # type: ignore[type-var]
 
     def replace_rows(self, indices: np.ndarray, others: Self) -> Self:
@@ -70,7 +97,7 @@ class ArrayTable:
             elif isinstance(column, ArrayTable):
                 changed[name] = column.replace_rows(indices, new)
             else:
-                changed[name] = column.copy()
+                changed[name] = copy_rows(column)
                 changed[name][indices] = new
         return replace(self, **changed)  # type: ignore[type-var]
 
@@ -87,7 +114,7 @@ class ArrayTable:
             elif isinstance(column, ArrayTable):
                 whole[name] = column.concatenate(parts)
             else:
-                whole[name] = np.concatenate(parts)
+                whole[name] = join_columns(parts)
         return replace(tables[0], **whole)  # type: ignore[type-var]
 
     @classmethod
@@ -105,8 +132,9 @@ class ArrayTable:
                     whole.setdefault(name, {}).update({first + k: v for k, v in column.items()})
                     continue
                 if name not in whole:
-                    whole[name] = np.empty((count, *column.shape[1:]), dtype=column.dtype)
+                    whole[name] = empty_array((count, *column.shape[1:]), column.dtype)
                 whole[name][first : first + len(column)] = column
+                leave_to_file(whole[name])
             first += len(table)
         if table is None or first != count:
             raise ValueError(f"{first} rows came, not {count}")

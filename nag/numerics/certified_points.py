@@ -29,6 +29,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import jacobian_rank
 from nag.algebra.number import EQUALITY_DIGITS
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.array_table import copy_rows, map_rows, take_rows
 from nag.numerics.ball_boxes import BITS, FineBox, ball_box, box_about, holds_conjugate, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import NEAR, clusters
@@ -45,6 +46,7 @@ from nag.numerics.krawczyk import (
     prove_boxes,
     work_here,
 )
+from nag.numerics.large_arrays import full_array
 from nag.numerics.newton import newton_to_rest
 from nag.numerics.read_only import equal_values
 from nag.numerics.singular_point import Place, analyse
@@ -216,9 +218,14 @@ class CertifiedPoints:
         Distances and sizes are those of the largest coordinates, sizes at least one; infinite
         where nothing is proved.
         """
-        off = (np.abs(self.points - self.boxes.centres) + self.boxes.inner) * UP
-        sizes = np.maximum(1.0, np.abs(self.points).max(axis=1, initial=0.0))
-        return np.where(self.boxes.proved, off.max(axis=1, initial=0.0) / sizes * UP, np.inf)
+
+        def bounds(points: np.ndarray, centres: np.ndarray, inner: np.ndarray) -> np.ndarray:
+            off = (np.abs(points - centres) + inner) * UP
+            sizes = np.maximum(1.0, np.abs(points).max(axis=1, initial=0.0))
+            return off.max(axis=1, initial=0.0) / sizes * UP
+
+        found = map_rows(bounds, self.points, self.boxes.centres, self.boxes.inner)
+        return np.where(self.boxes.proved, found, np.inf)
 
 
 def certify_points(
@@ -275,8 +282,8 @@ def certify_regular_points(
 
 def _nothing_proved(points: np.ndarray) -> CertifiedPoints:
     P, n = points.shape
-    blank = np.full((P, n), np.inf)
-    boxes = Boxes(points.copy(), blank, blank.copy(), np.zeros(P, dtype=bool), {})
+    blank = full_array((P, n), np.inf), full_array((P, n), np.inf)
+    boxes = Boxes(copy_rows(points), *blank, np.zeros(P, dtype=bool), {})
     real, counts = np.zeros(P, dtype=bool), np.zeros(P, dtype=np.int64)
     return CertifiedPoints(points, (), boxes, np.full(P, np.inf), real, (), counts)
 
@@ -307,7 +314,7 @@ def _regular(
     if count > n:
         return _prove_overdetermined(equations, slices, found, proofs, tested, reach)
     if count == n:
-        near = points[tested], reach[tested]
+        near = take_rows(points, tested), reach[tested]
         _enter(boxes, tested, prove_boxes(equations, slices, *near, share=share))
         for i in tested[boxes.proved[tested]].tolist():
             proofs[i] = Proof.SIMPLE

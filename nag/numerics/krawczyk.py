@@ -24,13 +24,14 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.array_table import map_rows
+from nag.numerics.array_table import copy_rows, join_columns, map_rows, take_rows
 from nag.numerics.ball_boxes import BITS, FineBox, box_about, holds_conjugate, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import neighbours
 from nag.numerics.digits import in_bits, round_up
 from nag.numerics.discs import LEAST, UP, DiscPolynomials, Discs, magnitude, matrix_product
 from nag.numerics.doubles import UNIT
+from nag.numerics.large_arrays import full_array, leave_to_file
 from nag.numerics.read_only import equal_values
 
 # A box that is not mapped into itself is enlarged so many times; how much each side exceeds that
@@ -120,13 +121,15 @@ def boxes_in_doubles(
     """The boxes that doubles suffice to prove."""
     P, n = points.shape
     none = np.zeros(P, dtype=bool)
-    boxes = Boxes(points.copy(), np.full((P, n), np.inf), np.full((P, n), np.inf), none, {})
+    blank = full_array((P, n), np.inf), full_array((P, n), np.inf)
+    boxes = Boxes(copy_rows(points), *blank, none, {})
     blocks = _blocks(len(polynomials) + len(slices), n, P)
     calls = ((tuple(polynomials), slices, points[block]) for block in blocks)
     done = share(prove_block, calls, len(blocks), "proving boxes")
     for block, found in zip(blocks, done, strict=True):
         for name in ("outer", "inner", "proved"):
             getattr(boxes, name)[block] = found[name]
+        leave_to_file(boxes.outer, boxes.inner, points)
     return boxes
 
 
@@ -194,7 +197,7 @@ def sharpen_boxes(
         for some in (chosen[block] for block in blocks)
     )
     found = share(sharpen_radii, calls, len(blocks), "proving errors")
-    return np.concatenate([boxes.inner[:0], *(each["inner"] for each in found)])
+    return join_columns([boxes.inner[:0], *(each["inner"] for each in found)])
 
 
 def sharpen_radii(
@@ -336,16 +339,19 @@ def _candidates(boxes: Boxes) -> Iterator[tuple[int, int]]:
     """Pairs of proved boxes whose doubles do not tell the zeros apart, smaller index first."""
     places, centres, inner = np.flatnonzero(boxes.proved), boxes.centres, boxes.inner
     if len(places) < len(centres):
-        centres, inner = centres[places], inner[places]
+        centres, inner = take_rows(centres, places), take_rows(inner, places)
     n = centres.shape[1]
     if n == 0:
         return
     # Of size one, so that the sum over a box's radii, twice, bounds what the key may differ by.
     weights = np.exp(1j * np.arange(1, n + 1) ** 2)
     key = map_rows(lambda some: (some @ weights).real, centres)
-    sizes = map_rows(lambda some: np.abs(some).sum(axis=1), centres)
-    rounding = sizes * (n + 8) * 8 * UNIT
-    width = (4 * inner.sum(axis=1) + 2 * rounding) * UP
+
+    def widths(some: np.ndarray, radii: np.ndarray) -> np.ndarray:
+        rounding = np.abs(some).sum(axis=1) * (n + 8) * 8 * UNIT
+        return (4 * radii.sum(axis=1) + 2 * rounding) * UP
+
+    width = map_rows(widths, centres, inner)
     for first, second in neighbours(key, width):
         distance = np.abs(centres[first] - centres[second]) / UP
         apart = (distance > (inner[first] + inner[second]) * UP).any(axis=1)

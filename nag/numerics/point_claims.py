@@ -16,7 +16,7 @@ import numpy as np
 from nag.algebra.factoring import factor_into_irreducibles
 from nag.algebra.number import EQUALITY_DIGITS
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.array_table import map_rows
+from nag.numerics.array_table import copy_rows, map_rows
 from nag.numerics.ball_boxes import BITS, FineBox, box_about, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import regular_block
@@ -82,7 +82,7 @@ def error_standings(
         share: who works out what doubles are to prove.
     """
     boxes = SharpBoxes(equations, slices, points)
-    inner = points.boxes.inner.copy()
+    inner = copy_rows(points.boxes.inner)
     held = _holds_zeros(points, inner, radii)
     # What doubles leave open is mostly said by residuals in more digits; few points need balls.
     simple = np.array([proof is Proof.SIMPLE for proof in points.proofs], dtype=bool)

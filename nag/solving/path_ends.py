@@ -15,6 +15,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.array_table import map_rows, take_rows
 from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.doubles import MULTIPLE
 from nag.numerics.singular_point import Place, SingularEnd, analyse
@@ -38,8 +39,6 @@ from nag.tracking.projective import coinciding_pairs
 NEARLY = 1e-5
 # Decides: Homogenising coordinates of ends at infinity, beside what is proved of them.
 INFINITE = 2e-12
-# Points evaluated at once.
-BLOCK = 2048
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,7 +217,7 @@ def _select_zeros(
 
 def _rows(points: np.ndarray, chosen: np.ndarray) -> np.ndarray:
     """Some rows by indices that increase; the array itself, which may be large, if all."""
-    return points if len(chosen) == len(points) else points[chosen]
+    return points if len(chosen) == len(points) else take_rows(points, chosen)
 
 
 def _list_regular(
@@ -400,10 +399,8 @@ def _solutions(
 
 
 def _residuals(evaluator: Evaluator, points: np.ndarray) -> np.ndarray:
-    """The largest residual at each point; a block at a time, as there may be 10^5 points."""
-    blocks = [points[k : k + BLOCK] for k in range(0, len(points), BLOCK)]
-    found = [evaluator.residuals(block).max(axis=1, initial=0.0) for block in blocks]
-    return np.concatenate([np.zeros(0), *found])
+    """The largest residual at each point."""
+    return map_rows(lambda some: evaluator.residuals(some).max(axis=1, initial=0.0), points)
 
 
 def list_doubts(begin: StartSystem, paths: Paths) -> list[str]:

@@ -35,7 +35,7 @@ from nag.numerics.point_claims import (
     zero_standings,
 )
 from nag.solving.path_ends import NEARLY
-from nag.solving.solutions import Solution, SolveResult
+from nag.solving.solutions import Solution, Solutions, SolveResult
 from nag.tracking.blocks import share
 
 if TYPE_CHECKING:
@@ -72,29 +72,31 @@ def _claims_of_points(
     """What is said of each of the solutions in a list."""
     equations = [f for f in system.polynomials if f]
     none = np.zeros((0, 1 + system.n), dtype=complex)
+    said = Solutions.of(solutions, system.n)
+    multiplicities, real = said.multiplicity.tolist(), said.real.tolist()
+    # One text for all of which the same is said: there may be 10^6.
+    of_number = {m: f"that its multiplicity is {m}" for m in set(multiplicities)}
+    of_reality = {True: "that it is real", False: "that it is not real"}
     # Points that are no solutions may be of any size.
     with np.errstate(all="ignore"):
         sizes = 1 + map_rows(lambda some: np.linalg.norm(some, axis=1), points.points)
-        radii = np.array([s.accuracy for s in solutions]) * sizes
+        radii = said.accuracy * sizes
     radii = np.broadcast_to(radii[:, None], points.points.shape)
-    said = {
+    found = {
         "point": ("that its point is a zero of the equations", zero_standings(points)),
         "multiplicity": (
-            [f"that its multiplicity is {s.multiplicity}" for s in solutions],
-            multiplicity_standings(points, [s.multiplicity for s in solutions]),
+            [of_number[m] for m in multiplicities],
+            multiplicity_standings(points, multiplicities),
         ),
         "accuracy": (
             "that its point is no further from a zero than it says",
             error_standings(equations, none, points, radii, share),
         ),
-        "real": (
-            ["that it is real" if s.real else "that it is not real" for s in solutions],
-            _reality(points, [s.real for s in solutions], system),
-        ),
+        "real": ([of_reality[r] for r in real], _reality(points, real, system)),
     }
     return [
         claim
-        for field, (text, standings) in said.items()
+        for field, (text, standings) in found.items()
         for claim in claims_of_each(f"{key}[].{field}", text, standings, LISTS[key])
     ]
 

@@ -13,7 +13,7 @@ from nag.algebra.combinations import of_fewest_terms
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.errors import NagError
-from nag.numerics.array_table import ROWS
+from nag.numerics.array_table import map_rows
 from nag.numerics.doubles import EPS, UNIT
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
@@ -87,9 +87,7 @@ class Target:
         """Values of the original variables, from those of ``y``, shape ``(P, n)``."""
         if not self.scales:
             return points
-        found = points * self._units
-        found += self._origin
-        return found
+        return map_rows(lambda some: some * self._units + self._origin, points)
 
     def scaled_points(self, x: np.ndarray) -> np.ndarray:
         """Values of ``y``, from those of the original variables, shape ``(P, n)``."""
@@ -111,10 +109,14 @@ class Target:
         """
         if self.natural is None or self.natural.is_exact_in_doubles:
             return np.zeros(len(points))
-        before = np.linalg.norm(points * self._units, axis=1)
-        after = np.linalg.norm(self.original(points), axis=1)
         shift = float(np.linalg.norm(self._origin))
-        return UNIT * (before + shift + after) / (1 + after)
+
+        def errors(some: np.ndarray) -> np.ndarray:
+            before = np.linalg.norm(some * self._units, axis=1)
+            after = np.linalg.norm(self.original(some), axis=1)
+            return UNIT * (before + shift + after) / (1 + after)
+
+        return map_rows(errors, points)
 
     def original_radii(self, point: np.ndarray, radii: np.ndarray | None) -> np.ndarray | None:
         """Errors of a point's original coordinates, from those of ``y``, shape ``(n,)``."""
@@ -213,15 +215,15 @@ class StartSystem:
         """Values of the variables at projective points, shape ``(P, n)``."""
         shift = len(self.groups)
         n = sum(len(group) for group in self.groups)
-        result = np.empty((len(points), n), dtype=np.complex128)
-        for k, group in enumerate(self.groups):
-            indices = list(group)
-            places = [shift + i for i in indices]
-            # Some at a time, as there may be 10^6 of them.
-            for first in range(0, len(points), ROWS):
-                some = points[first : first + ROWS]
-                result[first : first + ROWS, indices] = some[:, places] / some[:, k : k + 1]
-        return result
+
+        def values(some: np.ndarray) -> np.ndarray:
+            result = np.empty((len(some), n), dtype=np.complex128)
+            for k, group in enumerate(self.groups):
+                places = [shift + i for i in group]
+                result[:, list(group)] = some[:, places] / some[:, k : k + 1]
+            return result
+
+        return map_rows(values, points)
 
 
 def most_digits(polynomials: Iterable[Polynomial]) -> int:
