@@ -63,6 +63,7 @@ def test_turns_and_pins_are_the_same_assembly_exactly(seed: int) -> None:
     at = pins.places_at(point)
     assert at == tuple(x for p in pins.pins for x in places[p])
     assert not any(pins.system(at))
+    assert pins.pin_places(at) == made.pin_places(point)
 
 
 def test_the_mirror_image_of_a_plate_is_no_assembly() -> None:
@@ -92,6 +93,13 @@ def test_pins_and_turns_have_components_of_the_same_degrees(name: str) -> None:
         for p in (parts, other.problem.parts)
     ]
     assert kinds[0] == kinds[1]
+
+
+def test_a_rigid_linkage_is_looked_at_for_spoiled_motions_in_both() -> None:
+    parts = nag.read_case(CASES / "planar" / "assur-triad.toml").assembly
+    reports = [nag.mobility(p) for p in (parts, pin_model(parts))]
+    assert [(r.local_dimension, r.hint) for r in reports] == [(0, "")] * 2
+    assert reports[0].same_motion(reports[1], "degrees")
 
 
 def test_another_triangle_in_space_has_as_many_components() -> None:

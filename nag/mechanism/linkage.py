@@ -382,9 +382,27 @@ class PinModel(LinkageModel):
         }
         return places | {p: tuple(variables[2 * i :][:2]) for i, p in enumerate(self.pins)}
 
+    def pin_places(self, point: Sequence[Any]) -> dict[str, tuple[Any, Any]]:
+        """The places of all pins where those that move in loops are here.
+
+        Links that close nothing are not turned.
+        """
+        held, *moving = self.in_loops
+        here = dict(zip(held.pins, held.shape, strict=True))
+        here |= {pin: (point[2 * i], point[2 * i + 1]) for i, pin in enumerate(self.pins)}
+        turns: list[Any] = []
+        for link in moving:
+            (x, y), (a, b) = (
+                (q[0] - p[0], q[1] - p[1])
+                for p, q in ((here[pin] for pin in link.pins[:2]), link.shape[:2])
+            )
+            squared = a * a + b * b
+            turns += [(x * a + y * b) / squared, (y * a - x * b) / squared]
+        return super().pin_places(turns)
+
     def places_at(self, point: Sequence[Number]) -> tuple[Number, ...]:
         """The places of the pins where the moving links have these cosines and sines."""
-        places = self.pin_places(point)
+        places = super().pin_places(point)
         return tuple(x for pin in self.pins for x in places[pin])
 
 
