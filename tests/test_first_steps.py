@@ -66,10 +66,65 @@ def test_an_open_arm_is_asked_for_its_inverse_kinematics(
     assert "--pose hand=X,Y,Z" in shown and "--hold hand" in shown
 
 
-def test_every_question_is_a_command() -> None:
-    from nag.cli.show import HAND, LEGS, QUESTIONS
+# What each command needs besides the case, so that it is refused for the case's sake alone.
+NEEDED = {
+    "family": ["--values", "values.csv"],
+    "intersect": ["--components", "1", "1"],
+    "local": ["--at", "x = 1, y = 0"],
+    "member": ["--at", "x = 1, y = 0"],
+    "plot": ["--tree", "--out", "tree.svg"],
+    "report": ["--html", "report.html"],
+}
+OF_NO_CASE = {"show", "init", "completion", "bench", "chart", "certify"}
+CIRCLE = (
+    'title = "Circle"\nkind = "system"\nvariables = ["x", "y"]\nequations = ["x^2 + y^2 - 1"]\n'
+)
+TRIANGLE = (
+    'title = "Bars"\nkind = "framework"\npoints = ["A", "B", "C", "D"]\nlengths = [3, 4, 5, 6]\n'
+    'bars = [["A", "B"], ["B", "C"], ["C", "D"], ["D", "A"]]\n'
+)
 
-    asked = {name for rows in (*QUESTIONS.values(), HAND, (LEGS,)) for name, _ in rows}
+
+@pytest.mark.parametrize(
+    "case", [CIRCLE, TRIANGLE, "bennett"], ids=["system", "framework", "mechanism"]
+)
+def test_all_that_can_be_asked_of_a_file_is_listed(
+    case: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("values.csv").write_text("x\n1/2\n")
+    Path("case.toml").write_text(
+        case if "=" in case else (CASES / f"{case}.toml").read_text("utf-8")
+    )
+    assert main(["case.toml"]) == 0
+    shown = capsys.readouterr().out
+    listed = {line.split()[1] for line in shown.splitlines() if line.startswith("nag ")}
+    for command in {row[0] for row in COMMANDS} - OF_NO_CASE:
+        needed = list(NEEDED.get(command, ()))
+        if command in ("local", "member") and case != CIRCLE:
+            continue
+        status = main([command, "case.toml", *needed, "--quiet"])
+        said = capsys.readouterr().err
+        assert (command in listed) == (status != 2), (command, said)
+
+
+def test_what_is_known_names_the_formulation_that_it_is_known_of(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main([str(CASES / "bennett.toml")]) == 0
+    shown = capsys.readouterr().out
+    assert "known          in formulation H: 1 component of dimension 1, degree 2 " in shown
+    assert "known          in formulation E: 2 components of dimension 1, degree 8 " in shown
+
+
+def test_every_question_is_a_command() -> None:
+    from nag.cli.show import HAND, LEGS, OF_COMPONENTS, PAPERS, QUESTIONS
+
+    rows = (*QUESTIONS.values(), HAND, OF_COMPONENTS, (LEGS, PAPERS))
+    asked = {name for each in rows for name, _ in each}
     assert asked <= {row[0] for row in COMMANDS}
 
 

@@ -11,41 +11,53 @@ from nag.cli.running import CommandAnswer
 from nag.cli.witness_input import is_export
 
 if TYPE_CHECKING:
-    from nag.files.cases import Case
+    from nag.files.cases import Case, Truth
     from nag.text.table import Row
     from nag.witness.witness import Decomposition
 
-# What each command answers, by the kind of what it is asked of.
+# What each command answers, by the kind of what it is asked of: all that this can be asked.
+OF_COMPONENTS = (
+    ("member", "which components does a point lie on? (--at POINT)"),
+    ("sample", "which random points does a component have? (--component K; --real)"),
+    ("singular", "where is it singular, and where do components meet?"),
+    ("intersect", "where do two components meet? (--components I J)"),
+    ("eliminate", "which exact equations does a component have? (--component K)"),
+)
+LOCAL = ("local", "which dimension have the solutions at a point? (--at POINT)")
 QUESTIONS = {
     "system": (
         ("solve", "which isolated solutions are there?"),
         ("decompose", "which curves, surfaces and points make up the solution set?"),
+        LOCAL,
+        ("family", "which solutions for many values of parameters? (--values TABLE)"),
+        ("plot", "draw its real curves (--onto X,Y --out FILE), or what lies on what (--tree)"),
         ("model", "what are the equations?"),
     ),
     "mechanism": (
         ("mobility", "does it move, and with how many freedoms?"),
         ("decompose", "which motions are there in all?"),
         ("motion", "how does it really move? (one freedom; --html FILE shows it)"),
-        ("report", "all of this in one page: --html FILE"),
+        ("solve", "which positions are there that stand alone? (of what is rigid)"),
+        ("report", "write what is found to one page (--html FILE)"),
         ("plot", "draw bodies and joints: --graph --out FILE.svg"),
         ("model", "which equations, and in which formulations?"),
+        LOCAL,
     ),
     "components": (
-        ("member", "which components does a point lie on? (--at POINT)"),
-        ("sample", "which random points does a component have? (--component K)"),
-        ("singular", "where is it singular, and where do components meet?"),
-        ("intersect", "where do two components meet? (--components I J)"),
-        ("eliminate", "which exact equations does a component have?"),
+        *OF_COMPONENTS,
+        ("plot", "draw its real curves (--onto X,Y --out FILE), or what lies on what (--tree)"),
         ("certify", "are its points proved?"),
     ),
     "solutions": (("certify", "are its solutions proved?"),),
 }
 LEGS = ("modes", "which operation modes has the platform of a parallel robot?")
+PAPERS = ("check", "are the statements of the papers about it true?")
 # Of an open chain, as an arm is, the last body stands for the hand.
 HAND = (
     ("motion", "which postures reach a pose? (inverse kinematics; --pose {hand}=X,Y,Z)"),
     ("mobility", "does it move with its hand held? (--hold {hand})"),
 )
+Questions = tuple[tuple[str, str], ...]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -63,20 +75,23 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     """What a file holds."""
     from nag.text.table import sheet
 
-    title, blocks, questions = _describe(options)
-    if not questions:
+    title, blocks, asked = _describe(options)
+    if not asked:
         return CommandAnswer(sheet(title, *blocks))
-    width = max(len(f"nag {name}") for name, _ in questions)
+    width = max(len(f"nag {name}") for questions in asked.values() for name, _ in questions)
     name = os.path.relpath(options.case) if os.path.isabs(options.case) else options.case
-    asked = [(f"nag {command}", text) for command, text in questions]
-    head = [f"ask: nag COMMAND {name}"]
-    return CommandAnswer(sheet(title, *blocks, head, asked, width=width))
+    for heading, questions in asked.items():
+        blocks += [
+            [f"{heading}: nag COMMAND {name}"],
+            [(f"nag {command}", text) for command, text in questions],
+        ]
+    return CommandAnswer(sheet(title, *blocks, width=width))
 
 
 def _describe(
     options: argparse.Namespace,
-) -> tuple[str, list[list[str] | list[Row]], tuple[tuple[str, str], ...]]:
-    """Title, what is said below it, and questions."""
+) -> tuple[str, list[list[str] | list[Row]], dict[str, Questions]]:
+    """Title, what is said below it, and what can be asked, by headings."""
     from nag.witness.witness import Decomposition
 
     path = options.case
@@ -89,12 +104,13 @@ def _describe(
     found = read(path)
     title = os.path.basename(path)
     if isinstance(found, Decomposition):
-        return title, _describe_components(found), QUESTIONS["components"]
+        return title, _describe_components(found), {"ask": QUESTIONS["components"]}
     if isinstance(found, dict):
-        return title, [_describe_answer(found)], ()
+        return title, [_describe_answer(found)], {}
     from nag.report.solutions import solution_table
 
-    return title, [str(found).splitlines(), solution_table(found)], QUESTIONS["solutions"]
+    blocks = [str(found).splitlines(), solution_table(found)]
+    return title, blocks, {"ask": QUESTIONS["solutions"]}
 
 
 def _describe_answer(document: dict[str, Any]) -> list[Row]:
@@ -133,9 +149,8 @@ def _describe_components(found: Decomposition) -> list[list[str] | list[Row]]:
 
 def _describe_case(
     case: Case,
-) -> tuple[str, list[list[str] | list[Row]], tuple[tuple[str, str], ...]]:
+) -> tuple[str, list[list[str] | list[Row]], dict[str, Questions]]:
     from nag.algebra.system import system_line, values_text
-    from nag.mechanism.loops import has_loops
 
     rows: list[Row] = [("kind", case.kind)]
     if case.mechanism is not None:
@@ -146,24 +161,46 @@ def _describe_case(
         rows.append(("set", f"{values_text(case.parameters, case.parameters.values())}: --set"))
     if case.points:
         rows.append(("points", ", ".join(point.name for point in case.points)))
-    rows += [
-        (
-            "known",
-            f"{t.count} of dimension {t.dimension}, degree {t.degree}: {t.source.strip()}",
-        )
-        for t in case.truth
-    ]
+    rows += [("known", _known_text(t)) for t in case.truth]
     rows += [("note", note) for note in case.notes]
-    moving = case.mechanism is not None or case.assembly is not None
-    questions = QUESTIONS["mechanism" if moving else "system"]
-    if case.mechanism is not None and _is_robot(case):
-        questions = (*questions, LEGS)
-    if case.mechanism is not None and not has_loops(case.mechanism):
-        hand = case.mechanism.body_names[-1]
+    return case.title, [rows], _asked_of_case(case)
+
+
+def _known_text(known: Truth) -> str:
+    """What a case says is known, in the coordinates of which formulation, and from where."""
+    from nag.witness.shown import ComponentKind
+
+    kind = ComponentKind(known.dimension, known.degree, known.multiplicity).text(known.count)
+    where = f"in formulation {known.formulation}: " if known.formulation else ""
+    source = known.source.strip()
+    return f"{where}{kind}{f' ({source})' if source else ''}"
+
+
+def _asked_of_case(case: Case) -> dict[str, Questions]:
+    """All that can be asked of a case, by headings."""
+    from nag.mechanism.loops import has_loops
+
+    mechanism = case.mechanism
+    if mechanism is not None and not has_loops(mechanism):
+        hand = mechanism.body_names[-1]
         held = os.path.splitext(case.path)[1] != ".toml"
         questions = tuple((name, text.format(hand=hand)) for name, text in HAND[: 1 + held])
-        questions = (QUESTIONS["mechanism"][0], *questions)
-    return case.title, [rows], questions
+        return {"ask": (QUESTIONS["mechanism"][0], *questions)}
+    moving = mechanism is not None or case.assembly is not None
+    questions = QUESTIONS["mechanism" if moving else "system"]
+    if mechanism is not None and _is_robot(case):
+        questions = (*questions, LEGS)
+    if _is_of_papers(case):
+        questions = (*questions, PAPERS)
+    return {"ask": questions, "ask of its components, which are found first": OF_COMPONENTS}
+
+
+def _is_of_papers(case: Case) -> bool:
+    """Whether the founding papers speak of it."""
+    from nag.check.subjects import recognised
+    from nag.decomposition.decompose import decompose
+
+    return recognised(case, decompose) is not None
 
 
 def _is_robot(case: Case) -> bool:

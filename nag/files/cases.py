@@ -325,7 +325,7 @@ def freed_system(
             depend on them.
     """
     case = read_case(path, values)
-    if case.system is None:
+    if case.system is None or case.assembly is not None:
         raise CaseError(f"{path}: is a mechanism; parameters are freed in polynomial systems")
     for name in names:
         if name not in case.parameters:
