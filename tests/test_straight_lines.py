@@ -52,3 +52,14 @@ def test_a_side_that_is_longer_than_the_way_round_forbids_real_assemblies(ring) 
         ]
     )
     assert "longer than" in found.obstacle
+
+
+def test_places_of_one_link_that_are_in_line_are_forced_by_nothing() -> None:
+    plate = [
+        Side(ends, Fraction(x * x), "link plate")
+        for ends, x in [(("A", "B"), 1), (("B", "C"), 2), (("A", "C"), 3)]
+    ]
+    bars = [Side(("A", "D"), Fraction(4), "bar 1"), Side(("C", "D"), Fraction(9), "bar 2")]
+    assert find_forced_lines([*plate, *bars]).lines == ()
+    (line,) = find_forced_lines([*plate, bars[0], Side(("C", "D"), Fraction(1), "bar 2")]).lines
+    assert set(line) == {"A", "B", "C", "D"}

@@ -253,13 +253,16 @@ def count_real(problem: Problem, components: Sequence[WitnessSet]) -> tuple[int,
 
 
 def real_text(problem: Problem, moving: Sequence[WitnessSet], run: Run) -> str:
-    """One clause: whether there are real assemblies that move, and what that rests on."""
+    """What is known of the real assemblies beside that complex ones move, in one clause.
+
+    Empty where a real one was found that moves like these, as `real_doubt` says.
+    """
     forced = lines_of_real(problem)
     if forced is None or forced.obstacle:
-        return real_doubt(problem, moving, run) or "a real one was found"
+        return real_doubt(problem, moving, run)
     real = of_real_assemblies(problem)
     found = real.decompose(run=run)
-    start = f"in every real one {forced.text}"
+    start = f"in every real {problem.parts.solution} {forced.text}"  # type: ignore[union-attr]
     if not found.complete:
         return f"{start}; what moves there is not known: {'; '.join(found.notes)}"
     components = expand_orbits(found).components

@@ -13,6 +13,7 @@ Reference:
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -60,8 +61,8 @@ class ForcedLines:
 
     Attributes:
         obstacle: why there is no real assembly; empty where nothing forbids one.
-        lines: sets of three places and more that are in line in every real one, each with its
-            coordinate along the line, in lengths.
+        lines: sets of three places and more that are in line in every real one and are not all
+            on one link, each with its coordinate along the line, in lengths.
         stretched: the same in words: which side is as long as which way.
     """
 
@@ -78,7 +79,9 @@ class ForcedLines:
             # Where all but one fall together nothing is in line.
             if sum(not is_zero(line[q] - line[p]) for p, q in pairwise(places)) > 1:
                 each.append(join_words(places))
-        return f"{'; '.join(each)} are in line: {'; '.join(self.stretched)}"
+        return ": ".join(
+            filter(None, [f"{'; '.join(each)} are in line", "; ".join(self.stretched)])
+        )
 
 
 def find_forced_lines(sides: Sequence[Side]) -> ForcedLines:
@@ -93,6 +96,9 @@ def find_forced_lines(sides: Sequence[Side]) -> ForcedLines:
     zero = Fraction(0)
     lines: list[Line] = [{s.ends[0]: zero, s.ends[1]: square_root(s.squared)} for s in sides]
     names = {frozenset(s.ends): (s.name,) for s in sides}
+    links: defaultdict[frozenset[str], frozenset[str]] = defaultdict(frozenset)
+    for side in sides:
+        links[frozenset(side.ends)] |= {side.name}
     order = [s.name for s in sides]
     lengths = {s.name: square_root(s.squared) for s in sides}
     own_ways = {name: Way(x, float(x), (name,)) for name, x in lengths.items()}
@@ -124,7 +130,13 @@ def find_forced_lines(sides: Sequence[Side]) -> ForcedLines:
         if joined is None:
             return ForcedLines("sides that are stretched along one line do not fit there")
         if sorted(map(sorted, joined)) == sorted(map(sorted, lines)):
-            kept = tuple(line for line in joined if len(line) > 2)
+            # Places of one link that are in line are forced by nothing but its shape.
+            of_pairs = [[links[frozenset(p)] for p in combinations(line, 2)] for line in joined]
+            kept = tuple(
+                line
+                for line, each in zip(joined, of_pairs, strict=True)
+                if len(line) > 2 and not frozenset.intersection(*each)
+            )
             return ForcedLines("", kept, tuple(dict.fromkeys(stretched)))
         lines = joined
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.report.model import Rows
@@ -13,6 +13,7 @@ from nag.witness.witness import Decomposition, WitnessSet
 if TYPE_CHECKING:
     from nag.mechanism.assembly import AssemblyModel
     from nag.mechanism.problem import Problem
+    from nag.solving.solutions import SolveResult
 
 
 def assembly_rows(problem: Problem, decomposition: Decomposition) -> Rows:
@@ -24,11 +25,12 @@ def assembly_rows(problem: Problem, decomposition: Decomposition) -> Rows:
     moving = [c for c in decomposition.components if c.dimension > 0]
     texts = []
     if moving:
-        largest = max(c.dimension for c in moving) + problem.free
+        freedoms = sorted({c.dimension + problem.free for c in moving})
+        most = count_text(freedoms[-1], "freedom")
+        counted = " or ".join([*map(str, freedoms[:-1]), most])
         on = count_text(sum(c.orbit for c in moving), "component")
-        texts.append(
-            f"mobile, mobility {largest} at most, on {on}{_reality(problem, moving, decomposition)}"
-        )
+        start, end = _reality(problem, moving, decomposition)
+        texts.append(f"{start}it moves with {counted}, on {on}{end}")
     if isolated:
         each = parts.points_of_each
         count = sum(c.orbit * len(c.points) for c in isolated) // each
@@ -44,22 +46,38 @@ def assembly_rows(problem: Problem, decomposition: Decomposition) -> Rows:
     return [(_plural(parts), "; ".join(texts))]
 
 
-def _reality(problem: Problem, moving: Sequence[WitnessSet], decomposition: Decomposition) -> str:
+def _reality(
+    problem: Problem, moving: Sequence[WitnessSet], decomposition: Decomposition
+) -> tuple[str, str]:
+    """What is to be said before and behind that complex assemblies move."""
     from nag.mechanism.real_assemblies import real_text
 
-    if problem.parts is None or problem.parts.reference is not None:
-        return ""
+    assert problem.parts is not None
+    # Whether those move that are like a placement is a question of that placement.
+    of_complex = "in complex coordinates "
+    if problem.parts.reference is not None:
+        return of_complex, ""
     run = Run(seed=decomposition.seed, settings=decomposition.settings)
-    return f"; {real_text(problem, moving, run)}"
+    text = real_text(problem, moving, run)
+    if text:
+        return of_complex, f"; {text}"
+    return "", f"; a real {problem.parts.solution} was found"
 
 
-def real_rows(problem: Problem, points: Iterable[Sequence[complex]]) -> Rows:
+def real_rows(problem: Problem, result: SolveResult) -> Rows:
     """How many solutions are real assemblies; isotropic coordinates of these are not real."""
     parts = problem.parts
     if parts is None:
         return []
-    real, each = [parts.is_real(x) for x in points], parts.points_of_each
-    return [(_plural(parts), f"{len(real) // each}, {sum(real) // each} of them real")]
+    real, each = [parts.is_real(x) for x in result.points], parts.points_of_each
+    texts = [f"{len(real) // each}, {sum(real) // each} of them real"] if real else []
+    if result.positive_dimensional:
+        # A real one may be isolated among the real ones there, as a stretched loop is.
+        texts.append(
+            "those on the solution set of positive dimension are not listed: `nag mobility` says "
+            "whether real ones are among them, and move"
+        )
+    return [(_plural(parts), "; ".join(texts))] if texts else []
 
 
 def _plural(parts: AssemblyModel) -> str:

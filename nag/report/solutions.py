@@ -25,7 +25,7 @@ def solution_lines(result: SolveResult, case: Case, problem: Problem, run: Row) 
     head: list[Row] = [("answer", answer_text(result, is_real))]
     if not result.complete:
         head.append(("", "INCOMPLETE, see below"))
-    head += real_rows(problem, result.points)
+    head += real_rows(problem, result)
     paths = result.paths
     tail: list[Row] = [("note", note) for note in result.notes]
     tail += [*model_row(problem), ("system", system_line(result.system))]

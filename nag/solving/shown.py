@@ -32,7 +32,9 @@ def has_real_coordinates(solution: Solution) -> bool:
 def answer_text(result: SolveResult, is_real: Reality = has_real_coordinates) -> str:
     """The answer in one sentence."""
     count, real = len(result.solutions), int(_which(result, is_real).sum())
-    text = f"{count} isolated solution{'' if count == 1 else 's'}, {real} real"
+    text = "no isolated solution"
+    if count:
+        text = f"{count_text(count, 'isolated solution')}, {real} real"
     multiple = Counter(result.table.multiplicity.tolist())
     for multiplicity, number in sorted(multiple.items()):
         if multiplicity == 1:
@@ -41,7 +43,7 @@ def answer_text(result: SolveResult, is_real: Reality = has_real_coordinates) ->
     if result.excluded:
         text += f"; {result.excluded} more excluded, where a polynomial that must not vanish does"
     if result.positive_dimensional:
-        text += "; and a solution set of positive dimension"
+        text += f"{'; and' if count else ', but'} a solution set of positive dimension"
     elif result.perhaps_infinite:
         text += "; whether there is a solution set of positive dimension could not be decided"
     return text
