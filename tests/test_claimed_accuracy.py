@@ -22,7 +22,7 @@ from nag.numerics.certified_points import CertifiedPoints
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.singular_point import analyse
 from nag.solving.certificate import certify_solutions
-from nag.solving.shown import number_text
+from nag.solving.shown import coordinate_text
 from nag.solving.solve import solve
 from nag.solving.start.target import Target
 from nag.witness.certificate import certify_decomposition
@@ -130,7 +130,7 @@ def test_each_digit_of_a_coordinate_that_is_printed_is_right(name: str, value: i
     for solution, exact in zip(result.solutions, reference.high, strict=True):
         error = solution.accuracy * (1 + np.linalg.norm(exact))
         for z, known in zip(solution.point, exact, strict=True):
-            text = number_text(z, solution)
+            text = coordinate_text(z, solution)
             parts = re.findall(r"[+-]?[0-9.]+(?:e[+-]?[0-9]+)?(?=i?)", text)
             for part, right in zip(parts, (known.real, known.imag), strict=False):
                 room = error if part == "0" else 1.0001 * last_place(part)
@@ -142,7 +142,7 @@ def test_small_coordinates_beside_large_ones_are_printed() -> None:
     big = 10**12
     equations = ((x - big) * (x - 2 * big), 10**6 * y**2 - 1 + (x - big) * (y - 1))
     result = solve(PolynomialSystem(("x", "y"), equations))
-    shown = {number_text(s.point[1], s) for s in result.solutions}
+    shown = {coordinate_text(s.point[1], s) for s in result.solutions}
     assert shown == {"0.001", "-0.001", "-1e+06", "1"}
 
 

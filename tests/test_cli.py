@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import errno
 import json
 import os
@@ -16,6 +17,8 @@ import pytest
 
 import nag
 from nag.cli import main
+from nag.cli.arguments import UsageError
+from nag.cli.running import chosen_run
 from nag.files.export import read_export
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
@@ -359,6 +362,45 @@ def test_a_reader_that_goes_away_is_no_error(case) -> None:
     done = _nag("model", case, stdout=write, stderr=subprocess.PIPE)
     os.close(write)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["solve", "case.txt", "--points", "-"],
+        ["family", "case.txt", "--values", "values.csv", "--points", "-"],
+        ["motion", "case.txt", "--csv", "-"],
+        ["motion", "case.txt", "--html", "-"],
+        ["plot", "case.txt", "--tree", "--out", "-"],
+    ],
+    ids=lambda words: f"{words[0]} {words[-2]}",
+)
+def test_only_documents_go_to_standard_output(
+    words: list[str], tmp_path, monkeypatch, capsys
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("case.txt").write_text("x^2 - 2\n")
+    Path("values.csv").write_text("a\n1\n")
+    assert main(words) == 2
+    told = capsys.readouterr()
+    assert told.err.startswith(f"nag: {words[-2]}") and told.err.count("\n") == 1
+    assert not told.out and not Path("-").exists()
+
+
+def test_a_full_disk_is_told_of_the_file_that_was_named(tmp_path, monkeypatch) -> None:
+    target = tmp_path / "answer.json"
+    options = argparse.Namespace(
+        seed=0, threads=1, settings="default", progress=None, json=str(target), tell=print
+    )
+
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("nag.files.written_file.os.fsync", full)
+    run = chosen_run(options, lambda found: found.document())
+    with pytest.raises(UsageError) as told:
+        run.found(nag.decompose("x"))
+    assert str(told.value) == f"--json: {target}: cannot be written: No space left on device"
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is always full")

@@ -301,3 +301,18 @@ def test_every_answer_is_printed_even_if_its_document_cannot_be_written(
     out, err = capsys.readouterr()
     assert err.endswith("answer.json: cannot be written: No space left on device\n")
     assert out == expected
+
+
+def test_coordinates_of_samples_are_printed_to_what_is_known_of_them(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "line.txt").write_text("x^2 + y^2 - 1\nz*x\n")
+    for more in ([], ["--real"]):
+        words = ["sample", str(tmp_path / "line.txt"), "--count", "4", "--quiet", *more]
+        assert main(words) == 0
+        lines = capsys.readouterr().out.splitlines()
+        start = next(i for i, line in enumerate(lines) if line.startswith("point  "))
+        for line in lines[start + 1 : start + 5]:
+            # The component is x = 0, y = 1 or y = -1, with any z.
+            _, x, y, z = line.split()
+            assert x == "0" and y in ("1", "-1") and z.endswith("i") == (not more)

@@ -179,9 +179,9 @@ def test_what_a_command_keeps_reads_back_as_incomplete(
 ) -> None:
     kept: list[str] = []
 
-    def keep(document: Any, target: str, option: str = "json") -> None:
-        kept.append(target)
-        write_document(document, target, option)
+    def keep(document: Any, target: str, option: str = "json", file: str | None = None) -> None:
+        kept.append(file or target)
+        write_document(document, target, option, file)
 
     monkeypatch.setattr(running, "write_document", keep)
     monkeypatch.setattr(running, "keeps_unfinished", lambda options: options.json is not None)

@@ -65,7 +65,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"folder of the benchmarks (default: {FOLDER}; of mechanisms {bench_models.FOLDER})",
     )
     parser.add_argument("--peers", action="store_true", help="run M2 and phc too, where installed")
-    parser.add_argument("--json", metavar="FILE", help="write the table to FILE as JSON")
+    parser.add_argument(
+        "--json",
+        metavar="FILE",
+        help="write the table to FILE as JSON, or - for standard output alone",
+    )
     add_quiet(parser)
     bench_decompose.add_arguments(parser)
 

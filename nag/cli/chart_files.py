@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import check_option_target, write_document
+from nag.cli.running import check_option_target
 from nag.errors import NagError
 from nag.pictures.plot import check_kind
 
@@ -36,16 +36,6 @@ def check_picture(option: str, path: str, source: str = "") -> None:
     except NagError as error:
         raise UsageError(f"--{option}: {error}") from None
     check_option_target(option, path, source)
-
-
-def write_text(path: str | None, text: str) -> None:
-    """Write the data, if a file was named.
-
-    Raises:
-        UsageError: if it cannot be written.
-    """
-    if path is not None:
-        write_document(text, path)
 
 
 def write_picture(path: str, draw: Callable[[str], None], option: str = "picture") -> None:

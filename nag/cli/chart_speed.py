@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import UsageError, problem_of_case, read_case_file, whole
-from nag.cli.chart_files import check_targets, write_picture, write_text
+from nag.cli.chart_files import check_targets, write_picture
 from nag.cli.running import CommandAnswer
 
 if TYPE_CHECKING:
@@ -49,7 +49,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--no-peers", action="store_true", help="leave out M2, phc and bertini2, if installed"
     )
     parser.add_argument("--data", metavar="FILE", help="draw what is in FILE, without a run")
-    parser.add_argument("--json", metavar="FILE", help="write the data to FILE")
+    parser.add_argument(
+        "--json", metavar="FILE", help="write the data to FILE, or - for standard output alone"
+    )
     parser.add_argument(
         "--picture",
         metavar="FILE",
@@ -74,7 +76,6 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.bench.work_precision import document
     from nag.text.table import align
 
-    write_text(options.json, json.dumps(document(charts)) + "\n")
     for path in options.picture or ():
         write_picture(path, lambda target: draw_all(charts, target))
         stem, dot, kind = path.rpartition(".")
@@ -85,7 +86,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     lines += ["", "ratio: the other program's processor time over ours; in brackets where one of"]
     lines.append(f"the two did not find all solutions to 1e-12; * {SCALED}")
     right = all(p.share == 1 for chart in charts for p in _default(chart))
-    return CommandAnswer(lines, right)
+    return CommandAnswer(lines, right, lambda: json.dumps(document(charts)) + "\n")
 
 
 def _default(chart: Chart) -> list:

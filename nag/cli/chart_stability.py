@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import SETTINGS, UsageError, whole
-from nag.cli.chart_files import check_targets, write_picture, write_text
+from nag.cli.chart_files import check_targets, write_picture
 from nag.cli.running import CommandAnswer
 
 if TYPE_CHECKING:
@@ -39,7 +39,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--settings", choices=SETTINGS, default="default")
     parser.add_argument("--data", metavar="FILE", help="draw the atlas in FILE, without a run")
-    parser.add_argument("--json", metavar="FILE", help="write the counts to FILE")
+    parser.add_argument(
+        "--json",
+        metavar="FILE",
+        help="write the counts to FILE, or - for standard output alone",
+    )
     parser.add_argument(
         "--picture", metavar="FILE", action="append", help="draw to FILE.svg or .png (repeatable)"
     )
@@ -75,7 +79,6 @@ def run(options: argparse.Namespace) -> CommandAnswer:
             atlas = complete_atlas(atlas, rest)
         except ValueError as error:
             raise UsageError(f"--rest: {options.rest}: {error}") from None
-    write_text(options.json, lay_out(document(atlas)) + "\n")
     for path in options.picture or ():
         write_picture(path, lambda target: draw(atlas, target))
     lines = align(table(atlas), {0})
@@ -85,7 +88,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if before is not None and options.data is None:
         told = list(changes(atlas, before))
         lines += ["", *(told or ["nothing changed against the atlas that is kept"])]
-    return CommandAnswer(lines, atlas.wrong == 0)
+    return CommandAnswer(lines, atlas.wrong == 0, lambda: lay_out(document(atlas)) + "\n")
 
 
 def _read(path: str) -> Atlas:

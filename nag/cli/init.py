@@ -7,7 +7,7 @@ import os
 from importlib.resources import files
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import CommandAnswer, check_option_target
+from nag.cli.running import STANDARD_OUTPUT, CommandAnswer, check_option_target
 
 KINDS = ("linkage", "mechanism", "system")
 
@@ -19,7 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "file",
         nargs="?",
         metavar="FILE",
-        help="the file to be written, which must not be there yet (default: it is printed)",
+        help="the file to be written, which must not be there yet (default, or -: it is printed)",
     )
 
 
@@ -31,7 +31,7 @@ def read_template(kind: str) -> str:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """A commented case, written or printed."""
     text = read_template(options.kind)
-    if options.file is None:
+    if options.file in (None, STANDARD_OUTPUT):
         return CommandAnswer(text.splitlines())
     if os.path.lexists(options.file):
         raise UsageError(f"{options.file}: is there already; name a file that is not")

@@ -199,6 +199,10 @@ def begin(options: argparse.Namespace) -> None:
     for name in TARGETS:
         target = getattr(options, name, None)
         if target is not None and (name, target) != ("json", STANDARD_OUTPUT):
+            if target == STANDARD_OUTPUT:
+                raise UsageError(
+                    f"--{name}: name a file; only --json writes to standard output, as -"
+                )
             check_option_target(name, target, source if isinstance(source, str) else "")
             file = os.path.realpath(target)
             # Devices and pipes are not replaced.
@@ -272,7 +276,7 @@ def chosen_run(
         def found(answer: Any) -> None:
             document = document_of(answer)
             if document is not None:
-                write_document(document, unfinished_file(options.json))
+                write_document(document, options.json, file=unfinished_file(options.json))
 
     return Run(options.seed, options.threads, options.settings, options.progress, found)
 
@@ -336,9 +340,15 @@ def writing_to(option: str) -> Iterator[None]:
 
 
 def write_document(
-    document: dict[str, Any] | str | bytes, target: str, option: str = "json"
+    document: dict[str, Any] | str | bytes,
+    target: str,
+    option: str = "json",
+    file: str | None = None,
 ) -> None:
     """Write a JSON object, a text, or bytes to the file that an option names.
+
+    Args:
+        file: a file that is written in place of the one that is named, and that errors do not name.
 
     Raises:
         UsageError: if the file cannot be written.
@@ -347,7 +357,7 @@ def write_document(
 
     with writing_to(option):
         written = document if isinstance(document, bytes | str) else _document_parts(document)
-        write_target(target, written)
+        write_target(file or target, written, named=target)
 
 
 def write_arrays(arrays: dict[str, Any], target: str, option: str) -> None:

@@ -66,13 +66,21 @@ def check_target(path: str | os.PathLike[str]) -> None:
 Content = str | bytes | Iterable[str] | Callable[[BinaryIO], None]
 
 
-def write_target(path: str | os.PathLike[str], content: Content) -> None:
+def write_target(
+    path: str | os.PathLike[str],
+    content: Content,
+    *,
+    named: str | os.PathLike[str] | None = None,
+) -> None:
     """Write a text, as UTF-8, or bytes to ``path`` through a temporary file beside it.
 
     A text may come in parts, each of which is written before the next one is asked for; or a
     function writes what it has to. Whoever reads ``path`` sees the old content or the new, never a
     part. A symbolic link stays a link; an existing file keeps its permissions; a device or a pipe
     is written to directly.
+
+    Args:
+        named: the file that errors name, if it is another one: that which the user gave.
 
     Raises:
         TargetError: if it cannot be written; the old content is then untouched.
@@ -95,7 +103,7 @@ def write_target(path: str | os.PathLike[str], content: Content) -> None:
             temporary.chmod(stat.S_IMODE(real.stat().st_mode))
         temporary.replace(real)
     except OSError as error:
-        raise _cannot_write(target, error) from None
+        raise _cannot_write(target if named is None else Path(named), error) from None
     finally:
         if temporary is not None:
             temporary.unlink(missing_ok=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from nag.algebra.system import system_line
-from nag.text.table import count_text, html_table, lines_of, magnitude, named_line
+from nag.text.table import count_text, html_table, lines_of, magnitude, named_line, number_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
 # Longer lists are left to the export.
 MOST_ROWS = 40
-# Most digits of a coordinate.
-SHOWN = 6
 
 
 Reality: TypeAlias = "Callable[[Solution], bool]"
@@ -77,7 +75,7 @@ def solution_rows(
         rows.append(
             [
                 str(i + 1),
-                *(number_text(z, s) for z in s.point[:columns]),
+                *(coordinate_text(z, s) for z in s.point[:columns]),
                 *dots,
                 str(s.multiplicity),
                 "yes" if is_real(s) else "no",
@@ -89,29 +87,15 @@ def solution_rows(
     return rows
 
 
-def number_text(z: complex, solution: Solution) -> str:
-    """A coordinate to as many digits, up to six, as the point's accuracy leaves it.
-
-    Parts that are no larger than the error that they may have are left out.
-    """
-    error = solution.accuracy * (1 + float(np.linalg.norm(solution.point)))
-    real = _digits_text(float(z.real), error)
-    if solution.real or abs(z.imag) <= error:
-        return real
-    return f"{real}{_digits_text(float(z.imag), error, '+')}i"
-
-
-@np.errstate(over="ignore")
-def _digits_text(value: float, error: float, sign: str = "") -> str:
-    """A number that may be off by ``error``, to at most six digits."""
-    if abs(value) <= error < np.inf:
-        return "0"
-    known = SHOWN if error == 0 else int(np.clip(np.log10(abs(value) / (2 * error)), 1, SHOWN))
-    return format(value, f"{sign}.{known}g")
+def coordinate_text(z: complex, solution: Solution) -> str:
+    """A coordinate to as many digits as the point's accuracy leaves it."""
+    with np.errstate(over="ignore"):
+        error = solution.accuracy * (1 + float(np.linalg.norm(solution.point)))
+    return number_text(z.real if solution.real else z, error)
 
 
 def _point_text(solution: Solution) -> str:
-    return f"({', '.join(number_text(z, solution) for z in solution.point)})"
+    return f"({', '.join(coordinate_text(z, solution) for z in solution.point)})"
 
 
 def solution_line(solution: Solution) -> str:

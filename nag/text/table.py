@@ -12,6 +12,8 @@ from nag.errors import NagError
 
 # Length of a line; longer texts are wrapped.
 LINE = 100
+# Digits of a number that is shown.
+SHOWN = 6
 
 
 def printable(text: str) -> str:
@@ -37,15 +39,35 @@ def magnitude(value: float) -> str:
     return f"{value:.1e}" if math.isfinite(value) else "?"
 
 
-def number_text(value: complex) -> str:
-    """A number to six digits, its imaginary part if it has one."""
+def number_text(value: complex, error: float = 0.0) -> str:
+    """A number to as many digits, six at most, as an error that it may have leaves it.
+
+    Parts that are no larger than that error are left out.
+
+    >>> number_text(1 / 3 + 1e-31j, 1e-16), number_text(2.5e-17 + 0.125j, 1e-3)
+    ('0.333333', '0+0.12i')
+    """
     value = complex(value)
-    return f"{value.real:.6g}" + (f"{value.imag:+.6g}i" if value.imag else "")
+    real = _digits_text(value.real, error)
+    if abs(value.imag) <= error < math.inf:
+        return real
+    return f"{real}{_digits_text(value.imag, error, '+')}i"
 
 
-def point_text(point: Iterable[complex]) -> str:
-    """A point's coordinates to six digits."""
-    return f"({', '.join(map(number_text, point))})"
+def _digits_text(value: float, error: float, sign: str = "") -> str:
+    """A real number that may be off by ``error``."""
+    if abs(value) <= error < math.inf:
+        return "0"
+    digits = SHOWN
+    if error > 0 and math.isfinite(value):
+        known = math.log10(abs(value)) - math.log10(2 * error) if error < math.inf else 1
+        digits = max(1, min(SHOWN, int(known)))
+    return format(value, f"{sign}.{digits}g")
+
+
+def point_text(point: Iterable[complex], error: float = 0.0) -> str:
+    """A point's coordinates, each of which may be off by ``error``."""
+    return f"({', '.join(number_text(z, error) for z in point)})"
 
 
 def align(rows: Sequence[Sequence[str]], left: Iterable[int] = ()) -> list[str]:

@@ -254,28 +254,43 @@ def witness_set_html(component: WitnessSet) -> str:
     rows = [["point", *names, "error"]]
     errors = np.linalg.norm(component.radii, axis=1)
     for i, point in enumerate(component.points[:MOST_POINTS]):
-        rows.append([str(i), *map(number_text, point), magnitude(float(errors[i]))])
+        cells = map(number_text, point, component.radii[i])
+        rows.append([str(i), *cells, magnitude(float(errors[i]))])
     hidden = component.degree - MOST_POINTS
     note = f"{component.status}; {_rests_on([component])}"
     more = f"; {count_text(hidden, 'more point')}" if hidden > 0 else ""
     return html_table(f"Component of {_kind_text(component)}", rows, note + more)
 
 
-def _point_table(caption: str, points: np.ndarray, more: dict[str, list[str]], note: str) -> str:
-    """Points as a table, with more columns."""
+def _point_table(
+    caption: str,
+    points: np.ndarray,
+    more: dict[str, list[str]],
+    note: str,
+    accuracy: float = 0.0,
+) -> str:
+    """Points of a relative accuracy as a table, with more columns."""
     rows = [["point", *(f"x{i}" for i in range(points.shape[1])), *more]]
     for i, point in enumerate(points[:MOST_POINTS]):
-        rows.append([str(i), *map(number_text, point), *(column[i] for column in more.values())])
+        error = _error_of(point, accuracy)
+        cells = [number_text(z, error) for z in point]
+        rows.append([str(i), *cells, *(column[i] for column in more.values())])
     hidden = len(points) - MOST_POINTS
     note += f"; {count_text(hidden, 'more point')}" if hidden > 0 else ""
     return html_table(caption, rows, note)
 
 
-def _first_point(points: np.ndarray) -> str:
+def _error_of(point: np.ndarray, accuracy: float) -> float:
+    """How far a point of a relative accuracy may be off."""
+    with np.errstate(over="ignore"):
+        return accuracy * (1 + float(np.linalg.norm(point)))
+
+
+def _first_point(points: np.ndarray, accuracy: float = 0.0) -> str:
     if not len(points):
         return "none"
     more = f" and {len(points) - 1} more" if len(points) > 1 else ""
-    return f"{point_text(points[0])}{more}"
+    return f"{point_text(points[0], _error_of(points[0], accuracy))}{more}"
 
 
 def _samples_title(samples: Samples) -> str:
@@ -289,7 +304,8 @@ def _samples_rest(samples: Samples) -> str:
 
 def samples_text(samples: Samples) -> str:
     """Points of a component in three lines."""
-    rows = [("points", _first_point(samples.points)), ("rests on", _samples_rest(samples))]
+    first = _first_point(samples.points, samples.accuracy)
+    rows = [("points", first), ("rests on", _samples_rest(samples))]
     rows += [("open", samples.doubt)] if samples.doubt else []
     return lines_of(_samples_title(samples), rows)
 
@@ -303,8 +319,8 @@ def sample_rows(samples: Samples, variables: Sequence[str]) -> list[list[str]]:
     dots = ["..."] if len(variables) > MOST_COLUMNS else []
     rows = [["point", *variables[:MOST_COLUMNS], *dots]]
     for i, point in enumerate(samples.points[:MOST_SAMPLES]):
-        shown = point[: min(len(variables), MOST_COLUMNS)]
-        cells = [f"{z.real:.6f}{z.imag:+.6f}i" for z in shown]
+        error = _error_of(point, samples.accuracy)
+        cells = [number_text(z, error) for z in point[: min(len(variables), MOST_COLUMNS)]]
         rows.append([str(i + 1), *cells, *dots])
     return rows
 
@@ -312,7 +328,7 @@ def sample_rows(samples: Samples, variables: Sequence[str]) -> list[list[str]]:
 def samples_html(samples: Samples) -> str:
     """Points of a component as a table."""
     note = _samples_rest(samples) + (f"; open: {samples.doubt}" if samples.doubt else "")
-    return _point_table(_samples_title(samples), samples.points, {}, note)
+    return _point_table(_samples_title(samples), samples.points, {}, note, samples.accuracy)
 
 
 def _real_points_title(found: RealPoints) -> str:
@@ -380,4 +396,4 @@ def projection_html(image: Projection) -> str:
         f"{image.fibre_dimension}, degree {image.fibre_degree}; accuracy "
         f"{magnitude(image.accuracy)}"
     )
-    return _point_table(_projection_title(image), image.points, {}, note)
+    return _point_table(_projection_title(image), image.points, {}, note, image.accuracy)
