@@ -63,7 +63,32 @@ def mechanism(*joints: str, more: str = "") -> str:
 
 BROKEN: dict[str, tuple[str | bytes, str, str]] = {
     # name: (content, place, part of the message)
-    "empty": ("", "kind", "is missing; write a text"),
+    "empty": ("", "title and kind", "are missing; write a text"),
+    "only a kind": (
+        'kind = "system"',
+        "title, variables and equations",
+        "a list of equations (`nag init system` prints a whole case)",
+    ),
+    "only a linkage's title": (
+        'title = "t"\nkind = "linkage"',
+        "ground and link",
+        "are missing; write a text in quotes: ground = ",
+    ),
+    "neither points nor bars": (
+        'title = "t"\nkind = "framework"',
+        "points and bars",
+        "are missing",
+    ),
+    "joint without a type and bodies": (
+        mechanism(joint(type=None, bodies=None)),
+        "[[joint]] 1: type and bodies",
+        "are missing",
+    ),
+    "joint without a point and an axis": (
+        mechanism(joint(point=None, axis=None)),
+        "[[joint]] 1 'J': point and axis",
+        "are missing; write a list of 3 numbers",
+    ),
     "missing title": (SYSTEM.replace('title = "t"\n', ""), "title", "is missing; write a text"),
     "missing kind": (SYSTEM.replace('kind = "system"\n', ""), "kind", "is missing"),
     "missing variables": (

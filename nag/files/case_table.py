@@ -34,6 +34,7 @@ from nag.algebra.tokens import (
     quote,
 )
 from nag.errors import InputError
+from nag.text.table import join_words
 
 ReadNumber = Callable[[Any], Number]
 
@@ -97,6 +98,19 @@ class CaseTable:
                     f"unknown key{nearest(key, keys)}; the keys here are {', '.join(keys)}",
                 )
 
+    def require(self, wanted: Mapping[str, str], hint: str = "") -> None:
+        """Complain about all keys at once that are not there.
+
+        Args:
+            wanted: what to write, by the keys.
+            hint: what would help besides.
+        """
+        missing = [key for key in wanted if key not in self.values]
+        if missing:
+            verb = "is" if len(missing) == 1 else "are"
+            texts = "; ".join(dict.fromkeys(wanted[key] for key in missing))
+            self.fail(join_words(missing), f"{verb} missing; write {texts}{hint}")
+
     def get(self, key: str, kind: type, wanted: str) -> Any:
         """The value, which must be there and of that type."""
         if key not in self.values:
@@ -108,7 +122,7 @@ class CaseTable:
 
     def text(self, key: str) -> str:
         """A text that is not empty and fits in a line."""
-        wanted = f'a text in quotes: {key} = "..."'
+        wanted = wanted_text(key)
         value = self.get(key, str, wanted)
         if not value.strip():
             self.fail(key, f"is empty; write {wanted}")
@@ -176,6 +190,11 @@ class CaseTable:
     def called(self, name: str) -> CaseTable:
         """The same table, its name shown in messages."""
         return CaseTable(self.file, f"{self.place} {quote(name)}", self.values)
+
+
+def wanted_text(key: str) -> str:
+    """What to write for a key that is a text."""
+    return f'a text in quotes: {key} = "..."'
 
 
 def key_text(key: str) -> str:

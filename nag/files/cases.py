@@ -35,6 +35,7 @@ from nag.files.case_table import (
     parse_toml,
     read_case_text,
     read_parameters,
+    wanted_text,
     with_values,
 )
 from nag.files.formats import READ, ROBOTS
@@ -82,6 +83,29 @@ _KEYS = {
     ),
     "linkage": ("title", "kind", "parameters", "ground", "link", "point", "truth"),
 }
+# What a case of each kind cannot be without, and what to write.
+_NEEDED = {
+    "system": {
+        "variables": "a list of names of variables",
+        "equations": "a list of equations",
+    },
+    "mechanism": {
+        "ground": wanted_text("ground"),
+        "joint": "a table [[joint]] for every joint",
+    },
+    "dh": {"joint": "a table [[joint]] for every joint"},
+    "robot": {"file": wanted_text("file")},
+    "framework": {
+        "points": "a list of names of points",
+        "bars": 'a list of pairs of points ["A", "B"]',
+    },
+    "linkage": {
+        "ground": wanted_text("ground"),
+        "link": "a table [[link]] for every link, the ground included",
+    },
+}
+# Kinds of which `nag init` writes a case.
+_WRITTEN = ("system", "mechanism", "linkage")
 _TRUTH_KEYS = (
     "dimension",
     "degree",
@@ -221,6 +245,7 @@ def read_case(
     for key in {"plate", "plates"} & top.values.keys():
         top.fail(key, 'plates are links of kind = "linkage": [[link]] with pins and their shape')
     top.allow(sorted({key for keys in _KEYS.values() for key in keys}))
+    _require_all(top)
     kind = top.text("kind")
     if kind not in _KEYS:
         top.fail("kind", f"{quote(kind)} is no kind of case; write one of {', '.join(_KEYS)}")
@@ -258,6 +283,24 @@ def read_case(
         symmetries=_read_symmetries(top, system),
         family=family,
     )
+
+
+def _require_all(top: CaseTable) -> None:
+    """Complain about all that a case of its kind cannot be without, at once."""
+    kind = top.values.get("kind")
+    needed = {
+        "title": wanted_text("title"),
+        "kind": f"{wanted_text('kind')}, one of {', '.join(_KEYS)}",
+    }
+    if isinstance(kind, str) and kind in _NEEDED:
+        needed |= _NEEDED[kind]
+    elif "kind" in top.values:
+        return
+    # Of other kinds none is written, and who left the kind out may choose among those that are.
+    hint = f" (`nag init {kind}` prints a whole case)" if kind in _WRITTEN else ""
+    if kind is None:
+        hint = " (`nag init system`, mechanism or linkage prints a whole case)"
+    top.require(needed, hint)
 
 
 def _format_of(path: Path, text: str, format: str) -> str:

@@ -15,8 +15,6 @@ _JOINT_KEYS = ("name", "a", "d", "alpha", "alpha_half_tangent", "theta", "theta_
 
 def read_dh(top: CaseTable, number: ReadNumber) -> DHModel | Mechanism:
     """A table with open angles as a model of its closings, one without as a mechanism."""
-    if "joint" not in top.values:
-        top.fail("joint", "is missing; write a table [[joint]] for every joint")
     tables = top.tables("joint")
     rows = [_read_row(i, table, number) for i, table in enumerate(tables, 1)]
     try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from nag.algebra.tokens import is_name, quote
-from nag.files.case_table import CaseTable, ReadNumber
+from nag.files.case_table import CaseTable, ReadNumber, wanted_text
 from nag.mechanism.linkage import Link, Linkage, LinkageError, LinkageModel, Place, linkage_model
 
 _LINK_KEYS = ("name", "pins", "length", "shape")
@@ -14,8 +14,8 @@ _LINK_KEYS = ("name", "pins", "length", "shape")
 def read_linkage(top: CaseTable, number: ReadNumber) -> LinkageModel:
     """The model of a linkage."""
     ground = top.text("ground")
-    if "link" not in top.values:
-        top.fail("link", "is missing; write a table [[link]] for every link, the ground included")
+    for table in top.tables("link"):
+        table.require({"name": wanted_text("name"), "pins": "a list of names of pins"})
     tables = [(t.text("name"), t) for t in top.tables("link")]
     try:
         links = [_read_link(name, table.called(name), number) for name, table in tables]

@@ -8,13 +8,19 @@ from __future__ import annotations
 
 from nag.algebra.number import brief_number_text, is_zero
 from nag.errors import MechanismError
-from nag.files.case_table import CaseTable, ReadNumber
+from nag.files.case_table import CaseTable, ReadNumber, wanted_text
 from nag.mechanism.axes import Vector, cross, difference, dot, nearest, vanishes
 from nag.mechanism.graph import ORIGIN, Body, Joint, Mechanism
 from nag.mechanism.joint_types import JOINT_TYPES, SYNONYMS, VECTORS
 
 LINE_KEYS = ("through", "line")
 SECOND_KEYS = ("second_through", "second_line")
+# What no joint can be without, and what to write.
+_NEEDED = {
+    "name": wanted_text("name"),
+    "type": wanted_text("type"),
+    "bodies": "a list of 2 names of bodies",
+}
 # A point and a direction.
 Line = tuple[Vector, Vector]
 
@@ -22,8 +28,8 @@ Line = tuple[Vector, Vector]
 def read_mechanism(top: CaseTable, number: ReadNumber) -> Mechanism:
     """The mechanism of a case of kind ``mechanism``; ``number`` reads an exact number."""
     ground = top.text("ground")
-    if "joint" not in top.values:
-        top.fail("joint", "is missing; write a table [[joint]] for every joint")
+    for table in top.tables("joint"):
+        table.require(_NEEDED)
     joint_tables = [(t.text("name"), t) for t in top.tables("joint")]
     body_tables = [(t.text("name"), t) for t in top.tables("body")]
     try:
@@ -52,9 +58,10 @@ def _read_joint(name: str, table: CaseTable, number: ReadNumber) -> Joint:
     line = _read_line(table, number)
     vectors = dict(zip(("point", "axis"), line, strict=True)) if line else {}
     as_line = any(key in table.values for key in second_keys)
+    needed = [k for k in needed if k not in vectors and not (as_line and k == "second_axis")]
+    table.require(dict.fromkeys(needed, "a list of 3 numbers"))
     for key in VECTORS:
-        wanted = key in table.values or (key in needed and not (as_line and key == "second_axis"))
-        if key not in vectors and wanted:
+        if key not in vectors and key in table.values:
             vectors[key] = table.vector(key, 3, number)
     second = (
         _read_second_line(table, number, (vectors["point"], vectors["axis"])) if as_line else None
