@@ -272,6 +272,42 @@ def test_the_programs_and_commands_that_are_shown_run(page, tmp_path, monkeypatc
                 assert " ".join(_without_measurements(part)) in printed
 
 
+@pytest.mark.parametrize("page", [page for page in SHOWN if "/tutorials/" in page])
+def test_tutorials_are_notebooks_that_run(page: str, tmp_path, monkeypatch) -> None:
+    pytest.importorskip("jupytext", reason='needs pip install ".[docs]"')
+    import nbformat
+
+    monkeypatch.syspath_prepend(ROOT / "docs" / "site")
+    write_notebook = importlib.import_module("notebooks").write_notebook
+    notebook = nbformat.reads(write_notebook(PAGES[page]), as_version=4)
+    nbformat.validate(notebook)
+    assert notebook.metadata.kernelspec.name == "python3"
+    cells = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+    programs = re.findall(r"```python\n(.*?)\n```", PAGES[page], re.DOTALL)
+    assert cells == programs
+    text = "".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
+    assert ".md)" not in text and ".md#" not in text
+    (tmp_path / "cases").symlink_to(ROOT / "cases")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    space: dict[str, object] = {"__name__": "__main__"}
+    for cell in cells:
+        exec(compile(cell, page, "exec"), space)
+
+
+RATIONAL = PAGES["docs/coming-from/rational-linkages.md"]
+
+
+@pytest.mark.parametrize("program", re.findall(r"```py\n(.*?)```", RATIONAL, re.DOTALL))
+def test_what_is_shown_beside_rational_linkages_runs_where_that_is_installed(
+    program: str, capsys, monkeypatch
+) -> None:
+    monkeypatch.setenv("QT_QPA_PLATFORM", "offscreen")
+    pytest.importorskip("rational_linkages")
+    exec(compile(program, "rational-linkages.md", "exec"), {})
+    assert re.search("then +a Bennett linkage|moves with 1 freedom", capsys.readouterr().out)
+
+
 MACAULAY2 = re.findall(r"```macaulay2\n(.*?)```", "\n".join(PAGES.values()), re.DOTALL)
 
 

@@ -25,6 +25,7 @@ OURS = [str(ROOT), str(ROOT / "docs" / "site")]
 sys.path[:0] = OURS
 
 from mechanism_pictures import make_all  # noqa: E402
+from notebooks import write_notebook  # noqa: E402
 
 CASES = sorted(
     (path, table)
@@ -107,16 +108,12 @@ def _of_gallery(config: Any) -> list[File]:
 
 def _of_tutorials(config: Any) -> list[File]:
     """The tutorials as notebooks, to be opened in Jupyter."""
-    import jupytext
-
-    files = []
-    for path in sorted((ROOT / "docs" / "tutorials").glob("*.md")):
-        notebook = jupytext.reads(path.read_text("utf-8"), fmt="md")
-        for i, cell in enumerate(notebook.cells):
-            cell["id"] = f"cell-{i}"
-        text = jupytext.writes(notebook, fmt="ipynb")
-        files.append(File.generated(config, f"tutorials/{path.stem}.ipynb", content=text))
-    return files
+    return [
+        File.generated(
+            config, f"tutorials/{path.stem}.ipynb", content=write_notebook(path.read_text("utf-8"))
+        )
+        for path in sorted((ROOT / "docs" / "tutorials").glob("*.md"))
+    ]
 
 
 def on_files(files: Files, config: Any) -> Files:
