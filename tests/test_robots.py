@@ -315,3 +315,26 @@ def test_commands_take_robots_with_their_hands_held(
     assert main([words[0], path, *words[1:], *HELD]) == status
     shown = capsys.readouterr()
     assert said in shown.out + shown.err
+
+
+LIMITED = """<robot name="arm"><link name="base"/><link name="a"/><link name="hand"/>
+<joint name="A" type="revolute"><parent link="base"/><child link="a"/><axis xyz="0 0 1"/>
+ <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<joint name="B" type="continuous"><parent link="a"/><child link="hand"/><origin xyz="1 0 0"/>
+ <axis xyz="0 0 1"/><limit effort="1" velocity="1"/></joint></robot>"""
+RANGES = """<mujoco><default><default class="short"><joint range="-1 1"/></default></default>
+<worldbody><body name="a"><joint name="A" class="short"/><body name="b" pos="1 0 0">
+<joint name="B" range="-1 1" limited="false"/></body></body></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize("text", [LIMITED, RANGES], ids=["urdf", "mjcf"])
+def test_limits_of_joints_are_said_not_to_be_used(
+    text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(written(tmp_path, text))
+    for command in ("show", "mobility"):
+        assert main([command, path]) == 0
+        assert "limits of 1 joint are not used" in capsys.readouterr().out
+    free = text.replace('lower="-1" upper="1" ', "").replace('range="-1 1"', "")
+    free = free.replace('type="revolute"', 'type="continuous"')
+    assert not read_case(written(tmp_path, free)).notes

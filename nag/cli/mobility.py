@@ -125,7 +125,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     rows = [*report.rows(), *_unsaid_rows(options, report)]
     complete = options.of is None or report.moving is not None or report.local_dimension == 0
     complete &= report.complete
-    rows += [("read", note) for note in case.notes]
+    rows += case.note_rows
     known = _beside_known(report, case) if at is None else None
     beside: dict[str, Any] | None = None
     if known is not None:

@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError(f"{options.case}: {error}") from None
     decomposition = found.decomposition
     blocks = found.rows(), found.table(), found.mode_rows()
-    tail = found.tail()
+    tail = [*case.note_rows, *found.tail()]
     known = [t for t in case.truth if t.formulation]
     # Of modes that were not looked for nothing is compared.
     looked = found.complete or bool(found.modes)

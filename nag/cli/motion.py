@@ -197,7 +197,7 @@ def _run_once(
     found = motion(problem, circuit=asked, **held, run=chosen_run(options, document_of))
     if options.csv is not None:
         write_document(_table_text(found.whole_table(angles=options.angles)), options.csv, "csv")
-    tail = [("open", note) for note in found.notes]
+    tail = [*case.note_rows, *(("open", note) for note in found.notes)]
     tail += [("table", options.csv)] if options.csv is not None else []
     if options.html is not None and not found.circuits:
         tail.append(("page", f"{options.html} is not written: there is no motion to show"))
@@ -242,7 +242,8 @@ def _run_through(
     found = driven_motion(problem, *drive, **held, run=chosen_run(options, document_of))
     if options.csv is not None:
         write_document(_table_text(found.table(angles=options.angles)), options.csv, "csv")
-    tail = [("open", f"value {i + 1}: {note}") for i, m in enumerate(found) for note in m.notes]
+    tail = case.note_rows
+    tail += [("open", f"value {i + 1}: {note}") for i, m in enumerate(found) for note in m.notes]
     if options.html is not None:
         from nag.page.motion_page import driven_page
 

@@ -124,7 +124,7 @@ def _sections(
         found.append(Section("How it moves", mobility.rows()))
     if why_not:
         found.append(Section("No picture", [("because", why_not)]))
-    found.append(Section("The model, and why this one", model_rows(problem)))
+    found.append(Section("The model, and why this one", [*case.note_rows, *model_rows(problem)]))
     found.append(
         Section(
             "All components", html_table(title_line(decomposition), component_rows(decomposition))

@@ -162,7 +162,7 @@ def _describe_case(
     if case.points:
         rows.append(("points", ", ".join(point.name for point in case.points)))
     rows += [("known", _known_text(t)) for t in case.truth]
-    rows += [("note", note) for note in case.notes]
+    rows += case.note_rows
     return case.title, [rows], _asked_of_case(case)
 
 

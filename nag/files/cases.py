@@ -163,7 +163,7 @@ class Case:
     `symmetries` are those that the file declares; each was verified exactly on the equations.
     `family` is the one that the file declares the system to belong to. Where the file gives the
     parts of a mechanism but not how they are assembled, `system` is that of `assembly`. What the
-    `notes` say what numbers of a robot's file were taken for. What the
+    `notes` say is what numbers of a robot's file were taken for, and what is not used. What the
     file says is known, of components (`truth`) or at the reference configuration alone
     (`truth_at_reference`), is left out where parameters were given other values.
     """
@@ -191,6 +191,11 @@ class Case:
         if given is None:
             raise NagError("a case without a system and without a mechanism")
         return given
+
+    @property
+    def note_rows(self) -> list[tuple[str, str]]:
+        """What its file was taken for, as labelled lines."""
+        return [("read", note) for note in self.notes]
 
     def known_in(self, formulation: str | None) -> tuple[Truth, ...]:
         """What is known of the system in a formulation."""

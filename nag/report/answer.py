@@ -94,7 +94,8 @@ def answer_lines(
     head += _mobility_rows(decomposition, problem, points)
     head += assembly_rows(problem, decomposition)
     tail: list[Row] = [("open", line) for line in remarks(decomposition)]
-    tail += [*model_rows(problem), ("system", system_line(decomposition.system))]
+    tail += [*case.note_rows, *model_rows(problem)]
+    tail.append(("system", system_line(decomposition.system)))
     tail += _method_rows(decomposition) + _orbit_rows(decomposition)
     tail += [
         ("paths", paths_text(decomposition.paths)),

@@ -28,7 +28,7 @@ def solution_lines(result: SolveResult, case: Case, problem: Problem, run: Row) 
     head += real_rows(problem, result)
     paths = result.paths
     tail: list[Row] = [("note", note) for note in result.notes]
-    tail += [*model_row(problem), ("system", system_line(result.system))]
+    tail += [*case.note_rows, *model_row(problem), ("system", system_line(result.system))]
     if result.method in METHOD_TEXTS:
         tail.append(("method", METHOD_TEXTS[result.method]))
     tail += [

@@ -1,7 +1,8 @@
 """Robots in MJCF, the format of MuJoCo: bodies, joints, and equalities that close loops.
 
-Masses, shapes, limits, actuators and contacts are left out. Angles are in degrees unless the file
-says otherwise; joints of one body are in a row, the first one nearest to the body's parent.
+Masses, shapes, actuators and contacts are left out, and so are limits, which is said. Angles are
+in degrees unless the file says otherwise; joints of one body are in a row, the first one nearest to
+the body's parent.
 """
 
 from __future__ import annotations
@@ -188,6 +189,7 @@ def _read_body(
                 read.point,
                 read.zero,
                 taken,
+                read.limited,
             )
         )
         parent, place, taken = child, GivenFrame(), ()
@@ -219,7 +221,10 @@ def _read_joint(
         if kind == "hinge":
             zero = found.angles.radians(zero)
     point = given_point(given.numbers("pos", 3, ZEROS))
-    return RobotJoint(name, TYPES[kind], "", "", GivenFrame(), where, axis, point, zero)
+    limited = "range" in given.attributes and given.attributes.get("limited") != "false"
+    return RobotJoint(
+        name, TYPES[kind], "", "", GivenFrame(), where, axis, point, zero, limited=limited
+    )
 
 
 def _orientation(element: XmlElement, angles: _Angles) -> GivenTurn:

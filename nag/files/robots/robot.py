@@ -15,6 +15,7 @@ from nag.files.case_table import CaseError, line_of
 from nag.mechanism.axes import Vector, cross, difference, dot, vanishes
 from nag.mechanism.given_rotation import SHORT, GivenFrame, Taken, turn_about
 from nag.mechanism.graph import ORIGIN, Joint, Mechanism, connected_to
+from nag.text.table import count_text
 
 UNITS = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
 # Freedoms of these have a value each in a file: an angle, a length.
@@ -39,6 +40,7 @@ class RobotJoint:
         point: a point of the axis in that frame.
         zero: the value at which the child is where it is drawn.
         taken: what the numbers of its place were taken for.
+        limited: whether the file says how far it turns or slides.
     """
 
     name: str
@@ -51,6 +53,7 @@ class RobotJoint:
     point: Vector = ORIGIN
     zero: Number = Fraction(0)
     taken: tuple[Taken, ...] = ()
+    limited: bool = False
 
 
 @dataclass(frozen=True)
@@ -143,6 +146,11 @@ def assemble(
         else:
             joints += _free_joints(joint, frame)
     notes += [f"{j.name} closes by moving {gap:.2g}" for j, gap in closing if gap]
+    if limited := sum(joint.limited for joint in robot.joints):
+        notes.append(
+            f"limits of {count_text(limited, 'joint')} are not used: what lies beyond them is "
+            "counted as well"
+        )
     notes += _notes((*(t for j in robot.joints for t in j.taken), *taken))
     try:
         return Mechanism(robot.ground, tuple(joints)), tuple(notes)

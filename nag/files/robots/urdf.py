@@ -1,6 +1,7 @@
 """Robots in URDF, the Unified Robot Description Format of ROS.
 
-Links and joints are read; masses, shapes, limits and transmissions are left out.
+Links and joints are read; masses, shapes and transmissions are left out, and so are limits,
+which is said.
 """
 
 from __future__ import annotations
@@ -106,7 +107,9 @@ def _joint(element: XmlElement, links: dict[str, XmlElement]) -> RobotJoint:
             except NagError as error:
                 given.fail(str(error), "xyz")
     where = line_of(element.file, f"line {element.line}")
-    return RobotJoint(name, TYPES[kind], *ends, place, where, axis, taken=taken)
+    # A continuous joint may have a <limit> of its speed alone.
+    limited = kind in ("revolute", "prismatic") and bool(element.all("limit"))
+    return RobotJoint(name, TYPES[kind], *ends, place, where, axis, taken=taken, limited=limited)
 
 
 def _ordered(file: str, root: str, joints: list[RobotJoint]) -> list[RobotJoint]:
