@@ -128,6 +128,20 @@ def test_every_question_is_a_command() -> None:
     assert asked <= {row[0] for row in COMMANDS}
 
 
+@pytest.mark.parametrize("command", [row[0] for row in COMMANDS])
+def test_help_begins_with_what_must_be_given_and_the_commands_own_options(
+    command: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([command, "--help"]) == 0
+    shown = capsys.readouterr().out
+    assert shown.startswith(f"usage: nag {command} [OPTION ...] ")
+    headings = ["options:", "how the case is read:", "how it is worked out:"]
+    places = [shown.find(f"\n{heading}\n") for heading in headings]
+    assert [x for x in places if x >= 0] == sorted(x for x in places if x >= 0)
+    for option in {"--formulation", "--set", "--hold"} & set(shown.split()):
+        assert shown.index(f"  {option} ") > places[1] > 0
+
+
 def test_exports_are_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     found, solved = tmp_path / "found.json", tmp_path / "solved.json"
     nag.write(nag.decompose("x^2 + y^2 - 1"), found)

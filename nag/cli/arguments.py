@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from nag.errors import NagError
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.problem import Problem
 
+CASE_GROUP = "how the case is read"
 SETTINGS = ("fast", "default", "careful")
 MOST_THREADS = 256
 LARGEST_SEED = 2**63 - 1
@@ -28,6 +29,31 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{message} (see {self.prog} --help)")
+
+
+class CommandHelp(argparse.HelpFormatter):
+    """Help whose first line names what must be given; what may be is listed below it."""
+
+    def _format_usage(
+        self,
+        usage: str | None,
+        actions: Iterable[argparse.Action],
+        groups: Iterable[Any],
+        prefix: str | None,
+    ) -> str:
+        needed = [action for action in actions if action.required or not action.option_strings]
+        text = super()._format_usage(usage, needed, (), prefix)
+        return text.replace("%(prog)s", self._prog).replace(
+            f" {self._prog}", f" {self._prog} [OPTION ...]", 1
+        )
+
+
+def _of_the_case(parser: argparse.ArgumentParser) -> argparse._ActionsContainer:
+    """The options that say how the case is read, behind those of the command's own."""
+    for group in parser._action_groups:
+        if group.title == CASE_GROUP:
+            return group
+    return parser.add_argument_group(CASE_GROUP)
 
 
 def whole(text: str, least: int, most: int) -> int:
@@ -90,14 +116,14 @@ def add_robot(parser: argparse.ArgumentParser, at: str = "") -> None:
     Args:
         at: what else ``--at`` gives in this command, in words that end in "; ".
     """
-    parser.add_argument(
+    _of_the_case(parser).add_argument(
         "--hold",
         metavar="LINK",
         action="append",
         default=[],
         help="of a robot in URDF or MJCF: this link is fixed to the ground; may be repeated",
     )
-    parser.add_argument(
+    (parser if at else _of_the_case(parser)).add_argument(
         "--at",
         metavar="VALUES",
         action="append",
@@ -128,7 +154,7 @@ def add_format(parser: argparse.ArgumentParser) -> None:
     """The format of the case's file."""
     from nag.files.formats import READ
 
-    parser.add_argument(
+    _of_the_case(parser).add_argument(
         "--format",
         choices=("auto", *READ),
         default="auto",
@@ -169,7 +195,7 @@ class StoreOnce(argparse.Action):
 
 def add_parameters(parser: argparse.ArgumentParser) -> None:
     """Other values of the case's parameters."""
-    parser.add_argument(
+    _of_the_case(parser).add_argument(
         "--set",
         action="append",
         default=[],
@@ -181,7 +207,7 @@ def add_parameters(parser: argparse.ArgumentParser) -> None:
 
 def add_formulation(parser: argparse.ArgumentParser) -> None:
     """The formulation of a mechanism's model."""
-    parser.add_argument(
+    _of_the_case(parser).add_argument(
         "--formulation",
         choices=(*FORMULATIONS, PLATFORM_ALONE),
         help="model of a mechanism (default: the one with the fewest paths): "

@@ -28,7 +28,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="prove the paths to solutions as well, from the start system on, and of components "
         "the loops that connect their points",
     )
-    parser.add_argument("--json", metavar="FILE", help="write the boxes to FILE as JSON")
+    parser.add_argument(
+        "--json",
+        metavar="FILE",
+        help="write the boxes to FILE as JSON; - for standard output alone",
+    )
     add_quiet(parser)
 
 

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from importlib import import_module
 
 import nag
-from nag.cli.arguments import Parser, UsageError
+from nag.cli.arguments import CommandHelp, Parser, UsageError
 from nag.cli.running import run_command
 from nag.cli.watched import leave_to_parent, work_in_child
 from nag.errors import ComponentError, NagError
@@ -189,7 +189,13 @@ def parser(words: Sequence[str]) -> argparse.ArgumentParser:
     # Behind a command's name all is for that command: the others are neither named nor listed.
     asked = [row for row in COMMANDS if words[:1] == [row[0]]]
     for name, text, description in asked or COMMANDS:
-        command = commands.add_parser(name, allow_abbrev=False, help=text, description=description)
+        command = commands.add_parser(
+            name,
+            allow_abbrev=False,
+            help=text,
+            description=description,
+            formatter_class=CommandHelp,
+        )
         if name == named:
             module = import_module(f"nag.cli.{name}")
             module.add_arguments(command)
