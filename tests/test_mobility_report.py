@@ -303,7 +303,7 @@ def test_a_bounded_degree_is_a_complete_answer_and_the_same_on_any_machine(
         jsonschema.validate(document, schema("nag-mobility"))
         answers.append(document)
     assert answers[0] == answers[1] and answers[0]["complete"] and answers[0]["budget"] == 0
-    reduced = {"dimension": 1, "degree": None, "multiplicity": 1}
+    reduced = {"dimension": 1, "degree": None, "multiplicity": 1, "real": True}
     assert answers[0]["components"] == [reduced]
     assert answers[0]["degree_at_least"] == 1
     assert "degree 1 at least" in capsys.readouterr().out
@@ -374,3 +374,12 @@ def test_components_that_are_nowhere_reduced_are_told_with_their_multiplicity() 
     assert (report.components, report.multiplicities) == (((8, 2),), (2,))
     assert "all configurations near by are singular" in report.sentence
     assert "degree 2, multiplicity 2" in str(report)
+
+
+@pytest.mark.parametrize("name", ["3-upu-snu", "3-upu-snu-120"])
+def test_complex_components_are_not_counted_as_motions(name: str) -> None:
+    report = nag.mobility(nag.read_case(CASES / "robots" / f"{name}.toml"))
+    assert report.real == (True, True, False, False)
+    assert "; 2 real motions meet here; 2 more components" in report.sentence
+    assert [c["real"] for c in report.document()["components"]] == list(report.real)
+    assert report.unreal == 0 and report.local_dimension == 3

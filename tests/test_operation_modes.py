@@ -264,6 +264,15 @@ def test_conjugate_modes_are_told_from_real_ones() -> None:
     assert all(m.really_reached for m in found.modes[:7])
 
 
+def test_what_is_said_of_a_complex_mode_in_words_says_that_it_is_complex() -> None:
+    found = found_modes("3-upu-snu")
+    assert [", of complex poses" in m.motion_text for m in found.modes] == [False] * 7 + [True] * 2
+    assert "7 of them real, 2 complex" in found.answer
+    texts = dict(found.mode_rows())
+    assert "no real poses but some of those where it meets mode 9" in texts["mode 8"]
+    assert "no real motion along 8 and 9" in dict(found.tail())["reference"]
+
+
 def test_linear_modes_are_given_by_forms_that_satisfy_the_legs_exactly() -> None:
     for mode in found_modes("3-upu-tsai").modes[:4]:
         assert mode.is_linear

@@ -45,12 +45,16 @@ from nag.mechanism.real_assemblies import (
     tangent_dimension_at,
 )
 from nag.mechanism.straight_lines import ForcedLines
-from nag.numerics.local_dimension import local_dimension_near
+from nag.numerics.doubles import EPS
+from nag.numerics.local_dimension import exact_numbers, local_dimension_near
 from nag.numerics.second_order import count_unreal_directions
 from nag.numerics.zero_values import ON
+from nag.real.real_through import is_real_through
 from nag.text.table import count_text
 from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
 from nag.witness.frame import expand_orbits
+from nag.witness.given_component import round_point
+from nag.witness.membership import rounded_error
 from nag.witness.witness import Decomposition, WitnessSet
 
 # What components are known by.
@@ -285,6 +289,7 @@ def _with_product(first: MobilityReport, problem: Problem, curve: FibreProduct) 
         first,
         components=((1 + problem.free, curve.degree),),
         multiplicities=(1,),
+        real=(True,),
         curves=(CurveOfMotion(curve.degree, curve.genus, None),),
         rests_on=why,
     )
@@ -398,7 +403,7 @@ def _with_components(
     if detail == "through" and first.local.smooth:
         return _with_only_component(first, problem, first.local.point, SMOOTH, budget, run)
     if detail == "through" and first.local.upper == 0:
-        return replace(first, components=((problem.free, 1),), rests_on=ISOLATED)
+        return replace(first, components=((problem.free, 1),), real=(True,), rests_on=ISOLATED)
     if detail == "through":
         beside = leave_singular_point(problem.system, at, first.local, run.random(48))
         if beside is not None:
@@ -412,32 +417,64 @@ def _with_components(
         at_reference = problem.reference is not None and tuple(at) == tuple(problem.reference)
         known = _components_by_poses(first, problem, budget, run) if at_reference else None
         if known is not None:
-            return replace(first, components=known, rests_on=ALL_POSES)
+            components, real = known
+            known_by_poses = replace(first, components=components, real=real, rests_on=ALL_POSES)
+            return _bound_real_dimension(known_by_poses)
         return replace(first, open=reason)
-    through, doubt = _components(problem, zero_at(problem.system, at, first.local), run)
+    zero = zero_at(problem.system, at, first.local)
+    through, doubt = _components(problem, zero, run)
     if through is None and first.local.smooth:
         only = _with_only_component(first, problem, first.local.point, SMOOTH, budget, run)
         return replace(only, open=doubt if only.least_degree is not None else "")
     free = problem.free
     known = None if through is None else tuple((c.dimension + free, c.degree) for c in through)
     curves = [c for c in through or () if c.dimension == 1] if detail == "curves" else []
-    return replace(
+    whole = replace(
         first,
         components=known,
         open=doubt,
         curves=tuple(_curve(problem, c, run) for c in curves),
         rests_on="" if known is None else ALL_COMPONENTS,
         multiplicities=tuple(c.multiplicity for c in through or ()),
+        real=_find_real_ones(problem.system, through or (), zero, first.local.smooth, run),
     )
+    return _bound_real_dimension(whole)
+
+
+def _find_real_ones(
+    system: PolynomialSystem,
+    through: Sequence[WitnessSet],
+    zero: Sequence[Number | complex],
+    smooth: bool,
+    run: Run,
+) -> tuple[bool | None, ...]:
+    """Whether each of the components through a zero has real points of its dimension there."""
+    at = round_point(zero)
+    accuracy = EPS if exact_numbers(zero) is not None else rounded_error(system, at)
+    if smooth or accuracy is None or at.imag.any():
+        return ((True if smooth and not at.imag.any() else None),) * len(through)
+    return tuple(is_real_through(system, c, at.real, accuracy, run) for c in through)
+
+
+def _bound_real_dimension(report: MobilityReport) -> MobilityReport:
+    """A report with the freedoms that no real motion has, if its largest components are not real.
+
+    What is real of a component that is not lies where it meets its conjugate.
+    """
+    if report.local_dimension is None or not report.components or not report.real:
+        return report
+    pairs = zip(report.components, report.real, strict=True)
+    largest = max(d - (real is False) for (d, _), real in pairs)
+    return replace(report, unreal=max(report.unreal, report.local_dimension - largest))
 
 
 def _components_by_poses(
     first: MobilityReport, problem: Problem, budget: float, run: Run
-) -> tuple[tuple[int, int], ...] | None:
+) -> tuple[tuple[tuple[int, int], ...], tuple[bool | None, ...]] | None:
     """Dimension and degree of the components through a parallel robot's reference, by its poses.
 
-    None for other mechanisms, where a leg is not regular there, and where they are not known within
-    the budget.
+    And whether each is real there. None for other mechanisms, where a leg is not regular there, and
+    where they are not known within the budget.
     """
     if problem.mechanism is None:
         return None
@@ -451,10 +488,12 @@ def _components_by_poses(
     seen = tuple(x + poses.free for x in (local.tangent_dimension or 0, local.lower, local.upper))
     if seen != (first.tangent_dimension, first.lower, first.upper):
         return None
-    through, _ = _components(poses, zero_at(poses.system, poses.reference, local), run)
+    zero = zero_at(poses.system, poses.reference, local)
+    through, _ = _components(poses, zero, run)
     if through is None:
         return None
-    return tuple((c.dimension + poses.free, c.degree) for c in through)
+    real = _find_real_ones(poses.system, through, zero, local.smooth, run)
+    return tuple((c.dimension + poses.free, c.degree) for c in through), real
 
 
 def _with_only_component(
@@ -475,6 +514,9 @@ def _with_only_component(
     """
     local = first.local
     whole = (local.lower + problem.free,)
+    # A smooth real point has real neighbours of its component's dimension.
+    if why == SMOOTH and not start.imag.any():
+        first = replace(first, real=(True,))
     if not local.lower:
         return replace(first, components=((*whole, 1),), multiplicities=(1,), rests_on=why)
     # Multidegrees are not asked for.

@@ -117,7 +117,10 @@ class MobilityReport:
             asked for.
         hint: at a rigid mechanism that may be meant to move; empty where there is none.
         unreal: freedoms of the local dimension that no real motion leaves the configuration with,
-            as terms of second order prove: complex ones alone do.
+            as terms of second order prove, or components of which none is its own conjugate:
+            complex ones alone do.
+        real: of each of the components whether real configurations of its dimension come as near as
+            one likes, None where that is not known; empty where it was not looked at.
     """
 
     space: str
@@ -146,6 +149,7 @@ class MobilityReport:
     hint: str = ""
     unreal: int = 0
     multiplicities: tuple[int, ...] = ()
+    real: tuple[bool | None, ...] = ()
 
     __eq__ = equal_values
 
@@ -174,6 +178,46 @@ class MobilityReport:
         # What moves is told of configurations that are smooth, or as singular as all near by.
         singular = self.local is not None and self.local.decided and not self.local.smooth
         return singular and self.moving is not None
+
+    @property
+    def _motions(self) -> list[tuple[int, bool | None]]:
+        """Dimensions of the components through the configuration, and whether they are real."""
+        if self.general is not None:
+            return []
+        dimensions = [d for d, _ in self.components or ()]
+        return list(zip(dimensions, self.real or (True,) * len(dimensions), strict=True))
+
+    @property
+    def unreal_reason(self) -> str:
+        """Why some freedoms are no real motions'."""
+        largest = [real for d, real in self._motions if d == self.local_dimension]
+        if largest and not any(real is not False for real in largest):
+            return "as no component of its dimension is its own conjugate,"
+        return "by terms of second order"
+
+    @property
+    def meeting_text(self) -> str:
+        """What meets at the configuration, and which of it is real; empty where one motion is."""
+        motions = self._motions
+        dimensions = [d for d, real in motions if real is not False]
+        complex_ones = len(motions) - len(dimensions)
+        several = "real motions" if complex_ones else "motions"
+        text = ""
+        if len(set(dimensions)) > 1:
+            listed = " and ".join(map(str, sorted(set(dimensions))))
+            text = f"; {several} with {listed} freedoms meet here"
+        elif len(dimensions) > 1:
+            text = f"; {len(dimensions)} {several} meet here"
+        open_ones = sum(real is None for _, real in motions)
+        if text and open_ones:
+            text += f", {open_ones} of them not known to be real"
+        if complex_ones:
+            more = f"{complex_ones} more component{'s' * (complex_ones > 1)}"
+            kind = "are no real motions" if complex_ones > 1 else "is no real motion"
+            whose = "their" if complex_ones > 1 else "its"
+            text += f"; {more} through it {kind}: complex, {whose} real configurations are of less "
+            text += "dimension, where conjugates meet"
+        return text
 
     @property
     def agrees(self) -> bool:
@@ -211,7 +255,7 @@ class MobilityReport:
             return MobilityStatus.SHAKY
         if self.local_dimension == 0:
             return MobilityStatus.SHAKY if self.tangent_dimension else MobilityStatus.RIGID
-        dimensions = [d for d, _ in self.components or ()] if self.general is None else []
+        dimensions = [d for d, real in self._motions if real is not False]
         if len(set(dimensions)) > 1:
             return MobilityStatus.KINEMATOTROPIC
         if len(dimensions) > 1:
@@ -327,9 +371,9 @@ class MobilityReport:
             "components": None
             if components is None
             else [
-                {"dimension": d, "degree": degree, "multiplicity": m or None}
-                for (d, degree), m in zip_longest(
-                    components, self.multiplicities[: len(components)]
+                {"dimension": d, "degree": degree, "multiplicity": m or None, "real": real}
+                for (d, degree), m, real in zip_longest(
+                    components, self.multiplicities[: len(components)], self.real
                 )
             ],
             "degree_at_least": self.least_degree,
@@ -357,10 +401,13 @@ def _components_text(report: MobilityReport) -> str:
         return f"not known: {report.open}"
     if not report.components:
         return "none through the configuration"
-    known = report.multiplicities or (1,) * len(report.components)
+    count = len(report.components)
+    known, real = report.multiplicities or (1,) * count, report.real or (None,) * count
     kinds = [
-        f"dimension {d}, degree {degree}" + (f", multiplicity {m}" if m > 1 else "")
-        for (d, degree), m in zip(report.components, known, strict=True)
+        f"dimension {d}, degree {degree}"
+        + (f", multiplicity {m}" if m > 1 else "")
+        + (", complex" if own is False else "")
+        for (d, degree), m, own in zip(report.components, known, real, strict=True)
     ]
     if report.general is not None:
         return "in all " + "; ".join(f"{count} of {k}" for k, count in Counter(kinds).items())
@@ -412,10 +459,11 @@ def _meaning(report: MobilityReport) -> str:
         return f"it does not move, not even infinitesimally{_nearly(report)}"
     if report.is_blocked and mobility:
         moves = f"moves with {count_text(report.free, 'freedom')}, {report.free_of}, and no other"
+        does = moves if report.free else "does not move"
         return (
-            f"it {moves if report.free else 'does not move'}: by terms of second order no real "
-            f"motion leaves the configuration, though complex ones of dimension {mobility} pass "
-            f"through it; infinitesimally it has {count_text(tangent or 0, 'freedom')}"
+            f"it {does}: {report.unreal_reason} no real motion leaves "
+            f"the configuration, though complex ones of dimension {mobility} pass through "
+            f"it; infinitesimally it has {count_text(tangent or 0, 'freedom')}"
         )
     if status is MobilityStatus.SHAKY:
         # With places in line it is isolated among the real ones only.
@@ -432,7 +480,8 @@ def _meaning(report: MobilityReport) -> str:
         text = f"it moves with {count_text((mobility or 0) - report.unreal, 'freedom')}"
         if report.unreal:
             text += (
-                f", and with {report.unreal} more that no real motion has, by terms of second order"
+                f", and with {report.unreal} more that no real motion has, "
+                f"{report.unreal_reason.rstrip(',')}"
             )
         if report.moving is not None and idle:
             text += f", {idle} of them idle: {report.moving.idle_text}"
@@ -440,11 +489,9 @@ def _meaning(report: MobilityReport) -> str:
         text += f", though counting predicts {report.gruebler_kutzbach}"
     if report.moving is not None and idle and idle == mobility:
         text += f": {report.moving.idle_text}"
-    if status is MobilityStatus.KINEMATOTROPIC:
-        dimensions = sorted({d for d, _ in report.components or ()})
-        text += f"; motions with {' and '.join(map(str, dimensions))} freedoms meet here"
-    elif status is MobilityStatus.CROSSING:
-        text += f"; {len(report.components or ())} motions meet here"
+    meeting = report.meeting_text
+    if meeting:
+        text += meeting
     elif tangent is not None and mobility is not None and tangent > mobility:
         where = "all configurations near by are" if report.never_reduced else "the configuration is"
         text += f"; {where} singular, infinitesimally it has "

@@ -97,6 +97,16 @@ class OperationMode:
         return self.component.multiplicity
 
     @property
+    def motion_text(self) -> str:
+        """What its poses have in common, in words, and whether these are said of complex poses."""
+        if self.motion is None:
+            return "?"
+        if self.reality is ModeReality.REAL:
+            return str(self.motion)
+        known = ", real ones are not known" if self.reality is ModeReality.UNKNOWN else ""
+        return f"{self.motion}, of complex poses{known}"
+
+    @property
     def is_linear(self) -> bool:
         """Whether it is a linear space, given by its linear forms."""
         return self.degree == 1 and len(self.linear) == 7 - self.dimension
@@ -144,7 +154,7 @@ class OperationMode:
                 "rank": motion.rank,
                 "turning": motion.turning,
                 "group": motion.group,
-                "text": str(motion),
+                "text": self.motion_text,
             },
             "real_pose": None if self.real_pose is None else self.real_pose.tolist(),
             "screws": None
@@ -279,6 +289,9 @@ class OperationModes:
         limits = [m for m in self.moving if m.limits]
         own = [m for m in self.moving if not m.limits]
         text = count_text(len(own), "operation mode") + _kinds_text(own)
+        unreal = sum(m.reality is ModeReality.CONJUGATE for m in own)
+        if unreal:
+            text += f"; {len(own) - unreal} of them real, {unreal} complex in conjugate pairs"
         if limits:
             text += f"; and {count_text(len(limits), 'component')}{_kinds_text(limits)}"
             text += ", that not all legs reach but in the limit"
@@ -299,7 +312,7 @@ class OperationModes:
             if mode.conjugate is not None:
                 reality = f"conjugate to {mode.conjugate + 1}"
             numbers = [str(i), str(mode.dimension), str(mode.degree), str(mode.multiplicity or "?")]
-            rows.append([*numbers, reality, through, str(mode.motion or "?")])
+            rows.append([*numbers, reality, through, mode.motion_text])
         return align(rows, (4, 5, 6))
 
     def mode_rows(self) -> list[Row]:
@@ -311,6 +324,9 @@ class OperationModes:
                 reached = "" if mode.pose_reached else " that no joints were found to reach"
                 where = f"at a real pose{reached}"
                 parts.append(f"screw system {where} of {mode.screws}")
+            if mode.reality is ModeReality.CONJUGATE:
+                other = "its conjugate" if mode.conjugate is None else f"mode {mode.conjugate + 1}"
+                parts.append(f"no real poses but some of those where it meets {other}")
             if mode.limits:
                 names = join_words([self.model.legs[k].leg.name for k in mode.limits])
                 leg = "leg" if len(mode.limits) == 1 else "legs"
@@ -327,7 +343,16 @@ class OperationModes:
         if through:
             kind = "modes" if len(through) > 1 else "mode"
             text = f"{kind} {join_words(through)} through the reference pose, the largest of "
-            found.append(("reference", f"{text}dimension {self.dimension_at_reference}"))
+            unreal = [
+                str(i)
+                for i, m in enumerate(self.modes, 1)
+                if m.through_reference and m.reality is ModeReality.CONJUGATE
+            ]
+            text += f"dimension {self.dimension_at_reference}"
+            if unreal:
+                verb = "is" if len(unreal) == 1 else "are"
+                text += f"; no real motion along {join_words(unreal)}, which {verb} complex"
+            found.append(("reference", text))
         for t in self.transitions:
             pair = f"{t.modes[0] + 1} and {t.modes[1] + 1}"
             counts = Counter(t.kinds)

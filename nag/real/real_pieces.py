@@ -26,7 +26,6 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.intersection import intersect_components
 from nag.errors import ComponentError, StartError
 from nag.numerics.coincidence import coincident
-from nag.numerics.doubles import EPS
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.read_only import RealArray, equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
@@ -39,6 +38,7 @@ from nag.real.real_equations import (
     find_real_equations,
     real_points_of,
 )
+from nag.real.real_through import is_other_than_its_conjugate
 from nag.solving.solve import solve
 from nag.text.table import lines_of, one_line, point_text
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -47,7 +47,7 @@ from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
 from nag.witness.frame import expand_orbits
-from nag.witness.membership import Membership, is_member, membership_in
+from nag.witness.membership import Membership, is_member
 from nag.witness.real_points import real_points_near
 from nag.witness.witness import Slice, WitnessSet
 
@@ -233,7 +233,7 @@ def points_of_pieces(curve: RealCurve) -> tuple[np.ndarray, tuple[int, ...]]:
 
 def _of_larger_set(component: WitnessSet, run: Run) -> RealPieces:
     given = component._known_system()
-    if _is_other_than_its_conjugate(component, run):
+    if is_other_than_its_conjugate(given, component, run):
         with_conjugate = _where_conjugates_meet(component, run)
         if with_conjugate is not None:
             return with_conjugate
@@ -269,13 +269,6 @@ def _of_larger_set(component: WitnessSet, run: Run) -> RealPieces:
     reason = f"points whose distance from a random one is stationary; {doubt or 'all of them'}"
     back = natural.inverse.points(points)
     return RealPieces(back, dimensions, Reality.FOUND, not doubt, reason)
-
-
-def _is_other_than_its_conjugate(component: WitnessSet, run: Run) -> bool:
-    """Whether a component of real equations is proved not to be its own conjugate."""
-    point, error = component.points[0].conj(), max(float(component.errors[0]), EPS)
-    answer = membership_in(component._known_system(), component, point, error, run)
-    return answer is Membership.FOREIGN
 
 
 def _where_conjugates_meet(component: WitnessSet, run: Run) -> RealPieces | None:
