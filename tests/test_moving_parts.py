@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from fractions import Fraction
 
 import numpy as np
@@ -162,7 +163,12 @@ def test_a_part_of_a_mechanism_elsewhere_is_described_there() -> None:
 @pytest.mark.parametrize(
     ("name", "options", "status", "said"),
     [
-        ("spatial/wren-4", ["--of", "plate"], 1, "plate: not known: the configuration is singular"),
+        (
+            "spatial/wren-4",
+            ["--of", "plate", "--local"],
+            1,
+            "plate: not known: the configuration is singular",
+        ),
         ("spatial/ur5-held", ["--of", "link2"], 0, "link2: no freedom, it stands still"),
         ("bennett", ["--tolerance", "1e-3"], 0, "not looked at"),
     ],
@@ -172,9 +178,37 @@ def test_what_is_asked_for_and_not_found_is_said(
 ) -> None:
     case = str(CASES / f"{name}.toml")
     assert main(["mobility", case, "--quiet", "--budget", "1", *options]) == status
-    (label,) = (option.removeprefix("--") for option in options if option.startswith("--"))
+    label = options[0].removeprefix("--")
     (row,) = [line for line in capsys.readouterr().out.splitlines() if line.startswith(label)]
     assert said in row
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(
+    ("name", "body", "motions"),
+    [
+        ("spatial/wren-4", "plate", {(2, 0): 1, (2, 2): 2}),
+        ("spatial/wren-6", "plate", {(2, 0): 1, (1, 1): 1}),
+        ("planar/kinematotropic-square", "plate", {(0, 0): 1, (3, 1): 1}),
+    ],
+)
+def test_a_body_is_described_along_each_motion_through_a_singular_configuration(
+    name: str, body: str, motions: dict[tuple[int, int], int], seed: int
+) -> None:
+    report = nag.mobility(mechanism(name), of=body, seed=seed)
+    found = Counter((own.motion.rank, own.motion.turning) for own in report.along)
+    assert found == motions and report.complete
+    assert report.sentence.startswith(f"{body}: along 1 of ")
+    assert [own["body"] for own in report.document()["along"]] == [body] * sum(motions.values())
+
+
+def test_a_rod_turns_about_itself_besides_what_its_ends_do() -> None:
+    report = nag.mobility(mechanism("spatial/wren-4"), of="rod2")
+    assert {str(own.motion) for own in report.along} == {
+        "spherical motion about the point (4, 3, 0)"
+    }
+    assert "rod2: along each of 3 motions 3 freedoms" in report.sentence
+    assert "6 freedoms, 4 of them by rods that turn about themselves" in report.sentence
 
 
 def crank(name: str, bodies: tuple[str, str], point: tuple) -> Joint:

@@ -123,7 +123,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     for report in _reports(options, problem or case, at, chosen_run(options, document_of)):
         say_first(options, name_case(case), report.early_rows(), WIDTH)
     rows = [*report.rows(), *_unsaid_rows(options, report)]
-    complete = options.of is None or report.moving is not None or report.local_dimension == 0
+    known_of = report.body_text is not None or report.local_dimension == 0
+    complete = options.of is None or known_of
     complete &= report.complete
     rows += case.note_rows
     known = _beside_known(report, case) if at is None else None
@@ -160,7 +161,7 @@ def _fields(
 
 def _unsaid_rows(options: argparse.Namespace, report: MobilityReport) -> Iterator[tuple[str, str]]:
     """What was asked for and the report does not say, with the reason."""
-    if options.of is not None and report.moving is None:
+    if options.of is not None and report.body_text is None:
         if report.local_dimension == 0:
             yield "of", f"{options.of}: no freedom, it stands still"
         else:

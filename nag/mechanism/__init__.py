@@ -12,11 +12,12 @@ are `framework` (with `framework_model`, `isotropic` and `framework_decompositio
 is given. `problem` is what all of these come down to, and cases and equations with them, and what
 `nag.decompose` and `nag.solve` ask; `coordinates` carries its components over to Euler parameters,
 `other_equations` are those that must say the same. `mobility_at` with `mobility_report` and `bonds`
-says how one moves, `moving_parts` (on `joint_chains`, of parts on `assembled`) what of it, and
-`nearly_mobile` (on `overconstrained`) how it would if it were not rigid as it is given;
-`operation_modes` with `modes_report` how the platform of a parallel robot does, by `legs`,
-`leg_image`, `isotropic_limits`, `platform`, `inverse_kinematics` and `motions`, and `pose_model`
-makes a formulation of its poses, taken on request; `shown` is what is seen at the prompt.
+says how one moves, `moving_parts` (on `joint_chains`, of parts on `assembled`) what of it,
+`body_on_component` how a body does along a component, and `nearly_mobile` (on `overconstrained`)
+how it would if it were not rigid as it is given; `operation_modes` with `modes_report` how the
+platform of a parallel robot does, by `legs`, `leg_image`, `isotropic_limits`, `platform`,
+`inverse_kinematics` and `motions`, and `pose_model` makes a formulation of its poses, taken on
+request; `shown` is what is seen at the prompt.
 
 To add a type of joint, write its record in `joint_types.JOINT_TYPES`, by the rules at the head of
 that file, and a row in `docs/cases.md`: all formulations, case files, graphs and tables read it

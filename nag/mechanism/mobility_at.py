@@ -19,10 +19,12 @@ from nag.decomposition.fibre_product import FibreProduct, find_fibre_product
 from nag.decomposition.growth import grow_component, leave_singular_point
 from nag.decomposition.through import through_points, zero_at
 from nag.errors import MechanismError, NagError
+from nag.interpolation.precise_samples import SourceError
 from nag.mechanism import BUDGET, FORMULATIONS, PLATFORM_ALONE
 from nag.mechanism.assembled import assemble_parts, bodies_of
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
+from nag.mechanism.body_on_component import find_body_freedoms
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.graph import Mechanism, check_mechanism
 from nag.mechanism.joint_chains import NotClear
@@ -201,7 +203,7 @@ def mobility_in_steps(
     if curve is not None:
         yield _with_product(first, problem, curve)
     else:
-        yield _with_components(first, problem, at, detail, budget, run)
+        yield _with_components(first, problem, at, detail, budget, of, run)
 
 
 def _check_poses(reference: Sequence[Number] | None, point: Any) -> None:
@@ -397,9 +399,13 @@ def _with_components(
     at: Sequence[Number],
     detail: Detail,
     budget: float,
+    of: str | None,
     run: Run,
 ) -> MobilityReport:
-    """A report, and the components through the configuration."""
+    """A report, and the components through the configuration.
+
+    Where it is not known how a body moves near it, how it does along each of them.
+    """
     if detail == "through" and first.local.smooth:
         return _with_only_component(first, problem, first.local.point, SMOOTH, budget, run)
     if detail == "through" and first.local.upper == 0:
@@ -415,12 +421,8 @@ def _with_components(
             f"more than a budget of {budget:g} s allows"
         )
         at_reference = problem.reference is not None and tuple(at) == tuple(problem.reference)
-        known = _components_by_poses(first, problem, budget, run) if at_reference else None
-        if known is not None:
-            components, real = known
-            known_by_poses = replace(first, components=components, real=real, rests_on=ALL_POSES)
-            return _bound_real_dimension(known_by_poses)
-        return replace(first, open=reason)
+        known = _with_components_by_poses(first, problem, budget, of, run) if at_reference else None
+        return replace(first, open=reason) if known is None else known
     zero = zero_at(problem.system, at, first.local)
     through, doubt = _components(problem, zero, run)
     if through is None and first.local.smooth:
@@ -438,7 +440,24 @@ def _with_components(
         multiplicities=tuple(c.multiplicity for c in through or ()),
         real=_find_real_ones(problem.system, through or (), zero, first.local.smooth, run),
     )
-    return _bound_real_dimension(whole)
+    return _with_body_along(_bound_real_dimension(whole), problem.mechanism, through or (), of, run)
+
+
+def _with_body_along(
+    report: MobilityReport,
+    made: Model | None,
+    through: Sequence[WitnessSet],
+    of: str | None,
+    run: Run,
+) -> MobilityReport:
+    """A report, and how a body moves along each of the components, where that is not known yet."""
+    if of is None or made is None or report.moving is not None or not through:
+        return report
+    try:
+        along = tuple(find_body_freedoms(made, c, of, run) for c in through)
+    except (NotClear, SourceError) as reason:
+        return replace(report, unclear=str(reason))
+    return replace(report, along=along)
 
 
 def _find_real_ones(
@@ -468,13 +487,13 @@ def _bound_real_dimension(report: MobilityReport) -> MobilityReport:
     return replace(report, unreal=max(report.unreal, report.local_dimension - largest))
 
 
-def _components_by_poses(
-    first: MobilityReport, problem: Problem, budget: float, run: Run
-) -> tuple[tuple[tuple[int, int], ...], tuple[bool | None, ...]] | None:
-    """Dimension and degree of the components through a parallel robot's reference, by its poses.
+def _with_components_by_poses(
+    first: MobilityReport, problem: Problem, budget: float, of: str | None, run: Run
+) -> MobilityReport | None:
+    """A report, and the components through a parallel robot's reference, by its poses.
 
-    And whether each is real there. None for other mechanisms, where a leg is not regular there, and
-    where they are not known within the budget.
+    None for other mechanisms, where a leg is not regular there, and where they are not known within
+    the budget.
     """
     if problem.mechanism is None:
         return None
@@ -492,8 +511,13 @@ def _components_by_poses(
     through, _ = _components(poses, zero, run)
     if through is None:
         return None
-    real = _find_real_ones(poses.system, through, zero, local.smooth, run)
-    return tuple((c.dimension + poses.free, c.degree) for c in through), real
+    report = replace(
+        first,
+        components=tuple((c.dimension + poses.free, c.degree) for c in through),
+        real=_find_real_ones(poses.system, through, zero, local.smooth, run),
+        rests_on=ALL_POSES,
+    )
+    return _with_body_along(_bound_real_dimension(report), poses.mechanism, through, of, run)
 
 
 def _with_only_component(

@@ -15,7 +15,7 @@ from itertools import zip_longest
 from typing import Any, Literal
 
 from nag.mechanism.bonds import Bonds
-from nag.mechanism.moving_parts import MovingParts
+from nag.mechanism.moving_parts import BodyFreedoms, MovingParts
 from nag.mechanism.nearly_mobile import NearMotion
 from nag.numerics.local_dimension import LocalDimension
 from nag.numerics.read_only import equal_values
@@ -121,6 +121,8 @@ class MobilityReport:
             complex ones alone do.
         real: of each of the components whether real configurations of its dimension come as near as
             one likes, None where that is not known; empty where it was not looked at.
+        along: of each of the components how a body that was asked for moves along it, where that is
+            not told by ``moving``; empty elsewhere.
     """
 
     space: str
@@ -150,6 +152,7 @@ class MobilityReport:
     unreal: int = 0
     multiplicities: tuple[int, ...] = ()
     real: tuple[bool | None, ...] = ()
+    along: tuple[BodyFreedoms, ...] = ()
 
     __eq__ = equal_values
 
@@ -178,6 +181,27 @@ class MobilityReport:
         # What moves is told of configurations that are smooth, or as singular as all near by.
         singular = self.local is not None and self.local.decided and not self.local.smooth
         return singular and self.moving is not None
+
+    @property
+    def body_text(self) -> str | None:
+        """How the body moves that was asked for; None if none was, or that is not known."""
+        if self.moving is not None and self.moving.body is not None:
+            return str(self.moving.body)
+        if not self.along:
+            return None
+        real = self.real or (None,) * len(self.along)
+        pairs = zip(self.along, real, strict=True)
+        kinds = [own for own, is_real in pairs if is_real is not False] or list(self.along)
+        counts = Counter(kinds)
+        if len(kinds) == 1:
+            return str(kinds[0])
+        texts = [str(own).removeprefix(f"{own.body}: ") for own in counts]
+        if len(texts) == 1:
+            parts = [f"along each of {len(kinds)} motions {texts[0]}"]
+        else:
+            pairs = zip(counts.values(), texts, strict=True)
+            parts = [f"along {count} of {len(kinds)} motions {text}" for count, text in pairs]
+        return f"{self.along[0].body}: {'; '.join(parts)}"
 
     @property
     def _motions(self) -> list[tuple[int, bool | None]]:
@@ -381,6 +405,7 @@ class MobilityReport:
             "open": self.open,
             "moving": None if self.moving is None else self.moving.document(),
             "moving_unknown": self.unclear,
+            "along": [own.document() for own in self.along],
             "near": None if self.near is None else self.near.document(),
             "curves": [curve.document() for curve in self.curves],
             "local": None if self.local is None else self.local.document(),
@@ -430,7 +455,7 @@ def _sentence(report: MobilityReport) -> str:
             report.local.reason if report.local is not None else report.open or "nothing is known"
         )
     if report.general is None:
-        asked = report.moving.body if report.moving is not None else None
+        asked = report.body_text
         if asked is None:
             return _meaning(report)
         meaning = _meaning(report)
@@ -474,6 +499,7 @@ def _meaning(report: MobilityReport) -> str:
             f"{count_text(tangent or 0, 'freedom')}{isolated}"
         )
     idle = 0 if report.moving is None else report.moving.idle_count
+    apart = report.moving is None and report.free and report.free != mobility
     if report.moving is not None and idle and idle == mobility:
         text = f"nothing moves but idly, with {count_text(idle, 'freedom')}"
     else:
@@ -485,6 +511,9 @@ def _meaning(report: MobilityReport) -> str:
             )
         if report.moving is not None and idle:
             text += f", {idle} of them idle: {report.moving.idle_text}"
+        elif apart:
+            # What the equations leave out is known before anything else.
+            text += f", {report.free_of.replace(' by ', ' of them by ', 1)}"
     if report.overconstrained:
         text += f", though counting predicts {report.gruebler_kutzbach}"
     if report.moving is not None and idle and idle == mobility:
