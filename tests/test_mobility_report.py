@@ -17,6 +17,7 @@ import nag
 from nag.cli import main
 from nag.cli.running import ProgressLine
 from nag.decomposition import components_through
+from nag.decomposition.growth import grow_component
 from nag.files.json_schema import schema
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.problem import Problem
@@ -383,3 +384,26 @@ def test_complex_components_are_not_counted_as_motions(name: str) -> None:
     assert "; 2 real motions meet here; 2 more components" in report.sentence
     assert [c["real"] for c in report.document()["components"]] == list(report.real)
     assert report.unreal == 0 and report.local_dimension == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "status"), [("0.1", 0), ("0", 0), ("-1", 2), ("nan", 2), ("x", 2)]
+)
+def test_a_budget_is_a_number_of_seconds(
+    text: str, status: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(CASES / "bennett.toml")
+    assert main(["mobility", path, "--quiet", "--budget", text]) == status
+    said = capsys.readouterr()
+    assert (f"budget {text} s" in said.out) if not status else ("number of seconds" in said.err)
+
+
+def test_the_work_of_sharp_points_is_paid_for() -> None:
+    mechanism = nag.read_case(CASES / "robots" / "exechon.toml").mechanism
+    system = nag.model(mechanism).system
+    point = np.array([complex(x) for x in nag.model(mechanism).reference])
+    rich = grow_component(system, point, 3, seconds=30.0)
+    assert rich.degree == 244
+    # Half of what it took are zeros in balls, without which the degree is not known.
+    poor = grow_component(system, point, 3, seconds=0.6 * (30 - rich.seconds))
+    assert poor.degree is None and poor.least == 244 and poor.seconds > -0.2

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 CASE_GROUP = "how the case is read"
 SETTINGS = ("fast", "default", "careful")
-MOST_THREADS = 256
+MOST_THREADS, MOST_SECONDS = 256, 1_000_000
 LARGEST_SEED = 2**63 - 1
 
 
@@ -65,6 +65,19 @@ def whole(text: str, least: int, most: int) -> int:
     if not least <= value <= most:
         raise argparse.ArgumentTypeError(f"{value} is not between {least} and {most}")
     return value
+
+
+def budget_seconds(text: str) -> float:
+    """A number of seconds on the command line, up to so many; a whole one as it was written."""
+    try:
+        value = float(text) if text.isascii() else -1.0
+    except ValueError:
+        value = -1.0
+    if not 0 <= value <= MOST_SECONDS:
+        raise argparse.ArgumentTypeError(
+            f"{text[:30]!r} is not a number of seconds from 0 to {MOST_SECONDS}, as 10 or 0.5"
+        )
+    return int(value) if value.is_integer() else value
 
 
 def _seed(text: str) -> int:

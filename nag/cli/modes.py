@@ -12,9 +12,9 @@ from nag.cli.arguments import (
     add_parameters,
     add_robot,
     add_running,
+    budget_seconds,
     only_assembled,
     read_given_case,
-    whole,
 )
 from nag.cli.running import CommandAnswer, answer_document, answer_of, chosen_run, name_case
 from nag.mechanism import MODES_BUDGET
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from nag.mechanism.modes_report import OperationModes
 
 FORMAT = "nag-operation-modes"
-MOST_SECONDS = 1_000_000
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -41,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--budget",
-        type=lambda text: whole(text, 0, MOST_SECONDS),
+        type=budget_seconds,
         default=MODES_BUDGET,
         metavar="SECONDS",
         help="nothing is tracked where all paths that are estimated take longer, as counted by "

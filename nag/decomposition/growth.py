@@ -41,7 +41,7 @@ from nag.numerics.doubles import ROUGH
 from nag.numerics.local_dimension import LocalDimension, exact_numbers
 from nag.numerics.tangent_cone import tangent_cone
 from nag.numerics.zero_values import LEAST, ON
-from nag.tracking.evaluations import Evaluations, count_evaluations
+from nag.tracking.evaluations import ZERO, Evaluations, count_evaluations
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.tracking.settings import find_settings
 from nag.witness.cutting import Cut, find_cut
@@ -66,9 +66,9 @@ FEW, MOST_AT_ONCE = 64, 1024
 # Seconds that a path takes besides its evaluations, that an evaluation takes for each variable of a
 # term of the equations, for each entry of the Jacobian and for each step of its elimination, on a
 # processor as is common; and how many paths are evaluated at once.
-PATH, FACTOR, ENTRY, STEP, LANES = 6e-5, 3e-10, 7e-10, 2e-11, 8
+PATH, FACTOR, ENTRY, STEP, LANES = 6e-5, 3e-10, 7e-10, 5e-11, 8
 # Seconds that it takes, for each variable of a term, to find coordinates and a cut.
-MADE_READY = 5e-5
+MADE_READY = 1e-5
 
 # Binary logarithms of the distances to which a singular point is left, one after the other; how far
 # from the tangent cone, beside the distance, a zero may be there; and what that becomes at half the
@@ -476,16 +476,21 @@ class _Growing:
             self.trace = trace
             if trace is None:
                 return None
-        linear, self.trace = trace.linear(self.points, everything)
+        if trace.count_unclear(everything) * ZERO * self.allowance.each > self.allowance.seconds:
+            return None
+        with count_evaluations() as spent:
+            linear, self.trace = trace.linear(self.points, everything)
+        self.allowance.pay(IN_DOUBLE_DOUBLE, spent, PathCounts())
         return linear
 
     def confirmed(self) -> WitnessSet:
         """The component of the first point, whose trace is linear and that of no part of it."""
         run = _follow_closely(self.run, IN_DOUBLE_DOUBLE)
-        found = split_joined_points(self.points, self.trace, self.loops, self.rng, run)
-        self.points = found.points
-        own = next(each for each in found.classes if 0 in each.indices)
-        examined = Examined.of(self.points, [own], self.reduction, self.rng)
-        component, paths = check_class(own, examined, self.rng, run)
-        self.allowance.paths += found.counts + paths
+        with count_evaluations() as spent:
+            found = split_joined_points(self.points, self.trace, self.loops, self.rng, run)
+            self.points = found.points
+            own = next(each for each in found.classes if 0 in each.indices)
+            examined = Examined.of(self.points, [own], self.reduction, self.rng)
+            component, paths = check_class(own, examined, self.rng, run)
+        self.allowance.pay(IN_DOUBLE_DOUBLE, spent, found.counts + paths)
         return component

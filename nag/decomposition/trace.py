@@ -165,6 +165,10 @@ class Trace:
                 return answer, trace
         return None, trace
 
+    def count_unclear(self, indices: Sequence[int]) -> int:
+        """How many zeros have to be found in more digits than those of double-double."""
+        return 3 * len(self._least_known(indices, DIGITS[1]))
+
     def _least_known(self, indices: Sequence[int], digits: int) -> list[int]:
         """Points of fewer digits whose errors keep a sum from being seen to be linear.
 

@@ -17,6 +17,8 @@ WEIGHTS = {1: 1, 2: 25, 4: 150, 8: 800}
 # The same of a proof, in balls, that a path's end is a regular zero; and of making the arrays of a
 # system ready for one arithmetic.
 PROOF, PREPARATION = 20_000, 40_000
+# The same of a regular zero that Newton's method finds in balls.
+ZERO = 7_000
 
 
 @dataclass
@@ -73,6 +75,13 @@ def count_proof() -> None:
     found = _counting.get()
     if found is not None:
         found.work += PROOF
+
+
+def count_zero() -> None:
+    """Add the work of finding a regular zero in balls, if someone counts."""
+    found = _counting.get()
+    if found is not None:
+        found.once += ZERO
 
 
 def count_preparation() -> None:

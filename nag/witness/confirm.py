@@ -15,6 +15,7 @@ from nag.numerics.doubles import ARRIVED
 from nag.numerics.precise_point import POINT_DIGITS, PrecisePoint, precise_zero
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import ON, all_vanish
+from nag.tracking.evaluations import count_zero
 from nag.witness.close_points import zero_from
 from nag.witness.fibres import Fibre
 from nag.witness.slices import pad_rows
@@ -71,6 +72,7 @@ def zero_in_digits(
     where Newton's method does not lead to it, or it is not proved to be simple.
     """
     polynomials, z = fibre.cut.polynomials, fibre.points[i]
+    count_zero()
     if i not in fibre.fine:
         exact = BallPolynomials.of(polynomials, pad_rows(fibre.rows, 1 + len(z)))
         return precise_zero(exact, z, digits)
