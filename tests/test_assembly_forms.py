@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import random
 from fractions import Fraction
+from itertools import combinations
 from pathlib import Path
 
 import jsonschema
@@ -279,6 +280,23 @@ def test_the_placement_of_a_framework_solves_its_equations_exactly():
         assert all(value == 0 for value in made.system(made.reference))
 
 
+@pytest.mark.parametrize(
+    ("dimension", "power", "motions", "stresses"),
+    # On a line in space, on one in the plane; on a curve in a plane, and in space.
+    [(3, (1, 0, 0), 4, 3), (2, (1, 0), 2, 3), (3, (1, 2, 0), 1, 1), (3, (1, 2, 3), 0, 0)],
+)
+def test_motions_of_points_in_line_are_fewer_than_those_of_space(
+    dimension: int, power: tuple[int, ...], motions: int, stresses: int
+) -> None:
+    places = {
+        c: tuple(Fraction(k * x**k) for k in power)
+        for c, x in zip("ABCD", (0, 1, 3, 4), strict=True)
+    }
+    framework = placed_framework(dimension, places, list(combinations("ABCD", 2)))
+    assert framework.infinitesimal_motions() == motions
+    assert framework.self_stresses() == stresses
+
+
 def test_a_networkx_graph_is_a_framework_by_lengths_or_by_positions():
     graph = networkx.Graph(tuple(bar) for bar in PRISM)
     networkx.set_node_attributes(
@@ -444,7 +462,8 @@ def test_links_that_lengths_forbid_are_no_rigid_ones():
     base = {"A": (0, 0), "E": (2, 0), "D": (6, 0)}
     coupler = {"B": (0, 0), "F": (1, 0), "C": (2, 0)}
     links = {"base": base, "left": "AB1", "coupler": coupler, "right": "CD3", "x": "EF1"}
-    with pytest.raises(NoAssembly, match="do not fit there"):
+    said = "link base, link left, link coupler, link right and link x are stretched along one line"
+    with pytest.raises(NoAssembly, match=f"{said} and put F at two places of it"):
         nag.mobility(nag.Linkage.of(links, "base"))
 
 

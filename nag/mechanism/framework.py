@@ -172,13 +172,32 @@ class Framework:
         return [p for p in self.points if p not in held]
 
     def infinitesimal_motions(self) -> int | None:
-        """Velocities of the placement that keep all lengths, modulo motions; None without one."""
+        """Velocities of the placement that keep all lengths, modulo motions; None without one.
+
+        Of points on a line in space one motion, the turn about it, moves none of them.
+        """
         if self.placement is None:
             return None
         from nag.algebra.exact_ranks import rank
 
-        rows = self._rigidity_matrix(self.placement)
-        return self.dimension * len(self.points) - self.motions - rank(rows)
+        free = self.dimension * len(self.points) - self._motions_of(self.placement)
+        return free - rank(self._rigidity_matrix(self.placement))
+
+    def self_stresses(self) -> int | None:
+        """Dependencies of the bars at the placement; None without one."""
+        if self.placement is None:
+            return None
+        from nag.algebra.exact_ranks import rank
+
+        return len(self.bars) - rank(self._rigidity_matrix(self.placement))
+
+    def _motions_of(self, places: Sequence[Place]) -> int:
+        """Dimension of the motions' velocities at points: fewer where they span no hyperplane."""
+        from nag.algebra.exact_ranks import rank
+
+        rows = [[x - y for x, y in zip(p, places[0], strict=True)] for p in places]
+        beside = self.dimension - rank(rows)
+        return self.motions - beside * (beside - 1) // 2
 
     def generic_motions(self) -> int:
         """The same for a general placement: 0 if the graph is rigid for almost all lengths.

@@ -14,7 +14,7 @@ Reference:
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations, pairwise, product
@@ -126,9 +126,9 @@ def find_forced_lines(sides: Sequence[Side]) -> ForcedLines:
                         f"{known[first, last].names[0]} is as long as {whole} together"
                     )
             longer.append(own)
-        joined = _join_lines(longer)
-        if joined is None:
-            return ForcedLines("sides that are stretched along one line do not fit there")
+        joined, misfit = _join_lines(longer)
+        if misfit:
+            return ForcedLines(_misfit_text(misfit, names, order))
         if sorted(map(sorted, joined)) == sorted(map(sorted, lines)):
             # Places of one link that are in line are forced by nothing but its shape.
             of_pairs = [[links[frozenset(p)] for p in combinations(line, 2)] for line in joined]
@@ -214,8 +214,27 @@ def _with_places_between(line: Line, ways: dict[tuple[str, str], Way]) -> Line:
     return found
 
 
-def _join_lines(lines: Sequence[Line]) -> list[Line] | None:
-    """Lines that share two places as one; None where these do not fit."""
+def _misfit_text(
+    misfit: Sequence[str], names: Mapping[frozenset[str], tuple[str, ...]], order: Sequence[str]
+) -> str:
+    """Which sides are stretched along one line and put a place of it at two.
+
+    Args:
+        misfit: the place, and those that are in line with it.
+    """
+    pairs = (frozenset(pair) for pair in combinations(misfit, 2))
+    sides = sorted({n for pair in pairs if pair in names for n in names[pair]}, key=order.index)
+    return (
+        f"{join_words(sides)} are stretched along one line and put {misfit[0]} at two places of it"
+    )
+
+
+def _join_lines(lines: Sequence[Line]) -> tuple[list[Line], list[str]]:
+    """Lines that share two places as one.
+
+    Where these do not fit, a place that would be at two of one line, and the others on it; else
+    none.
+    """
     left, joined = [dict(line) for line in lines], []
     while left:
         line = left.pop()
@@ -228,11 +247,11 @@ def _join_lines(lines: Sequence[Line]) -> list[Line] | None:
             del left[k]
             for place, at in carried.items():
                 if not is_zero(line.setdefault(place, at) - at):
-                    return None
+                    return [], [place, *(p for p in {**line, **carried} if p != place)]
             # What was passed by may share two places with what it is now.
             k = 0
         joined.append(line)
-    return joined
+    return joined, []
 
 
 def _carry_onto(line: Line, other: Line) -> Line | None:

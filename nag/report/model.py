@@ -66,7 +66,7 @@ def _framework_rows(framework: Framework) -> Rows:
     rows = [("graph", f"counting gives {count}; for almost all lengths {text}")]
     here = framework.infinitesimal_motions()
     if here is not None:
-        stresses = here - count
+        stresses = framework.self_stresses()
         rows.append(
             (
                 "placement",
