@@ -407,3 +407,13 @@ def test_the_work_of_sharp_points_is_paid_for() -> None:
     # Half of what it took are zeros in balls, without which the degree is not known.
     poor = grow_component(system, point, 3, seconds=0.6 * (30 - rich.seconds))
     assert poor.degree is None and poor.least == 244 and poor.seconds > -0.2
+
+
+def test_numbers_that_are_not_known_exactly_are_told(tmp_path, capsys) -> None:
+    text = (CASES / "spatial" / "rssr.toml").read_text("utf-8")
+    file = tmp_path / "rssr.toml"
+    file.write_text(text.replace("[3, 2, 2]", '[3, 2, "2*cos(1)"]'), "utf-8")
+    assert main(["mobility", str(file), "--local", "--quiet"]) == 0
+    assert "numbers     cos(1) is not known exactly" in capsys.readouterr().out
+    assert main(["mobility", str(CASES / "spatial" / "rssr.toml"), "--local", "--quiet"]) == 0
+    assert "numbers" not in capsys.readouterr().out

@@ -146,6 +146,12 @@ def test_system_line_counts_variables_equations_and_degrees() -> None:
     assert system_line(irrational).endswith("; not all coefficients are rational")
 
 
+def test_numbers_that_are_not_known_exactly_are_named() -> None:
+    system = PolynomialSystem(("x",), [parse_polynomial("x*cos(1) - sqrt(2)*sin(2)^2", ["x"])])
+    assert "cos(1), sin(2) are not known exactly: what agrees in 60 digits" in system_line(system)
+    assert PolynomialSystem(("x",), [parse_polynomial("x - cos(pi/5)", ["x"])]).inexact_text == ""
+
+
 @given(st.text())
 def test_printed_text_is_one_line_that_cannot_steer_a_terminal(text: str) -> None:
     assert printable(text).isprintable()

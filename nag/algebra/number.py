@@ -395,6 +395,20 @@ def number_text(value: Number | complex) -> str:
     return f"{value.operation}({texts[0]})"
 
 
+def inexact_parts(value: Number | complex) -> list[Irrational]:
+    """The parts of a number's expression that are not known exactly, as ``cos(1)``.
+
+    >>> from nag.algebra.expression import parse_number
+    >>> [number_text(part) for part in inexact_parts(parse_number("2 + 3*cos(1)*sqrt(2)"))]
+    ['cos(1)']
+    """
+    if not isinstance(value, Irrational):
+        return []
+    if value.operation in ("+", "*", "/", "neg", "exact"):
+        return [part for a in value.arguments for part in inexact_parts(a)]
+    return [value]
+
+
 def brief_number_text(value: Number) -> str:
     """``value`` as `number_text` gives it, to six digits where that is longer than 40 letters."""
     text = number_text(value)

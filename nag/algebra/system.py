@@ -8,13 +8,21 @@ from functools import cached_property
 from typing import Any
 
 from nag.algebra.given import check_listed, check_type, value_text
-from nag.algebra.number import Number, number_text
+from nag.algebra.number import (
+    EQUALITY_DIGITS,
+    Number,
+    brief_number_text,
+    inexact_parts,
+    number_text,
+)
 from nag.algebra.polynomial import Polynomial
 from nag.errors import NagError
 from nag.text.table import LINE, count_text, html_table, one_line, printable, shorten_text
 
 # Of longer systems the first equations are shown.
 MOST_LINES, MOST_ROWS = 4, 40
+# Numbers that are named as examples.
+MOST_NAMED = 2
 
 
 @dataclass(frozen=True)
@@ -99,6 +107,21 @@ class PolynomialSystem:
     def exact(self) -> bool:
         """Whether all coefficients are rational."""
         return all(f.exact for f in self.polynomials + self.nonzero)
+
+    @cached_property
+    def inexact_text(self) -> str:
+        """Which coefficients are no exact numbers, and how they are taken; empty where all are."""
+        values = (c for f in (*self.polynomials, *self.nonzero) for c in f.terms.values())
+        parts = (part for c in values for part in inexact_parts(c))
+        texts = list(dict.fromkeys(map(brief_number_text, parts)))
+        if not texts:
+            return ""
+        named = ", ".join(texts[:MOST_NAMED]) + (", .." if len(texts) > MOST_NAMED else "")
+        known = "is not known exactly" if len(texts) == 1 else "are not known exactly"
+        return (
+            f"{named} {known}: what agrees in {EQUALITY_DIGITS} digits is taken to be equal; "
+            "sums of square roots and cosines of rational turns are exact"
+        )
 
     @cached_property
     def jacobian(self) -> tuple[tuple[Polynomial, ...], ...]:
@@ -208,4 +231,5 @@ def system_line(system: PolynomialSystem) -> str:
         f"{count_text(own, 'equation')}{f': {listed}' if listed else ''}"
     )
     text = text if system.exact else f"{text}; not all coefficients are rational"
+    text += f"; {system.inexact_text}" if system.inexact_text else ""
     return f"{text}; {system.variables[-1]} is the imaginary unit" if system.imaginary else text

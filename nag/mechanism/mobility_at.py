@@ -740,6 +740,7 @@ def _count_freedoms(problem: Problem) -> dict[str, Any]:
         "free": problem.free,
         "free_of": " and ".join(f"{count} by {whose}" for count, whose in made.freedoms_left_out),
         "zero_links": made.zero_links,
+        "inexact": problem.system.inexact_text,
     }
 
 

@@ -153,6 +153,7 @@ class MobilityReport:
     multiplicities: tuple[int, ...] = ()
     real: tuple[bool | None, ...] = ()
     along: tuple[BodyFreedoms, ...] = ()
+    inexact: str = ""
 
     __eq__ = equal_values
 
@@ -368,6 +369,7 @@ class MobilityReport:
             ("counted", f"{self.gruebler_kutzbach} by Gruebler-Kutzbach ({self.space})"),
             ("model", model_text),
             *(("besides", text) for text in self.zero_links),
+            *([("numbers", self.inexact)] if self.inexact else []),
             ("local", self.local_text),
             *([("besides", f"{self.free_of}, counted in all dimensions")] if self.free_of else []),
         ]
@@ -382,6 +384,7 @@ class MobilityReport:
             "variables": self.variables,
             "equations": self.equations,
             "free": self.free,
+            "inexact": self.inexact,
             "tangent_dimension": self.tangent_dimension,
             "local_dimension": self.local_dimension,
             "lower": self.lower,
