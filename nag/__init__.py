@@ -70,7 +70,7 @@ _HOME = {
     "WitnessSet": "nag.witness.witness",
     "Constraints": "nag.witness.constraints",
     "certify": "nag.questions",
-    "decompose": "nag.mechanism.problem",
+    "decompose": "nag.questions",
     "eliminate": "nag.questions",
     "framework_of_graph": "nag.mechanism.framework",
     "find_real_curve": "nag.real.find_curve",
@@ -86,14 +86,16 @@ _HOME = {
     "driven_motion": "nag.kinematics.driven_motion",
     "motion": "nag.kinematics.motion",
     "plot": "nag.questions",
+    "Problem": "nag.mechanism.problem",
+    "problem": "nag.questions",
     "read": "nag.questions",
     "read_case": "nag.files.cases",
     "read_decomposition": "nag.files.export",
     "read_solutions": "nag.files.solutions_export",
     "sample": "nag.questions",
     "singular": "nag.questions",
-    "solve": "nag.mechanism.problem",
-    "solve_family": "nag.solving.family_members",
+    "solve": "nag.questions",
+    "solve_family": "nag.questions",
     "system": "nag.algebra.from_python",
     "write": "nag.questions",
     "write_decomposition": "nag.files.export",
@@ -103,13 +105,11 @@ _HOME = {
 # Those whose first argument may be the name of a file as well; the modules that define them know
 # nothing of files.
 _TAKING_FILES = {
-    "decompose",
     "driven_motion",
     "mobility",
     "model",
     "modes",
     "motion",
-    "solve",
 }
 
 __all__ = [*sorted(_HOME), "__version__"]
@@ -120,7 +120,7 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'nag' has no attribute {name!r}")
     value = getattr(import_module(_HOME[name]), name)
     if name in _TAKING_FILES:
-        value = import_module("nag.questions").taking_files(value)
+        value = import_module("nag.questions").takes_files(value)
     globals()[name] = value
     return value
 

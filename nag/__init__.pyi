@@ -43,7 +43,7 @@ from nag.mechanism.linkage import Linkage as Linkage
 from nag.mechanism.mobility_report import MobilityReport as MobilityReport
 from nag.mechanism.model import Model
 from nag.mechanism.modes_report import OperationModes
-from nag.mechanism.problem import Problem
+from nag.mechanism.problem import Problem as Problem
 from nag.numerics.local_dimension import LocalDimension as LocalDimension
 from nag.pictures.plot import Picture
 from nag.questions import Certified as Certified
@@ -73,6 +73,12 @@ class SympyExpression(Protocol):
     def free_symbols(self) -> Any: ...
     def subs(self, *arguments: Any, **named: Any) -> Any: ...
 
+class Table(Protocol):
+    """What pandas and others have: columns by their names."""
+
+    def keys(self) -> Any: ...
+    def __getitem__(self, name: Any, /) -> Any: ...
+
 class RunOptions(TypedDict, total=False):
     """A `Run`, or its fields one by one."""
 
@@ -85,6 +91,19 @@ class RunOptions(TypedDict, total=False):
     resume: File | None
     executor: Executor | str | None
     time_limit: float | None
+
+class FileOptions(TypedDict, total=False):
+    """How a file is read, as for `read`."""
+
+    set: Mapping[str, AnyNumber] | None
+    format: Literal[
+        "auto", "toml", "bertini", "phc", "m2", "singular", "hc", "text", "urdf", "mjcf"
+    ]
+    hold: Sequence[str]
+    at: Mapping[str, RealNumber] | None
+
+class Options(RunOptions, FileOptions, total=False):
+    """Both."""
 
 File: TypeAlias = str | os.PathLike[str]
 # Exact: text as "5/6" or "sqrt(2)", floats as their shortest decimals.
@@ -109,13 +128,25 @@ Circuits: TypeAlias = Literal["reference", "all"] | int
 Drives: TypeAlias = tuple[str, float] | Mapping[str, float]
 Poses: TypeAlias = Mapping[str, Sequence[float]]
 
-def certify(found: SolveResult | Decomposition | File, paths: bool = False) -> Certified: ...
+def certify(
+    found: SolveResult | Decomposed,
+    paths: bool = False,
+    *,
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
+) -> Certified: ...
 def decompose(
     system: Solvable,
     variables: Names | None = None,
     *,
-    symmetries: Iterable[SignedPermutation | Mapping[str, str]] | None = None,
-    **running: Unpack[RunOptions],
+    imaginary: str | None = None,
+    formulation: Formulation = "auto",
+    method: Literal["complete", "sampling"] = "complete",
+    starts: int | None = None,
+    coordinates: Literal["joint", "euler"] | None = None,
+    expand: bool = False,
+    symmetries: Iterable[SignedPermutation | Mapping[str, str] | Sequence[int]] | None = None,
+    **options: Unpack[Options],
 ) -> Decomposition: ...
 def driven_motion(
     mechanism: Moving,
@@ -126,25 +157,38 @@ def driven_motion(
     formulation: Formulation = "auto",
     drive: Drives | None = None,
     pose: Poses | None = None,
-    **running: Unpack[RunOptions],
+    **options: Unpack[Options],
 ) -> DrivenMotion: ...
 def eliminate(
     given: Decomposed,
     onto: Sequence[str] | str | None = None,
-    component: int = 1,
+    component: int | None = None,
     *,
+    point: Point | None = None,
     degree: int | None = None,
     polynomial: bool = False,
-    **running: Unpack[RunOptions],
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
 ) -> ImageIdeal: ...
 def find_real_curve(component: WitnessSet, **running: Unpack[RunOptions]) -> RealCurve: ...
 def find_real_points(component: WitnessSet, **running: Unpack[RunOptions]) -> RealPieces: ...
 def framework_of_graph(graph: networkx.Graph, dimension: int = 2) -> Framework: ...
 def gruebler_kutzbach(mechanism: Mechanism) -> int: ...
 def intersect(
-    given: Decomposed, first: int, second: int, **running: Unpack[RunOptions]
+    given: Decomposed,
+    first: int,
+    second: int,
+    *,
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
 ) -> Decomposition: ...
-def local(given: Solvable, point: Point | None = None, *, seed: int = 0) -> LocalDimension: ...
+def local(
+    given: Solvable,
+    point: Point | None = None,
+    *,
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
+) -> LocalDimension: ...
 def local_dimension(
     system: PolynomialSystem,
     point: Sequence[AnyNumber] | np.ndarray,
@@ -153,7 +197,11 @@ def local_dimension(
     seed: int = 0,
 ) -> LocalDimension: ...
 def member(
-    given: Decomposed, point: Point | None = None, **running: Unpack[RunOptions]
+    given: Decomposed,
+    point: Point | None = None,
+    *,
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
 ) -> PointMembership: ...
 def mobility(
     mechanism: Moving,
@@ -164,7 +212,7 @@ def mobility(
     budget: float = 10,
     of: str | None = None,
     tolerance: float | None = None,
-    **running: Unpack[RunOptions],
+    **options: Unpack[Options],
 ) -> MobilityReport: ...
 @overload
 def model(
@@ -172,22 +220,26 @@ def model(
     formulation: Formulation = "auto",
     modes: Iterable[tuple[str, int]] = (),
     space: Literal["planar", "spherical", "spatial"] | None = None,
+    **options: Unpack[FileOptions],
 ) -> Model: ...
 @overload
-def model(mechanism: Parts, formulation: Formulation = "auto") -> AssemblyModel: ...
+def model(
+    mechanism: Parts, formulation: Formulation = "auto", **options: Unpack[FileOptions]
+) -> AssemblyModel: ...
 @overload
 def model(
     mechanism: File | Case,
     formulation: Formulation = "auto",
     modes: Iterable[tuple[str, int]] = (),
     space: Literal["planar", "spherical", "spatial"] | None = None,
+    **options: Unpack[FileOptions],
 ) -> Model | AssemblyModel: ...
 def modes(
     mechanism: File | Case | Mechanism,
     platform: str | None = None,
     *,
     budget: float = 60,
-    **running: Unpack[RunOptions],
+    **options: Unpack[Options],
 ) -> OperationModes: ...
 def motion(
     mechanism: Moving,
@@ -197,7 +249,7 @@ def motion(
     formulation: Formulation = "auto",
     drive: Drives | None = None,
     pose: Poses | None = None,
-    **running: Unpack[RunOptions],
+    **options: Unpack[Options],
 ) -> Motion: ...
 def plot(
     given: Decomposed,
@@ -212,12 +264,27 @@ def plot(
     component: int | None = None,
     circuit: Circuits = "reference",
     formulation: Formulation = "auto",
-    **running: Unpack[RunOptions],
+    **options: Unpack[Options],
 ) -> Picture: ...
-def read(path: File) -> Case | Decomposition | SolveResult | dict[str, Any]: ...
+def problem(
+    given: Solvable,
+    variables: Names | None = None,
+    *,
+    imaginary: str | None = None,
+    formulation: Formulation = "auto",
+    **options: Unpack[FileOptions],
+) -> Problem: ...
+def read(
+    path: File,
+    *,
+    set: Mapping[str, AnyNumber] | None = None,
+    format: str = "auto",
+    hold: Sequence[str] = (),
+    at: Mapping[str, RealNumber] | None = None,
+) -> Case | Decomposition | SolveResult | dict[str, Any]: ...
 def read_case(
     path: File,
-    values: Mapping[str, AnyNumber] | None = None,
+    set: Mapping[str, AnyNumber] | None = None,
     *,
     format: str = "auto",
     hold: Sequence[str] = (),
@@ -231,29 +298,42 @@ def sample(
     *,
     count: int = 10,
     real: bool = False,
-    **running: Unpack[RunOptions],
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
 ) -> Samples: ...
 def singular(
-    given: Decomposed, component: int | None = None, **running: Unpack[RunOptions]
+    given: Decomposed,
+    component: int | None = None,
+    *,
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
 ) -> SingularLocus: ...
 def solve(
     system: Solvable,
     variables: Names | None = None,
     *,
+    imaginary: str | None = None,
+    formulation: Formulation = "auto",
     start: str = "auto",
-    **running: Unpack[RunOptions],
+    **options: Unpack[Options],
 ) -> SolveResult: ...
 def solve_family(
-    equations: Equations | PolynomialSystem,
-    parameters: Names,
-    values: Sequence[Sequence[complex]] | np.ndarray,
+    equations: Solvable,
+    parameters: Names | None = None,
+    values: Sequence[Sequence[complex]]
+    | np.ndarray
+    | Mapping[str, Sequence[complex] | np.ndarray]
+    | Table
+    | File
+    | None = None,
     variables: Names | None = None,
     *,
     imaginary: str | None = None,
+    formulation: Formulation = "auto",
     start: str = "auto",
     count: int | None = None,
     known: tuple[Sequence[complex] | np.ndarray, np.ndarray] | None = None,
-    **running: Unpack[RunOptions],
+    **options: Unpack[Options],
 ) -> FamilySolutions: ...
 def system(
     equations: Equations,

@@ -1,7 +1,8 @@
 """What the commands ask, as functions: each takes whatever describes what is asked about.
 
 That is the name of a file (a case, a system in another program's format, an export), a `nag.Case`,
-a mechanism, its model, parts, equations, or what was found before. Components are numbered from 1,
+a mechanism, its model, parts, equations, or what was found before. How a file is read is said by
+the keywords of `read`, which every question takes (`takes_files`). Components are numbered from 1,
 as everywhere in text.
 """
 
@@ -9,18 +10,22 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import wraps
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial, wraps
+from inspect import Parameter, signature
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 
-from nag.algebra.given import check_whole, is_a, value_text
+from nag.algebra.given import check_choice, check_whole, is_a, value_text
 from nag.errors import ComponentError, InputError, NagError
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.numerics.read_only import equal_values
+from nag.tracking.run import DEFAULT_RUN, Run, answers_early, takes_run
 
 if TYPE_CHECKING:
+    from nag.algebra.family import Family
     from nag.algebra.number import Number
+    from nag.algebra.symmetry import SignedPermutation
     from nag.algebra.system import PolynomialSystem
     from nag.decomposition.singular_points import SingularLocus
     from nag.files.cases import Case
@@ -31,6 +36,7 @@ if TYPE_CHECKING:
     from nag.pictures.plot import Picture
     from nag.solving.certificate import SolutionsCertificate
     from nag.solving.certified_paths import ProvedPaths
+    from nag.solving.family_members import FamilySolutions
     from nag.solving.solutions import SolveResult
     from nag.text.table import Row
     from nag.witness.certificate import DecompositionCertificate
@@ -40,9 +46,13 @@ if TYPE_CHECKING:
     from nag.witness.witness import Decomposition, WitnessSet
 
 Answer = TypeVar("Answer")
+Method = Literal["complete", "sampling"]
+Coordinates = Literal["joint", "euler"]
 
 # Ends of names that files have and equations have not.
 SUFFIXES = (".toml", ".json", ".urdf", ".xml", ".m2", ".sing", ".txt", ".bertini", ".phc")
+# How a file is read: keywords of `read`, and their defaults.
+FILE_OPTIONS: Mapping[str, Any] = {"set": None, "format": "auto", "hold": (), "at": None}
 # What is said of a component of an export on which paths fail.
 UNTESTED = "the trace of its points could not be tested"
 
@@ -50,13 +60,27 @@ UNTESTED = "the trace of its points could not be tested"
 # --- Files
 
 
-def read(path: str | os.PathLike[str]) -> Case | Decomposition | SolveResult | dict[str, Any]:
+def read(
+    path: str | os.PathLike[str],
+    *,
+    set: Mapping[str, Any] | None = None,
+    format: str = "auto",
+    hold: Sequence[str] = (),
+    at: Mapping[str, Any] | None = None,
+) -> Case | Decomposition | SolveResult | dict[str, Any]:
     """What a file holds, told by its content.
 
     Args:
         path: a case or a system in another program's format, which gives a `nag.Case`; an export
             of a decomposition or of solutions, which gives an equal one; or what another command
             wrote with ``--json``, which gives that JSON object, checked by its schema.
+        set: of a case, values of some of its parameters in place of its own, by name: numbers, or
+            expressions as texts.
+        format: ``"bertini"``, ``"phc"``, ``"m2"``, ``"singular"``, ``"hc"``, ``"text"``,
+            ``"urdf"``, ``"mjcf"`` or ``"toml"``; by default told by the content.
+        hold: of a robot (URDF, MJCF), the links that are fixed to the ground.
+        at: of a robot, where its joints stand, by name: angles in radians, and lengths; 0 by
+            default.
 
     Raises:
         nag.InputError: if it cannot be read or makes no sense; one line says where and what would
@@ -65,15 +89,27 @@ def read(path: str | os.PathLike[str]) -> Case | Decomposition | SolveResult | d
     >>> import nag
     >>> nag.read("cases/bennett.toml").kind
     'mechanism'
+    >>> dict(nag.read("cases/rhombus.toml", set={"b": 2}).parameters)
+    {'a': Fraction(1, 1), 'b': Fraction(2, 1)}
     """
+    from nag.algebra.given import check_path
     from nag.files.cases import read_case
 
+    check_path(path)
+    how = {"set": set, "format": format, "hold": hold, "at": at}
     try:
         with Path(path).open("rb") as file:
             is_json = file.read(256).lstrip()[:1] == b"{"
-        return _read_export(path) if is_json else read_case(path)
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}") from None
+    except ValueError as error:
+        raise InputError(f"{str(path)!r}: {error}") from None
+    if not is_json:
+        return read_case(path, **how)  # type: ignore[arg-type]
+    for name, value in how.items():
+        if value != FILE_OPTIONS[name]:
+            raise InputError(f"{path}: is an export; {name} is for cases, leave it out")
+    return _read_export(path)
 
 
 def _read_export(
@@ -129,33 +165,300 @@ def write(result: Decomposition | SolveResult, path: str | os.PathLike[str]) -> 
         )
 
 
-def open_file(given: Any) -> Any:
-    """What a file holds, if the name of one is given; else what is given."""
-    if isinstance(given, os.PathLike):
-        return read(given)
-    if isinstance(given, str) and (given.endswith(SUFFIXES) or os.path.isfile(given)):
-        return read(given)
+def open_file(given: Any, **how: Any) -> Any:
+    """What a file holds, if the name of one is given; else what is given.
+
+    Args:
+        how: how it is read, as for `read`.
+
+    Raises:
+        nag.NagError: if something is said of how a file is read where none is given.
+    """
+    if names_file(given):
+        return read(given, **how)
+    for name, value in how.items():
+        if value != FILE_OPTIONS[name]:
+            was = f"{type(given).__name__}, not " if not isinstance(given, str) else ""
+            raise NagError(f"{name}: says how a file is read; {was}the name of one is to be given")
     return given
 
 
-def taking_files(function: Callable[..., Answer]) -> Callable[..., Answer]:
-    """The same function, whose first argument may be the name of a file."""
+def names_file(given: Any) -> bool:
+    """Whether something is the name of a file, by its ending, or as there is one."""
+    if isinstance(given, os.PathLike):
+        return True
+    return isinstance(given, str) and (given.endswith(SUFFIXES) or os.path.isfile(given))
+
+
+def takes_files(
+    function: Callable[..., Answer], convert: Callable[[Any], Any] | None = None
+) -> Callable[..., Answer]:
+    """The same function, whose first argument may be a file, with the keywords of `read` for it.
+
+    Args:
+        convert: what is to be done with what was read.
+    """
+    own = signature(function)
+    first, *others = own.parameters.values()
 
     @wraps(function)
-    def call(given: Any, *arguments: Any, **named: Any) -> Answer:
-        return function(open_file(given), *arguments, **named)
+    def call(*given: Any, **named: Any) -> Answer:
+        how = {name: named.pop(name) for name in FILE_OPTIONS if name in named}
+        if given:
+            asked, *rest = given
+        elif first.name in named:
+            asked, rest = named.pop(first.name), []
+        else:
+            raise NagError(f"{first.name}: nothing is given; give a file, a case, parts, equations")
+        opened = open_file(asked, **how)
+        if convert is not None and opened is not asked:
+            opened = convert(opened)
+        return function(opened, *rest, **named)
 
+    taken = [
+        Parameter(name, Parameter.KEYWORD_ONLY, default=default)
+        for name, default in FILE_OPTIONS.items()
+    ]
+    run = [p for p in others if p.name == "run"]
+    others = [p for p in others if p.name != "run"]
+    call.__signature__ = own.replace(parameters=[first, *others, *taken, *run])  # type: ignore[attr-defined]
+    call.__doc__ = _with_file_options(function.__doc__ or "")
     return call
+
+
+def takes_components(function: Callable[..., Answer]) -> Callable[..., Answer]:
+    """`takes_files` of a function of components: those that a file has are tested first."""
+    return takes_files(function, convert=_tested)
+
+
+def _tested(read: Any) -> Any:
+    """What was read, components of it with their traces tested, none for a whole orbit."""
+    if not is_a(read, "nag.witness.witness", "Decomposition"):
+        return read
+    from nag.witness.frame import expand_orbits
+
+    return check_traces(expand_orbits(read))
+
+
+def _with_file_options(text: str) -> str:
+    """A docstring that says what the keywords of `read` are, below the arguments."""
+    line = f"        {', '.join(FILE_OPTIONS)}: how a file is read, as for `nag.read`.\n"
+    place = text.find("        run: a `nag.Run`")
+    if place < 0:
+        place = text.find("\n\n", text.find("    Args:")) + 1
+    return text[:place] + line + text[place:]
+
+
+# --- Solution sets
+
+
+@takes_files
+@answers_early
+def decompose(
+    system: Any,
+    variables: Any = None,
+    *,
+    imaginary: str | None = None,
+    formulation: str = "auto",
+    method: Method = "complete",
+    starts: int | None = None,
+    coordinates: Coordinates | None = None,
+    expand: bool = False,
+    symmetries: Iterable[Any] | None = None,
+    run: Run = DEFAULT_RUN,
+) -> Decomposition:
+    """The irreducible components over the complex numbers of what satisfies the equations.
+
+    Equations that factor are decomposed apart, the others intersected one by one (u-generation:
+    Duff, Leykin & Rodriguez 2022); points are split by monodromy, and components confirmed by the
+    trace test (Sommese, Verschelde & Wampler 2001, 2002).
+
+    Args:
+        system: the name of a file, a `nag.Case`, a mechanism, its model, parts, a
+            `nag.PolynomialSystem`, or equations as `nag.system` takes them: texts, sympy's
+            expressions, one or a list (`nag.problem`).
+        variables: of equations, their names in order; see `nag.system`.
+        imaginary: of equations, what the imaginary unit is called, as for `nag.system`.
+        formulation: of a mechanism's model, as for `nag.model`.
+        method: ``"complete"``, or ``"sampling"`` for the components that Newton's method finds from
+            random points, of systems that are too large; that is never complete
+            (`nag.decomposition.discover`).
+        starts: number of random points of ``"sampling"``, 100 by default.
+        coordinates: of a mechanism's components: ``"joint"`` for those of its joints, or
+            ``"euler"`` for Euler parameters of its bodies, to which the components are carried; by
+            default those of the formulation.
+        expand: whether every component is listed, not one of each orbit of the symmetries.
+        symmetries: signed permutations of the variables that keep the equations, each a
+            `nag.SignedPermutation`, a dict ``{"x": "-x", "y": "z", "z": "y"}`` or a sign for each
+            variable. Of the components that they carry into each other one is reported, with the
+            size of its orbit. By default those that the model or the case has; ``()`` for none.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
+
+    Returns:
+        The components, by falling dimension, as witness sets: points of shape ``(degree, n)``.
+        Of a mechanism they live in the variables of ``nag.model(mechanism).system``.
+
+    Raises:
+        nag.mechanism.model.ModelError: if a mechanism has no loop.
+        nag.algebra.symmetry.SymmetryError: if a symmetry does not keep the equations.
+        ValueError: if another argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> answer = nag.decompose(["(x^2 + y^2 - 1)*(x - y)^2"])
+    >>> [(c.dimension, c.degree, c.multiplicity) for c in answer.components]
+    [(1, 1, 2), (1, 2, 1)]
+    """
+    from nag.algebra.symmetry import SymmetryError
+    from nag.mechanism.problem import problem_of, read_symmetries
+
+    check_choice(method, "method", get_args(Method))
+    if starts is not None and method != "sampling":
+        raise NagError('starts: is for method="sampling"; leave it out')
+    asked = problem_of(system, variables, imaginary=imaginary, formulation=formulation)
+    if coordinates is not None:
+        asked = _in_coordinates(asked, coordinates, formulation)
+    kept = read_symmetries(symmetries, asked)
+    try:
+        found = _decompose_by(asked, method, starts, kept, run)
+    except SymmetryError as error:
+        raise SymmetryError(f"symmetries: {error}") from None
+    if coordinates == "euler":
+        from nag.mechanism.coordinates import carry_to_euler
+
+        _, found = carry_to_euler(asked, found, threads=run.threads)
+    if not expand:
+        return found
+    from nag.witness.frame import expand_orbits
+
+    return expand_orbits(found)
+
+
+def _in_coordinates(asked: Problem, coordinates: str, formulation: str) -> Problem:
+    """The problem that is decomposed, where components are wanted in some coordinates.
+
+    Raises:
+        NagError: if there are none.
+    """
+    from nag.mechanism import PLATFORM_ALONE
+    from nag.mechanism.problem import problem_of
+
+    check_choice(coordinates, "coordinates", get_args(Coordinates))
+    if asked.formulation is None:
+        raise NagError("coordinates: is for mechanisms and tables; leave it out")
+    if asked.formulation == PLATFORM_ALONE:
+        raise NagError(f"coordinates: formulation {PLATFORM_ALONE} has those of a pose only")
+    if coordinates == "euler" or asked.formulation != "E":
+        return asked
+    if formulation == "E":
+        raise NagError('coordinates: formulation E has none of joints; give formulation="H"')
+    return problem_of(asked, formulation="H")
+
+
+def _decompose_by(
+    asked: Problem,
+    method: str,
+    starts: int | None,
+    symmetries: Sequence[SignedPermutation],
+    run: Run,
+) -> Decomposition:
+    if method == "complete":
+        return asked.decompose(run=run, symmetries=symmetries)
+    from nag.mechanism import PLATFORM_ALONE
+
+    if asked.formulation == PLATFORM_ALONE:
+        raise NagError(f"method: sampling finds no poses; leave out formulation {PLATFORM_ALONE}")
+    from nag.decomposition.discovery import STARTS, discover
+
+    count = STARTS if starts is None else starts
+    return discover(asked.system, starts=count, symmetries=symmetries, run=run)
+
+
+@takes_files
+@answers_early
+def solve(
+    system: Any,
+    variables: Any = None,
+    *,
+    imaginary: str | None = None,
+    formulation: str = "auto",
+    start: str = "auto",
+    run: Run = DEFAULT_RUN,
+) -> SolveResult:
+    """All isolated solutions of equations, each once, with their multiplicities.
+
+    Equations that factor are solved apart; what comes down to one variable, or to two equations in
+    two of few solutions, is solved exactly; else one path is tracked for each solution of a start
+    system (Sommese & Wampler 2005, chapters 7 and 8). Of a case with a ``[family]`` whose
+    number of solutions is known, they are as many as the family has.
+
+    Args:
+        system: the name of a file, a `nag.Case`, a `nag.PolynomialSystem`, equations as
+            `nag.system` takes them (texts, sympy's expressions, one or a list), a mechanism, its
+            model, or parts (`nag.problem`).
+        variables: of equations, their names in order; see `nag.system`.
+        imaginary: of equations, what the imaginary unit is called, as for `nag.system`.
+        formulation: of a mechanism's model, as for `nag.model`.
+        start: ``"auto"`` (the family's solutions where their number is known, else the least
+            work), ``"total"``, ``"multihomogeneous"``, ``"polyhedral"``, ``"monodromy"``, or
+            ``"parameter"`` for loops of the parameters of a case's family.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
+
+    Returns:
+        The solutions; ``.points`` has shape ``(k, n)``, ``.real`` are the real ones.
+
+    Raises:
+        nag.StartError: if there would be too many paths, or ``"parameter"``
+            is asked for and there is no family.
+        ValueError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> answer = nag.solve(["x^2 + y^2 - 1", "x - y"])
+    >>> [[round(float(z.real), 6) for z in s.point] for s in answer.real]
+    [[-0.707107, -0.707107], [0.707107, 0.707107]]
+    """
+    from nag.mechanism.problem import problem_of
+
+    asked = problem_of(system, variables, imaginary=imaginary, formulation=formulation)
+    return asked.solve(start=start, run=run)
 
 
 # --- Points
 
 
-def _problem_and_points(given: Any) -> tuple[Problem, Mapping[str, tuple[Number, ...]]]:
+@takes_files
+def problem(
+    given: Any,
+    variables: Any = None,
+    *,
+    imaginary: str | None = None,
+    formulation: str = "auto",
+) -> Problem:
+    """What is asked about, read once and for all, to be given to one question after another.
+
+    Args:
+        given: the name of a file, a `nag.Case`, a mechanism (`nag.Mechanism`), its model
+            (`nag.model`), parts (`nag.Linkage`, `nag.Framework`, `nag.DHLoop`), a
+            `nag.PolynomialSystem`, or equations as `nag.system` takes them.
+        variables: of equations, their names in order; see `nag.system`.
+        imaginary: of equations, what the imaginary unit is called, as for `nag.system`.
+        formulation: of a mechanism's model, as for `nag.model`.
+
+    Raises:
+        nag.NagError: if it makes no sense; one line says what, and what would.
+
+    >>> import nag
+    >>> bennett = nag.problem("cases/bennett.toml", formulation="E")
+    >>> bennett.system.n, [point.name for point in bennett.points], nag.local(bennett).dimension
+    (8, ['reference'], 1)
+    """
     from nag.mechanism.problem import problem_of
 
-    problem = problem_of(open_file(given))
-    return problem, {point.name: point.at for point in problem.points}
+    return problem_of(given, variables, imaginary=imaginary, formulation=formulation)
+
+
+def _points(problem: Problem) -> Mapping[str, tuple[Number, ...]]:
+    """The points of a problem by their names."""
+    return {point.name: point.at for point in problem.points}
 
 
 def _point(
@@ -168,27 +471,40 @@ def _point(
     if point is None and len(points) == 1:
         return next(iter(points.values()))
     if point is None or isinstance(point, str):
-        known = f"its points are {', '.join(points)}" if points else "it has none with a name"
-        if point not in points:
-            names = ", ".join(system.own_variables)
-            raise NagError(
-                f"point: {value_text(point)} is given; give the name of one ({known}), or numbers "
-                f"for {names}"
-            )
-        return points[point]
+        if point in points:
+            return points[point]
+        from nag.algebra.tokens import nearest, quote
+
+        said = "which one?"
+        if point is not None:
+            said = f"{quote(point)} is the name of none{nearest(point, points)};"
+        own = system.own_variables
+        ways = [f"a dict, {{{own[0]!r}: 1, ...}}", f"{len(own)} numbers, for {', '.join(own)}"]
+        if points:
+            ways.insert(0, f"a name ({', '.join(map(repr, points))})")
+        raise NagError(f"point: {said} give {' or '.join(ways if own else ['()'])}")
     from nag.algebra.from_python import coordinates
 
     return coordinates(point, system.variables, system.imaginary)
 
 
-def local(given: Any, point: Any = None, *, seed: int = 0) -> LocalDimension:
+@takes_files
+@takes_run
+def local(
+    given: Any,
+    point: Any = None,
+    *,
+    formulation: str = "auto",
+    run: Run = DEFAULT_RUN,
+) -> LocalDimension:
     """The dimension that the solution set has at a point; nothing is decomposed for it.
 
     Args:
-        given: anything that describes a problem, see `nag.decompose`, or a file's name.
+        given: anything that describes a problem, see `nag.problem`.
         point: the name of a point (``"reference"`` for a mechanism), a mapping of variables to
             numbers, or numbers in order; by default the only point that has a name.
-        seed: of random directions.
+        formulation: of a mechanism's model, as for `nag.model`.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.NagError: if it is no solution, or an argument makes no sense.
@@ -197,54 +513,63 @@ def local(given: Any, point: Any = None, *, seed: int = 0) -> LocalDimension:
     >>> print(nag.local("cases/bennett.toml").dimension)
     1
     """
+    from nag.mechanism.problem import problem_of
     from nag.numerics.local_dimension import local_dimension_near
 
-    problem, points = _problem_and_points(given)
-    at = _point(point, problem.system, points)
-    return local_dimension_near(problem.system, at, seed=seed)
+    asked = problem_of(given, formulation=formulation)
+    at = _point(point, asked.system, _points(asked))
+    return local_dimension_near(asked.system, at, seed=run.seed)
 
 
 # --- Components
 
 
-def find_components(given: Any, run: Run, real: bool = False) -> Decomposition:
-    """All components of what is given, none for a whole orbit; those of an export are tested.
-
-    Args:
-        real: whether real points are asked for, so that frameworks take coordinates that are real
-            where their realisations are.
-    """
-    return _find_in(given, open_file(given), run, real=real)[0]
+def find_components(given: Any, run: Run, formulation: str = "auto") -> Decomposition:
+    """All components of what is given, none for a whole orbit."""
+    return _find_in(given, run, formulation)[0]
 
 
 def _find_in(
     given: Any,
-    opened: Any,
     run: Run,
-    check: Callable[[PolynomialSystem], object] | None = None,
+    formulation: str,
+    *,
+    check: Callable[[PolynomialSystem, Mapping[str, tuple[Number, ...]]], object] | None = None,
     real: bool = False,
 ) -> tuple[Decomposition, Mapping[str, tuple[Number, ...]]]:
-    """The same of what is given, or was read from it, and the points of a problem by their names.
+    """The same, and the points of a problem by their names.
 
     Args:
-        check: called with a problem's system before it is decomposed.
-        real: as of `find_components`.
+        check: called with a problem's system and points before it is decomposed.
+        real: whether real points are asked for, so that frameworks take coordinates that are real
+            where their realisations are.
+
+    Raises:
+        nag.NagError: if a formulation is asked for of components.
     """
     from nag.witness.frame import expand_orbits
 
-    if is_a(opened, "nag.witness.witness", "WitnessSet"):
-        return _of_one_component(opened), {}
-    if is_a(opened, "nag.witness.witness", "Decomposition"):
-        found = expand_orbits(opened)
-        return (found if opened is given else check_traces(found)), {}
-    problem, points = _problem_and_points(opened)
-    if real:
-        from nag.mechanism.problem import in_real_coordinates
+    one = is_a(given, "nag.witness.witness", "WitnessSet")
+    if one or is_a(given, "nag.witness.witness", "Decomposition"):
+        if formulation != "auto":
+            raise NagError("formulation: components are given; they are in one already")
+        found = _of_one_component(given) if one else expand_orbits(given)
+        if check is not None:
+            check(found.system, {})
+        return found, {}
+    if is_a(given, "nag.solving.solutions", "SolveResult"):
+        raise NagError(
+            "given: solutions are given, and components are asked about; give the equations, or "
+            "what nag.decompose returns"
+        )
+    from nag.mechanism.problem import in_real_coordinates, problem_of
 
-        problem = in_real_coordinates(problem)
+    asked = problem_of(given, formulation=formulation)
+    asked = in_real_coordinates(asked) if real else asked
+    points = _points(asked)
     if check is not None:
-        check(problem.system)
-    return expand_orbits(problem.decompose(run=run)), points
+        check(asked.system, points)
+    return expand_orbits(asked.decompose(run=run)), points
 
 
 def _of_one_component(component: WitnessSet) -> Decomposition:
@@ -313,13 +638,18 @@ def component_numbered(found: Decomposition, number: int, place: str = "componen
     return found.components[number - 1]
 
 
+@takes_components
 @takes_run
-def member(given: Any, point: Any = None, *, run: Run = DEFAULT_RUN) -> PointMembership:
+def member(
+    given: Any, point: Any = None, *, formulation: str = "auto", run: Run = DEFAULT_RUN
+) -> PointMembership:
     """Which components a point lies on.
 
     Args:
         given: components that were found, a file of them, or what is decomposed now.
-        point: as for `local`.
+        point: the name of a point of a case (``"reference"`` for a mechanism), a mapping of
+            variables to numbers, or numbers in order.
+        formulation: of a mechanism's model, as for `nag.model`.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
@@ -333,12 +663,13 @@ def member(given: Any, point: Any = None, *, run: Run = DEFAULT_RUN) -> PointMem
     from nag.algebra.from_python import exact_number
     from nag.witness.membership import locate_point
 
-    found, points = _find_in(given, open_file(given), run)
+    found, points = _find_in(given, run, formulation, check=partial(_point, point))
     at = _point(point, found.system, points)
     known = [x if isinstance(x, complex) else exact_number(x) for x in at]
     return locate_point(found, known, run=run)
 
 
+@takes_components
 @takes_run
 def sample(
     given: Any,
@@ -346,6 +677,7 @@ def sample(
     *,
     count: int = 10,
     real: bool = False,
+    formulation: str = "auto",
     run: Run = DEFAULT_RUN,
 ) -> Samples:
     """Random points of a component.
@@ -355,6 +687,7 @@ def sample(
         component: its number, from 1.
         count: how many.
         real: whether they are to be real; of a framework in coordinates x, y.
+        formulation: of a mechanism's model, as for `nag.model`.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
@@ -368,7 +701,7 @@ def sample(
     >>> nag.sample("x^2 + y^2 - 1", count=5).points.shape
     (5, 2)
     """
-    found = find_components(given, run, real)
+    found, _ = _find_in(given, run, formulation, real=real)
     chosen = component_numbered(found, component)
     if real:
         from nag.real.real_samples import sample_real
@@ -379,13 +712,21 @@ def sample(
     return sample_component(found.system, chosen, count, run=run)
 
 
+@takes_components
 @takes_run
-def singular(given: Any, component: int | None = None, *, run: Run = DEFAULT_RUN) -> SingularLocus:
+def singular(
+    given: Any,
+    component: int | None = None,
+    *,
+    formulation: str = "auto",
+    run: Run = DEFAULT_RUN,
+) -> SingularLocus:
     """Singular points of components, and where components meet.
 
     Args:
         given: components that were found, a file of them, or what is decomposed now.
         component: the number of the one that is asked about, from 1; all by default.
+        formulation: of a mechanism's model, as for `nag.model`.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
@@ -397,20 +738,29 @@ def singular(given: Any, component: int | None = None, *, run: Run = DEFAULT_RUN
     """
     from nag.decomposition.singular_points import singular_locus
 
-    found = find_components(given, run)
+    found = find_components(given, run, formulation)
     if component is not None:
         component_numbered(found, component)
     return singular_locus(found, only=None if component is None else [component - 1], run=run)
 
 
+@takes_components
 @takes_run
-def intersect(given: Any, first: int, second: int, *, run: Run = DEFAULT_RUN) -> Decomposition:
+def intersect(
+    given: Any,
+    first: int,
+    second: int,
+    *,
+    formulation: str = "auto",
+    run: Run = DEFAULT_RUN,
+) -> Decomposition:
     """The components of the intersection of two components, by their numbers from 1.
 
     Args:
         given: components that were found, a file of them, or what is decomposed now.
         first: the number of one.
         second: that of the other, which may be the same.
+        formulation: of a mechanism's model, as for `nag.model`.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
@@ -422,7 +772,7 @@ def intersect(given: Any, first: int, second: int, *, run: Run = DEFAULT_RUN) ->
     """
     from nag.decomposition.intersection import intersect_components
 
-    found = find_components(given, run)
+    found = find_components(given, run, formulation)
     pair = (
         component_numbered(found, first, "first"),
         component_numbered(found, second, "second"),
@@ -430,14 +780,17 @@ def intersect(given: Any, first: int, second: int, *, run: Run = DEFAULT_RUN) ->
     return intersect_components(found.system, *pair, run=run)
 
 
+@takes_components
 @takes_run
 def eliminate(
     given: Any,
     onto: Sequence[str] | str | None = None,
-    component: int = 1,
+    component: int | None = None,
     *,
+    point: Any = None,
     degree: int | None = None,
     polynomial: bool = False,
+    formulation: str = "auto",
     run: Run = DEFAULT_RUN,
 ) -> ImageIdeal:
     """Exact equations of a component in some variables, and maps from these to the others.
@@ -446,9 +799,12 @@ def eliminate(
         given: components that were found, a file of them, or what is decomposed now.
         onto: names of the variables, or a text of them with commas; by default essential ones, from
             which all others follow.
-        component: its number, from 1.
+        component: its number, from 1, which is the default.
+        point: a point, as for `nag.member`, that the component goes through, instead of its number.
         degree: all equations up to this degree; by default until they define the image.
         polynomial: whether only polynomial maps to the other variables are looked for.
+        formulation: of a mechanism's model, as for `nag.model`; ``"E"`` has the bodies' Euler
+            parameters, in which `nag eliminate` gives a mechanism's equations.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
@@ -464,7 +820,13 @@ def eliminate(
     from nag.interpolation.point_cloud import AmbientVariables, Cloud
     from nag.interpolation.precise_samples import SourceError, source_of_component
 
-    found = find_components(given, run)
+    if point is not None and component is not None:
+        raise NagError("point: component names one already; give one of the two")
+    check = None if point is None else partial(_point, point)
+    found, points = _find_in(given, run, formulation, check=check)
+    if point is not None:
+        component = _number_through(found, _point(point, found.system, points), run)
+    component = 1 if component is None else component
     chosen = component_numbered(found, component)
     if not chosen.dimension:
         raise SourceError("the component is a point; there is nothing to eliminate from")
@@ -474,6 +836,22 @@ def eliminate(
     cloud = Cloud(source, AmbientVariables.itself(found.system), run.random(4), run)
     alike = list_alike(found, component)
     return eliminate_component(cloud, alike, places, degree, polynomial, run.progress)
+
+
+def _number_through(found: Decomposition, at: Sequence[Number | complex], run: Run) -> int:
+    """The number of the one component through a point.
+
+    Raises:
+        nag.NagError: if there is not one.
+    """
+    from nag.witness.membership import locate_point
+
+    located = locate_point(found, at, run=run)
+    if located.open or len(located.numbers) != 1:
+        on = ", ".join(map(str, located.numbers))
+        said = "it is not known which components it lies on" if located.open else f"lies on {on}"
+        raise NagError(f"point: {said if on or located.open else 'lies on none'}; give a component")
+    return located.numbers[0]
 
 
 def list_alike(found: Decomposition, number: int) -> dict[int, WitnessSet]:
@@ -504,9 +882,150 @@ def place_variables(names: Sequence[str], system: Any) -> tuple[int, ...]:
     return tuple(known.index(name) for name in names)
 
 
+# --- Families
+
+
+@takes_files
+@takes_run
+def solve_family(
+    equations: Any,
+    parameters: Any = None,
+    values: Any = None,
+    variables: Any = None,
+    *,
+    imaginary: str | None = None,
+    formulation: str = "auto",
+    start: str = "auto",
+    count: int | None = None,
+    known: tuple[Any, Any] | None = None,
+    run: Run = DEFAULT_RUN,
+) -> FamilySolutions:
+    """The isolated solutions of many systems that differ in the values of their parameters.
+
+    Args:
+        equations: as many as there are unknowns: anything that describes a problem, see
+            `nag.problem`.
+        parameters: their names, or sympy's symbols: of a case parameters, or unknowns that become
+            parameters; of anything else names in the equations. By default those of the case's
+            ``[family]``, or the names of the columns of ``values``.
+        values: those of each member, real or complex: an array, shape ``(M, k)``, in the order of
+            ``parameters``, or columns by their names: a DataFrame or a mapping; or a file of
+            either, CSV or ``.npy``.
+        variables: of equations, names of the unknowns, in order; by default all other names that
+            occur.
+        imaginary: of equations, what the imaginary unit is called, as for `nag.system`.
+        formulation: of a mechanism's model, as for `nag.model`.
+        start: how the family is solved for random parameters, as for
+            `nag.solving.parameter.solve_generic`: a start system, or ``"parameter"``, by loops,
+            which is the default where the number of solutions is known.
+        count: the number of solutions of a general member, if it is known; with loops and with
+            ``known`` no member is called complete without it. By default the one that the case's
+            ``[family]`` gives.
+        known: values of the parameters, shape ``(k,)``, and regular solutions there, shape
+            ``(S, n)``, from which the family is solved instead.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
+
+    Raises:
+        nag.NagError: if equations, parameters or values do not fit each other.
+        nag.StartError: if the family cannot be solved that way.
+
+    Reference: Morgan & Sommese, Coefficient-parameter polynomial continuation, 1989.
+
+    >>> import nag
+    >>> circles = nag.solve_family(["x^2 + y^2 = r", "x = a*y"], ["r", "a"], [[2, 1], [8, -1]])
+    >>> circles.points.shape, circles.complete.all()
+    ((2, 2, 2), np.True_)
+    >>> sorted(circles.real(0).round(9).tolist())
+    [[-1.0, -1.0], [1.0, 1.0]]
+    """
+    from nag.solving.family_members import list_names, solve_family_members
+
+    if values is None:
+        raise NagError(
+            "values: none are given; give an array, shape (members, parameters), columns by their "
+            "names, or a file of either"
+        )
+    named = parameters is None
+    names = _names_of_columns(values) if named else list_names(parameters)
+    asked = names, named, variables, imaginary, formulation
+    family, own, solutions = _family_in(equations, *asked)
+    values = _values_of_members(values, family.parameters, own)
+    count = solutions if count is None else count
+    if start == "auto" and solutions is not None and known is None:
+        start = "parameter"
+    return solve_family_members(family, values, start=start, count=count, known=known, run=run)
+
+
+def _names_of_columns(values: Any) -> list[str]:
+    """The names of the columns of values; none where they have none."""
+    if names_file(values):
+        from nag.files.member_values import read_member_names
+
+        return read_member_names(values)
+    return [str(name) for name in values.keys()] if hasattr(values, "keys") else []  # noqa: SIM118
+
+
+def _values_of_members(
+    values: Any, parameters: Sequence[str], own: Sequence[complex] | None
+) -> Any:
+    """Values as they are given, or from a file; those that a table leaves out are the case's own.
+
+    Args:
+        own: values of the case's parameters, if it has any.
+    """
+    if names_file(values):
+        from nag.files.member_values import read_member_values
+
+        return read_member_values(values, parameters, own or [0] * len(parameters))
+    if own is None or not hasattr(values, "keys") or not len(values.keys()):
+        return values
+    known = {str(name): values[name] for name in values.keys()}  # noqa: SIM118
+    count = len(next(iter(known.values())))
+    return {n: [x] * count for n, x in zip(parameters, own, strict=True)} | known
+
+
+def _family_in(
+    given: Any,
+    names: Sequence[str],
+    by_name: bool,
+    variables: Any,
+    imaginary: str | None,
+    formulation: str,
+) -> tuple[Family, list[complex] | None, int | None]:
+    """The family that is meant; of a case's ``[family]`` its own values, and how many solutions.
+
+    Args:
+        by_name: whether the names are those of columns of values.
+
+    Raises:
+        nag.NagError: if it is not said which are the parameters, or they are none.
+    """
+    from nag.mechanism.problem import problem_of
+    from nag.solving.family_members import family_of, list_names
+
+    if is_a(given, "nag.files.cases", "Case"):
+        member = given.family
+        if member is not None:
+            family = member.symmetric.original
+            # Columns have names, in any order, and those that are left out their own values.
+            subset = by_name and {*names} <= {*family.parameters}
+            if not names or tuple(names) == family.parameters or subset:
+                return family, [complex(v) for v in member.values], member.solutions
+        if names and given.system is not None and {*names} <= given.parameters.keys():
+            from nag.files.cases import freed_system
+
+            return family_of(freed_system(given, names), names), None, None
+    if not names:
+        raise NagError("parameters: which are they? give their names, ['a', 'b']")
+    every = None if variables is None else [*list_names(variables), *names]
+    asked = problem_of(given, every, imaginary=imaginary, formulation=formulation)
+    return family_of(asked.system, names), None, None
+
+
 # --- Pictures
 
 
+@takes_components
 @takes_run
 def plot(
     given: Any,
@@ -526,7 +1045,7 @@ def plot(
     """Draw real curves, joint angles, paths of points, or bodies with joints; one of these.
 
     Args:
-        given: anything that describes a problem, see `nag.decompose`, a file's name, or components
+        given: anything that describes a problem, see `nag.problem`, or components
             that were found.
         path: the file, ending in .svg, .png or .pdf.
         onto: two variables or three, names or a text of them with commas: the real points of the
@@ -569,21 +1088,20 @@ def plot(
         raise NagError("component: is for onto; leave it out")
     check_kind(target)
     check_target(target)
-    opened = open_file(given)
-    title = opened.title if is_a(opened, "nag.files.cases", "Case") else ""
+    title = given.title if is_a(given, "nag.files.cases", "Case") else ""
     if kind not in ("onto", "tree"):
         from nag.mechanism.problem import problem_of
 
-        problem = problem_of(opened, formulation=formulation)
+        asked_of = problem_of(given, formulation=formulation)
         return plot_mechanism(
-            problem, kind, asked[kind], title, target, run, onto=onto, circuit=circuit
+            asked_of, kind, asked[kind], title, target, run, onto=onto, circuit=circuit
         )
 
-    def check(system: PolynomialSystem) -> None:
+    def check(system: PolynomialSystem, _: object) -> None:
         if kind == "onto":
             variables_onto(onto or (), system.own_variables)
 
-    found, _ = _find_in(given, opened, run, check, real=kind == "onto")
+    found, _ = _find_in(given, run, formulation, check=check, real=kind == "onto")
     chosen = None if component is None else {component: component_numbered(found, component)}
     return plot_components(found, kind, onto, title, target, run, chosen)
 
@@ -597,21 +1115,37 @@ def _listed_names(names: Sequence[str] | str | None) -> tuple[str, ...] | None:
 # --- Proofs
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Certified:
     """What was proved of a result.
 
     Attributes:
-        rows: labelled lines; all_proved: whether nothing was refuted or left open.
+        rows: labelled lines, which say how long it took as well, and are not compared.
+        all_proved: whether nothing was refuted or left open.
         certificate, paths: of the points, and of the paths or loops, if they were asked for.
         claims: how every statement of an export of the result stands.
     """
 
-    rows: list[tuple[str, str]]
+    rows: tuple[tuple[str, str], ...] = field(compare=False)
     all_proved: bool
     certificate: SolutionsCertificate | DecompositionCertificate
     paths: ProvedPaths | tuple[ProvedMonodromy, ...] | None
     claims: tuple[Claim, ...]
+
+    __eq__ = equal_values
+
+    @property
+    def found(self) -> SolveResult | Decomposition:
+        """The result that it is of."""
+        from nag.solving.certificate import SolutionsCertificate
+
+        of = self.certificate
+        return of.result if isinstance(of, SolutionsCertificate) else of.decomposition
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing was left open: the same as `all_proved`."""
+        return self.all_proved
 
     def document(self) -> dict[str, Any]:
         """The boxes, and what is claimed, as a JSON object."""
@@ -629,32 +1163,49 @@ class Certified:
         return "\n".join(label_lines(self.rows))
 
 
-def certify(found: Any, paths: bool = False) -> Certified:
+@takes_files
+@takes_run
+def certify(
+    found: Any, paths: bool = False, *, formulation: str = "auto", run: Run = DEFAULT_RUN
+) -> Certified:
     """Prove the points of a result: one zero in a box about each, distinct, and which are real.
 
     Args:
-        found: what `nag.solve` or `nag.decompose` returned, or the name of an export of it.
+        found: what `nag.solve` or `nag.decompose` returned, an export of it, or a component; or
+            anything that describes a problem, see `nag.problem`, which is solved now if it is as
+            many equations as unknowns and no mechanism, else decomposed.
         paths: whether the paths from the start system are proved as well, and of components the
             loops that connect their points.
+        formulation: of a mechanism's model, as for `nag.model`.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
-        What was proved; it is true where nothing was refuted or left open.
+        What was proved; it is true where nothing was refuted or left open. Its ``found`` is the
+        result.
 
     Raises:
-        nag.NagError: if ``found`` is no such result.
+        nag.NagError: if ``found`` is nothing of that kind.
 
     >>> import nag
     >>> bool(nag.certify(nag.solve(["x^2 + y^2 - 1", "x - y"])))
     True
+    >>> proved = nag.certify("x^2 + y^2 - 1")
+    >>> proved.found
+    <Decomposition: 1 component of dimension 1, degree 2>
     """
-    opened = open_file(found)
-    known = is_a(opened, "nag.solving.solutions", "SolveResult")
-    if not (known or is_a(opened, "nag.witness.witness", "Decomposition")):
-        raise NagError(
-            f"found: {value_text(found)} is given; give what nag.solve or nag.decompose returns, "
-            "or the name of an export"
-        )
-    return certify_result(opened, paths)
+    if is_a(found, "nag.witness.witness", "WitnessSet"):
+        found = _of_one_component(found)
+    known = is_a(found, "nag.solving.solutions", "SolveResult")
+    if known or is_a(found, "nag.witness.witness", "Decomposition"):
+        if formulation != "auto":
+            raise NagError("formulation: a result is given; it is in one already")
+        return certify_result(found, paths)
+    from nag.mechanism.problem import problem_of
+
+    asked = problem_of(found, formulation=formulation)
+    square = len(asked.system.polynomials) == asked.system.n
+    solved = asked.model is None and square
+    return certify_result(asked.solve(run=run) if solved else asked.decompose(run=run), paths)
 
 
 def certify_result(
@@ -680,7 +1231,8 @@ def certify_result(
     proved, further, good, claims = prove(certificate) if paths else (None, [], True, claims)
     claims = (*claims, *lost)
     good = good and certificate.all_proved and nothing_against(claims)
-    return Certified([*rows, *further, *claims_rows(claims)], good, certificate, proved, claims)
+    said = (*rows, *further, *claims_rows(claims))
+    return Certified(said, good, certificate, proved, claims)
 
 
 Further = tuple[Any, "list[Row]", bool, tuple["Claim", ...]]

@@ -186,7 +186,7 @@ def test_parameters_whose_imaginary_parts_cancel_are_real(tmp_path: Path) -> Non
 
 
 def test_complex_parameters_are_freed(tmp_path: Path) -> None:
-    found = freed_system(with_parameters(tmp_path), ["c"])
+    found = freed_system(nag.read_case(with_parameters(tmp_path)), ["c"])
     assert found.variables == ("x", "y", "c", "I")
     assert found.imaginary
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from linkages import case, exact, four_bar, general_loop, loop, residual, spherical_four_bar
 
+from nag import decompose
 from nag.bench.chains import BENNETT, CHAINS, attach_cell, ring
 from nag.mechanism.axes import skew
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import ModelError, model
-from nag.mechanism.problem import decompose
 
 
 def test_bennett_is_one_bilinear_equation():

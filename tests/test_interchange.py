@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from nag import solve
 from nag.algebra.expression import parse_polynomial
-from nag.mechanism.problem import solve
 from nag.solving.start.interchange import Interchange
 from nag.solving.start.target import Target
 from nag.solving.start.total_degree import Shape, total_degree

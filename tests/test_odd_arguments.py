@@ -185,7 +185,7 @@ ODD: dict[str, list[Callable[[], Any]]] = {
         lambda: nag.read_solutions(b"x"),
         lambda: nag.read_case(3),
     ],
-    "values": [lambda: nag.read_case(ROOT / "cases" / "bennett.toml", 3)],
+    "set": [lambda: nag.read_case(ROOT / "cases" / "bennett.toml", 3)],
     "component": [
         lambda: D.sample(system(), None, 2),
         lambda: D.sample(in_space(), line(), 2),

@@ -17,6 +17,7 @@ import pytest
 from linkages import CASES
 
 import nag
+from nag.questions import FILE_OPTIONS
 
 CIRCLE_AND_LINE = "(x^2 + y^2 - 1)*(x - y)"
 NAG = Path(nag.__file__).parent
@@ -72,7 +73,7 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
     by_name = nag.local(case, names[0])
     at = dict(zip(nag.read(case).system.variables, nag.read(case).points[0].at, strict=True))
     assert by_name == nag.local(case, at) == nag.local(case, tuple(at.values()))
-    with pytest.raises(nag.NagError, match="give the name of one"):
+    with pytest.raises(nag.NagError, match=r"which one\? give a name \('singular, s1 = -1'"):
         nag.local(case)
 
 
@@ -84,8 +85,15 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
         (lambda: nag.sample("x - y", 2), "component: 2: there is one component, number 1"),
         (lambda: nag.sample("x - y", component=0), "component: 0"),
         (lambda: nag.intersect("x - y", 1, 2), "second: 2"),
-        (lambda: nag.local("x^2 - 1"), "it has none with a name"),
-        (lambda: nag.certify("x^2 - 1"), "give what nag.solve or nag.decompose returns"),
+        (
+            lambda: nag.local("x^2 - 1"),
+            "which one\\? give a dict, {'x': 1, ...} or 1 num",
+        ),
+        (lambda: nag.member("x*y"), "which one\\? give a dict, {'x': 1, ...} or 2 num"),
+        (lambda: nag.solve_family("cases/rhombus.toml"), "values: none are given"),
+        (lambda: nag.solve_family("x^2 - a", values=[[1]]), "parameters: which are they"),
+        (lambda: nag.solve("x^2 - 1", set={"a": 1}), "set: says how a file is read"),
+        (lambda: nag.certify(3), "system: something of type int is given"),
         (lambda: nag.write(nag.sample("x*y"), "file"), "Samples is given; give what nag.decompose"),
         (lambda: nag.write("x", "file"), "give what nag.decompose, nag.intersect or nag.solve"),
         (lambda: nag.eliminate("x - y", onto="z"), "'z' is not one of the variables"),
@@ -202,7 +210,10 @@ def _written(node: ast.FunctionDef) -> list[tuple[str, object]]:
         *map(ast.literal_eval, node.args.kw_defaults),
     ]
     found = [(arg.arg, default) for arg, default in zip(given, defaults, strict=True)]
-    return found if node.args.kwarg is None else [*found, ("run", nag.Run())]
+    options = "" if node.args.kwarg is None else ast.unparse(node.args.kwarg.annotation)  # type: ignore[arg-type]
+    files, run = [*FILE_OPTIONS.items()], [("run", nag.Run())]
+    unpacked = {"FileOptions": files, "RunOptions": run, "Options": [*files, *run], "": []}
+    return [*found, *unpacked[options.removeprefix("Unpack[").removesuffix("]")]]
 
 
 def _taken(function: Any) -> list[tuple[str, object]]:

@@ -72,7 +72,7 @@ def _family_by_columns(options: argparse.Namespace, case: Case) -> Family:
     system = case.system
     names = read_member_names(options.values)
     if system is not None and not system.nonzero and set(names) <= set(case.parameters):
-        system = freed_system(options.case, names, dict(options.set))
+        system = freed_system(case, names)
     known = () if system is None or system.nonzero else system.own_variables
     if system is None or not names or not set(names) <= set(known):
         raise UsageError(

@@ -76,7 +76,7 @@ def _for_parameters(options: argparse.Namespace) -> CommandAnswer:
         if name in names:
             raise UsageError(f"--set {name}: is an unknown by --free; give it no value")
     case = read_case_file(options.case, options.set)
-    system = freed_system(options.case, names, dict(options.set))
+    system = freed_system(case, names)
     if system.imaginary:
         raise UsageError(f"{options.case}: --free: is for cases with real coefficients")
     try:

@@ -320,7 +320,7 @@ def _parameter(
 
 def with_values(table: CaseTable, values: Mapping[str, Any]) -> CaseTable:
     """The table of parameters with other values for some of them."""
-    check_type(values, Mapping, "values", "a dict of numbers or expressions by name")
+    check_type(values, Mapping, "set", "a dict of numbers or expressions by name")
     for name in values:
         if name not in table.values:
             known = (
@@ -330,7 +330,7 @@ def with_values(table: CaseTable, values: Mapping[str, Any]) -> CaseTable:
                 key_text(name), f"is no parameter of the case{nearest(name, table.values)}; {known}"
             )
     given = {
-        name: value if isinstance(value, str) else exact_complex(value, f"values[{name!r}]")
+        name: value if isinstance(value, str) else exact_complex(value, f"set[{name!r}]")
         for name, value in values.items()
     }
     return replace(table, values={**table.values, **given})

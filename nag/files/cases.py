@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -18,9 +18,10 @@ from typing import TYPE_CHECKING, Any, Literal
 from nag.algebra.bounded import Budget
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.family import Family
-from nag.algebra.given import check_path
+from nag.algebra.fixed_mapping import FixedMapping
+from nag.algebra.given import check_path, check_type
 from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, values_with_unit
-from nag.algebra.number import ComplexNumber, Number
+from nag.algebra.number import ComplexNumber, Number, brief_number_text
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import NamedPoint, PolynomialSystem
@@ -40,6 +41,7 @@ from nag.files.case_table import (
 )
 from nag.files.formats import READ, ROBOTS
 from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
+from nag.text.table import lines_of, one_line
 
 if TYPE_CHECKING:
     from nag.algebra.symmetric_family import FamilyMember
@@ -47,6 +49,8 @@ if TYPE_CHECKING:
     from nag.mechanism.graph import Mechanism
 
 __all__ = ["Case", "CaseError", "NamedPoint", "Truth", "TruthAtReference", "read_case"]
+
+SET = "a dict of numbers or expressions by the names of parameters"
 
 _TOML = re.compile(r"^[ \t]*(?:title|kind)[ \t]*=[ \t]*[\"']", re.MULTILINE)
 
@@ -170,7 +174,7 @@ class Case:
 
     title: str
     kind: CaseKind
-    path: Path
+    path: Path = field(compare=False)
     parameters: Mapping[str, Number | ComplexNumber]
     system: PolynomialSystem | None = None
     mechanism: Mechanism | None = None
@@ -180,7 +184,22 @@ class Case:
     family: FamilyMember | None = None
     assembly: AssemblyModel | None = None
     truth_at_reference: TruthAtReference | None = None
-    notes: tuple[str, ...] = ()
+    notes: tuple[str, ...] = field(default=(), compare=False)
+    text: str = field(default="", compare=False)
+    format: str = field(default="toml", compare=False)
+    set: Mapping[str, str | Number] = field(default_factory=lambda: FixedMapping({}), compare=False)
+
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        rows = [("kind", self.kind)]
+        if self.parameters:
+            values = (f"{name} = {brief_number_text(x)}" for name, x in self.parameters.items())
+            rows.append(("parameters", ", ".join(values)))
+        if self.points:
+            rows.append(("points", ", ".join(point.name for point in self.points)))
+        described = one_line(self.described)[1:-1]
+        return lines_of(f'Case "{self.title}"', [*rows, ("describes", described)])
 
     @property
     def described(self) -> Mechanism | AssemblyModel | PolynomialSystem:
@@ -204,7 +223,7 @@ class Case:
 
 def read_case(
     path: str | os.PathLike[str],
-    values: Mapping[str, str | Number] | None = None,
+    set: Mapping[str, str | Number] | None = None,
     *,
     format: str = "auto",
     hold: Sequence[str] = (),
@@ -213,7 +232,7 @@ def read_case(
     """Read the case file at ``path``.
 
     Args:
-        values: numbers or expressions for some of the parameters, in place of the file's.
+        set: numbers or expressions for some of the parameters, in place of the file's.
         format: one of `nag.files.formats.READ`; by default told by the content.
         hold: links of a robot (URDF, MJCF) that are fixed to the ground.
         at: angles in radians and lengths of a robot's joints at its reference configuration, 0 by
@@ -230,8 +249,24 @@ def read_case(
     """
     check_path(path)
     path = Path(path)
+    check_type({} if set is None else set, Mapping, "set", SET)
+    hold = [hold] if isinstance(hold, str) else hold
     text = read_case_text(path)
     chosen = _format_of(path, text, format)
+    case = _case_of_text(path, text, (format, chosen), set or {}, hold, at)
+    return replace(case, text=text, format=chosen, set=FixedMapping(set or {}))
+
+
+def _case_of_text(
+    path: Path,
+    text: str,
+    formats: tuple[str, str],
+    values: Mapping[str, str | Number],
+    hold: Sequence[str],
+    at: Mapping[str, str | Number] | None,
+) -> Case:
+    """The case of a file; ``formats``: the one that is asked for, and the one that it has."""
+    format, chosen = formats
     if chosen in ROBOTS:
         return _robot_case(path, text, chosen, values, hold, at or {})
     if hold or at is not None:
@@ -360,19 +395,14 @@ def _system_case(
     return Case(path.name, "system", path, parameters, system=system)
 
 
-def freed_system(
-    path: str | os.PathLike[str], names: Sequence[str], values: Mapping[str, str] | None = None
-) -> PolynomialSystem:
+def freed_system(case: Case, names: Sequence[str]) -> PolynomialSystem:
     """The equations of a case; the parameters ``names`` are its last variables.
-
-    Args:
-        values: other values of the other parameters, as in a case.
 
     Raises:
         CaseError: if the case is no polynomial system, has no such parameters, or has others that
             depend on them.
     """
-    case = read_case(path, values)
+    path, text, values = case.path, case.text, dict(case.set)
     if case.system is None or case.assembly is not None:
         raise CaseError(f"{path}: is a mechanism; parameters are freed in polynomial systems")
     for name in names:
@@ -381,14 +411,13 @@ def freed_system(
                 f"{path}: {quote(name)} is no parameter{nearest(name, case.parameters)}; it has "
                 f"{', '.join(case.parameters) or 'none'}"
             )
-    text = read_case_text(Path(path))
-    if (format := _format_of(Path(path), text, "auto")) != "toml":
+    if case.format != "toml":
         from nag.files.formats.reading import read_system_text
 
-        return read_system_text(str(path), text, format, values, freed=names)[0]
-    top = CaseTable(str(path), "", parse_toml(Path(path), text))
-    for other, text in with_values(top.table("parameters"), values or {}).values.items():
-        used = sorted(names_in(text) & set(names)) if isinstance(text, str) else []
+        return read_system_text(str(path), text, case.format, values, freed=names)[0]
+    top = CaseTable(str(path), "", parse_toml(path, text))
+    for other, given in with_values(top.table("parameters"), values).values.items():
+        used = sorted(names_in(given) & {*names}) if isinstance(given, str) else []
         if used and other not in names:
             raise CaseError(f"{path}: parameters: {other}: depends on {used[0]}; free it as well")
     own = case.system.variables

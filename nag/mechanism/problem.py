@@ -2,8 +2,8 @@
 
 Equations, mechanisms, their models, parts that may be assembled, tables by Denavit and Hartenberg
 and cases of all of these come down to a `Problem`. What solves, decomposes, moves or reports one
-asks the problem, and never again what it was given as. `nag.decompose` and `nag.solve` take
-whatever describes one; `nag.decomposition` and `nag.solving` take systems only.
+asks the problem, and never again what it was given as. What `nag.questions` asks takes whatever
+describes one; `nag.decomposition` and `nag.solving` take systems only.
 """
 
 from __future__ import annotations
@@ -178,12 +178,19 @@ class Problem:
         return solve_system(self.system, start=start, run=run)
 
 
-def problem_of(given: Any, variables: Any = None, *, formulation: str = "auto") -> Problem:
+def problem_of(
+    given: Any,
+    variables: Any = None,
+    *,
+    imaginary: str | None = None,
+    formulation: str = "auto",
+) -> Problem:
     """The problem that a mechanism, a model, parts, a case, a system or equations describe.
 
     Args:
         given: any of these, or a problem, which is taken as it is.
         variables: of equations, their names in order.
+        imaginary: of equations, what the imaginary unit is called, as for `nag.system`.
         formulation: of a mechanism as for `nag.model`, or of a table: ``"H"`` or ``"E"``.
 
     Raises:
@@ -195,9 +202,10 @@ def problem_of(given: Any, variables: Any = None, *, formulation: str = "auto") 
     problem = _describe_problem(given, formulation)
     if problem is None:
         check_formulation(formulation)
-        return Problem(system_of_equations(given, variables))
-    if variables is not None:
-        raise NagError("variables: are for equations; what is given has its own, leave them out")
+        return Problem(system_of_equations(given, variables, imaginary=imaginary))
+    for name, value in (("variables", variables), ("imaginary", imaginary)):
+        if value is not None:
+            raise NagError(f"{name}: is for equations; what is given has its own, leave it out")
     return problem
 
 
@@ -265,52 +273,6 @@ def in_real_coordinates(problem: Problem) -> Problem:
     return problem_of(cartesian_model(problem.model.framework))  # type: ignore[union-attr]
 
 
-@answers_early
-def decompose(
-    system: Any,
-    variables: Any = None,
-    *,
-    run: Run = DEFAULT_RUN,
-    symmetries: Iterable[Any] | None = None,
-) -> Decomposition:
-    """The irreducible components over the complex numbers of what satisfies the equations.
-
-    Equations that factor are decomposed apart, the others intersected one by one (u-generation:
-    Duff, Leykin & Rodriguez 2022); points are split by monodromy, and components confirmed by the
-    trace test (Sommese, Verschelde & Wampler 2001, 2002).
-
-    Args:
-        system: a `nag.Mechanism`, a `nag.model`, a `nag.Case`, a `nag.PolynomialSystem`, or
-            equations as `nag.system` takes them: texts, sympy's expressions, one or a list.
-        variables: of equations, their names in order; see `nag.system`.
-        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
-        symmetries: signed permutations of the variables that keep the equations, each a
-            `nag.SignedPermutation`, a dict ``{"x": "-x", "y": "z", "z": "y"}`` or a sign for each
-            variable. Of the components that they carry into each other one is reported, with the
-            size of its orbit. By default those that the model or the case has; ``()`` for none.
-
-    Returns:
-        The components, by falling dimension, as witness sets: points of shape ``(degree, n)``.
-        Of a mechanism they live in the variables of ``nag.model(mechanism).system``.
-
-    Raises:
-        nag.mechanism.model.ModelError: if a mechanism has no loop.
-        nag.algebra.symmetry.SymmetryError: if a symmetry does not keep the equations.
-        ValueError: if another argument makes no sense; the message says which, and what would.
-
-    >>> import nag
-    >>> answer = nag.decompose(["(x^2 + y^2 - 1)*(x - y)^2"])
-    >>> [(c.dimension, c.degree, c.multiplicity) for c in answer.components]
-    [(1, 1, 2), (1, 2, 1)]
-    """
-    problem = problem_of(system, variables)
-    kept = read_symmetries(symmetries, problem)
-    try:
-        return problem.decompose(run=run, symmetries=kept)
-    except SymmetryError as error:
-        raise SymmetryError(f"symmetries: {error}") from None
-
-
 def read_symmetries(given: Iterable[Any] | None, problem: Problem) -> tuple[SignedPermutation, ...]:
     """Symmetries given as signed permutations, as maps of names, or as signs of the variables.
 
@@ -335,43 +297,3 @@ def read_symmetries(given: Iterable[Any] | None, problem: Problem) -> tuple[Sign
         except (TypeError, ValueError) as error:
             raise SymmetryError(f"symmetries[{i}]: {error}") from None
     return tuple(found)
-
-
-@answers_early
-def solve(
-    system: Any,
-    variables: Any = None,
-    *,
-    start: str = "auto",
-    run: Run = DEFAULT_RUN,
-) -> SolveResult:
-    """All isolated solutions of equations, each once, with their multiplicities.
-
-    Equations that factor are solved apart; what comes down to one variable, or to two equations in
-    two of few solutions, is solved exactly; else one path is tracked for each solution of a start
-    system (Sommese & Wampler 2005, chapters 7 and 8). Of a case with a ``[family]`` whose
-    number of solutions is known, they are as many as the family has.
-
-    Args:
-        system: equations as `nag.system` takes them (texts, sympy's expressions, one or a list), a
-            `nag.PolynomialSystem`, a `nag.Case`, or a mechanism or its model.
-        variables: of equations, their names in order; see `nag.system`.
-        start: ``"auto"`` (the family's solutions where their number is known, else the least
-            work), ``"total"``, ``"multihomogeneous"``, ``"polyhedral"``, ``"monodromy"``, or
-            ``"parameter"`` for loops of the parameters of a case's family.
-        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
-
-    Returns:
-        The solutions; ``.points`` has shape ``(k, n)``, ``.real`` are the real ones.
-
-    Raises:
-        nag.StartError: if there would be too many paths, or ``"parameter"``
-            is asked for and there is no family.
-        ValueError: if an argument makes no sense; the message says which, and what would.
-
-    >>> import nag
-    >>> answer = nag.solve(["x^2 + y^2 - 1", "x - y"])
-    >>> [[round(float(z.real), 6) for z in s.point] for s in answer.real]
-    [[-0.707107, -0.707107], [0.707107, 0.707107]]
-    """
-    return problem_of(system, variables).solve(start=start, run=run)

@@ -8,7 +8,7 @@ solved by itself, as `nag.solving.parameter.solve_targets` solves one.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -20,6 +20,7 @@ import numpy as np
 from nag.algebra.family import Family
 from nag.algebra.from_python import exact_complex, system
 from nag.algebra.imaginary_unit import append_unit
+from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError, StartError
 from nag.numerics.coincidence import radii_of_balls
 from nag.numerics.read_only import (
@@ -40,7 +41,7 @@ from nag.tracking.run import DEFAULT_RUN, Run, TellFound, takes_run
 from nag.tracking.settings import Settings, find_settings
 from nag.tracking.track import track, track_members
 
-__all__ = ["FamilySolutions", "solve_family", "solve_members"]
+__all__ = ["FamilySolutions", "family_of", "solve_family_members", "solve_members"]
 
 # Members that are tracked together, and paths; neither changes an answer.
 MEMBERS, PATHS = 1000, 1 << 16
@@ -166,49 +167,27 @@ class FamilySolutions:
 
 
 @takes_run
-def solve_family(
-    equations: Any,
-    parameters: Sequence[Any],
+def solve_family_members(
+    family: Family,
     values: Any,
-    variables: Any = None,
     *,
-    imaginary: str | None = None,
     start: str = "auto",
     count: int | None = None,
     known: tuple[Any, Any] | None = None,
     run: Run = DEFAULT_RUN,
 ) -> FamilySolutions:
-    """The isolated solutions of many systems that differ in the values of their parameters.
+    """The isolated solutions of many members of a family, see `nag.solve_family`.
 
     Args:
-        equations: as many as there are unknowns, as for `nag.system`.
-        parameters: names of the parameters, or sympy's symbols.
-        values: those of each member, real or complex: an array, shape ``(M, k)``, in the order of
-            ``parameters``, or columns by their names: a DataFrame or a mapping.
-        variables: names of the unknowns, in order; by default all other names that occur.
-        imaginary: what the imaginary unit is called in equations as text, as for `nag.system`.
-        start: how the family is solved for random parameters, as for
-            `nag.solving.parameter.solve_generic`: a start system, or ``"parameter"``, by loops.
-        count: the number of solutions of a general member, if it is known; with loops and with
-            ``known`` no member is called complete without it.
-        known: values of the parameters, shape ``(k,)``, and regular solutions there, shape
-            ``(S, n)``, from which the family is solved instead.
+        family: the equations and their parameters.
+        values: of each member, see `check_values`.
+        start, count, known: as for `nag.solve_family`.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
-        nag.NagError: if equations, parameters or values do not fit each other.
+        nag.NagError: if family and values do not fit each other.
         nag.StartError: if the family cannot be solved that way.
-
-    Reference: Morgan & Sommese, Coefficient-parameter polynomial continuation, 1989.
-
-    >>> import nag
-    >>> circles = nag.solve_family(["x^2 + y^2 = r", "x = a*y"], ["r", "a"], [[2, 1], [8, -1]])
-    >>> circles.points.shape, circles.complete.all()
-    ((2, 2, 2), np.True_)
-    >>> sorted(circles.real(0).round(9).tolist())
-    [[-1.0, -1.0], [1.0, 1.0]]
     """
-    family = family_of(equations, parameters, variables, imaginary)
     wanted = check_values(family, values)
     if known is None:
         solved = solve_generic(family, start=start, count=count, run=run.without_found)
@@ -219,16 +198,31 @@ def solve_family(
 
 def family_of(
     equations: Any,
-    parameters: Sequence[Any],
+    parameters: Any,
     variables: Any = None,
     imaginary: str | None = None,
 ) -> Family:
-    """The family that equations and the names of parameters define.
+    """The family that equations, or a system, and the names of parameters define.
 
     Raises:
         NagError: if equations and unknowns are not as many, or a parameter has a wrong name.
     """
-    names = [str(name) for name in parameters]
+    names = list_names(parameters)
+    if isinstance(equations, PolynomialSystem):
+        given = equations
+        if variables is not None or imaginary is not None:
+            name = "imaginary" if variables is None else "variables"
+            raise NagError(f"{name}: is for equations; a system has its own, leave it out")
+        if given.nonzero:
+            raise NagError("system: some polynomials must not vanish there; give equations alone")
+        for name in names:
+            if name not in given.own_variables:
+                known = ", ".join(given.own_variables)
+                raise NagError(f"parameters: {name!r} does not occur; the names are {known}")
+        # The unit's own equation is made anew.
+        equations = given.text()[: len(given.polynomials) - given.imaginary]
+        variables = [name for name in given.own_variables if name not in names]
+        imaginary = given.variables[-1] if given.imaginary else None
     if variables is None:
         found = system(equations, imaginary=imaginary).own_variables
         unknowns = [name for name in found if name not in names]
@@ -239,6 +233,15 @@ def family_of(
         unknowns = list(system("0", variables).variables)
     made = system(equations, [*unknowns, *names], imaginary=imaginary)
     return Family.of_system(made, len(names))
+
+
+def list_names(parameters: Any) -> list[str]:
+    """Names that are given one by one, or as a text with commas or blanks between."""
+    if isinstance(parameters, str):
+        return parameters.replace(",", " ").split()
+    if not isinstance(parameters, Iterable):
+        parameters = [parameters]
+    return [str(name) for name in parameters]
 
 
 def check_values(family: Family, values: Any) -> np.ndarray:

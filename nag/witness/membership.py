@@ -71,7 +71,7 @@ class PointMembership:
     __repr__ = one_line
 
     def __str__(self) -> str:
-        on = [str(i) for i, a in enumerate(self.answers, 1) if a is Membership.MEMBER]
+        on = [str(i) for i in self.numbers]
         text = f"on component{'s' * (len(on) > 1)} {', '.join(on)}" if on else "on no component"
         if self.open:
             text += f"; not known for {', '.join(map(str, self.open))}"
@@ -83,6 +83,11 @@ class PointMembership:
         """The components that it lies on."""
         pairs = zip(self.components, self.answers, strict=True)
         return tuple(c for c, answer in pairs if answer is Membership.MEMBER)
+
+    @property
+    def numbers(self) -> tuple[int, ...]:
+        """Numbers, from 1, of the components that it lies on."""
+        return tuple(i for i, a in enumerate(self.answers, 1) if a is Membership.MEMBER)
 
     @property
     def open(self) -> tuple[int, ...]:

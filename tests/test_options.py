@@ -1,0 +1,153 @@
+"""What a command is told by an option, its function is told by a keyword of that name."""
+
+from __future__ import annotations
+
+import argparse
+import inspect
+from dataclasses import fields
+from functools import reduce
+from importlib import import_module
+
+import pytest
+
+import nag
+from nag.cli.command_line import COMMANDS
+from nag.questions import FILE_OPTIONS
+
+# Functions of other names.
+FUNCTIONS = {"family": "solve_family"}
+# Commands without a function at the top level, and what stands for them.
+TERMINAL = {
+    "show": "print(nag.read(path))",
+    "init": "writes a file to be edited",
+    "report": "writes a page of what nag.mobility, nag.motion and nag.decompose return",
+    "check": "compares with what is shipped with the program",
+    "bench": "measures this machine",
+    "chart": "draws measurements of this machine",
+    "completion": "is for a shell",
+}
+# What a terminal alone needs: files of results, which in Python are objects, and a process.
+FOR_TERMINALS = {
+    "json": "nag.write, and document() of every result",
+    "points": "to_numpy() of the result",
+    "csv": "to_dataframe() of the result",
+    "html": "the page of a report",
+    "quiet": "nothing is told unless progress= is given",
+    "memory_limit": "ends the whole process",
+}
+# Options by command and name, whose keyword has another name, with the reason.
+RENAMED = {
+    ("local", "at"): "point",  # a point is given by its name or by itself
+    ("member", "at"): "point",
+    ("eliminate", "at"): "point",
+    ("mobility", "at"): "point",  # of a robot `at`
+    ("intersect", "components"): "first",  # and second: two arguments
+    ("mobility", "local"): "detail",  # one of which is asked for
+    ("mobility", "components"): "detail",
+    ("mobility", "curves"): "detail",
+    ("plot", "out"): "path",
+}
+# A model tracks no paths, and is made within its bounds of work.
+TRACKS_NOTHING = {("model", "time_limit")}
+# Options whose answer is of another kind, or of another question: the function that gives it.
+ELSEWHERE = {
+    ("decompose", "sweep"): "nag.decomposition.sweep.sweep",
+    ("decompose", "modes"): "nag.mechanism.mode_decomposition.decompose_modes",
+    ("decompose", "certify"): "nag.certify",
+    ("decompose", "certify_paths"): "nag.certify",
+    ("solve", "certify"): "nag.certify",
+    ("solve", "certify_paths"): "nag.certify",
+    ("singular", "free"): "nag.decomposition.singular_parameters",
+    ("mobility", "check"): "nag.mechanism.other_equations.other_equations",
+    ("local", "check"): "nag.member",
+    ("motion", "angles"): "nag.kinematics.motion.Motion.table",
+    ("model", "format"): "nag.write",
+}
+# Keywords that a command has no option for, with the reason.
+IN_PYTHON = {
+    "variables": "a file names its variables",
+    "imaginary": "a file names its imaginary unit",
+    "symmetries": "a case declares its symmetries",
+    "parameters": "a case, or the table of values, names them",
+    "known": "solutions of an earlier call, as an array",
+    "count": "a case's [family] has it",
+    "progress": "a terminal has a line of its own",
+    "found": "a file of --json is kept up to date",
+}
+OF_MODELS = {
+    "modes": "for other assembly modes, which decompose --modes all goes through",
+    "space": "for a planar mechanism that is taken as one in space",
+}
+
+
+def options_of(command: str) -> set[str]:
+    """Names of a command's options, as keywords are written; not of the file that it reads."""
+    parser = argparse.ArgumentParser(add_help=False)
+    import_module(f"nag.cli.{command}").add_arguments(parser)
+    names = set()
+    for action in parser._actions:
+        if action.option_strings or action.dest == "point":
+            name = action.option_strings[-1] if action.option_strings else action.dest
+            names.add(name.removeprefix("--").replace("-", "_"))
+    return names
+
+
+def keywords_of(command: str) -> set[str]:
+    """Names of a function's arguments but the first, the run's fields for the run."""
+    function = getattr(nag, FUNCTIONS.get(command, command))
+    _, *names = inspect.signature(function).parameters
+    if "run" in names:
+        names += [each.name for each in fields(nag.Run)]
+        names.remove("run")
+    return {*names}
+
+
+ASKED = [name for name, *_ in COMMANDS if name not in TERMINAL]
+
+
+def test_every_command_has_its_function() -> None:
+    assert {FUNCTIONS.get(name, name) for name in ASKED} <= {*nag.__all__}
+
+
+@pytest.mark.parametrize("command", ASKED)
+def test_an_option_is_a_keyword_of_the_same_name(command: str) -> None:
+    known = keywords_of(command)
+    for name in options_of(command) - FOR_TERMINALS.keys():
+        if (command, name) in ELSEWHERE:
+            _, *path = ELSEWHERE[command, name].split(".")
+            assert callable(reduce(getattr, path, import_all(path)))
+        elif (command, name) in RENAMED:
+            assert RENAMED[command, name] in known, name
+        elif (command, name) not in TRACKS_NOTHING:
+            assert name in known, name
+
+
+def import_all(path: list[str]) -> object:
+    """The package `nag`, once a module is imported that is named by the beginning of a path."""
+    for k in range(1, len(path)):
+        try:
+            import_module(".".join(["nag", *path[:k]]))
+        except ModuleNotFoundError:
+            break
+    return nag
+
+
+@pytest.mark.parametrize("command", ASKED)
+def test_a_keyword_is_an_option_of_the_same_name(command: str) -> None:
+    asked = options_of(command)
+    renamed = {new for (of, _), new in RENAMED.items() if of == command}
+    apart = {*renamed, *FILE_OPTIONS, *IN_PYTHON, *(OF_MODELS if command == "model" else ())}
+    if "first" in renamed:
+        apart.add("second")
+    # What tracks nothing, or is decomposed or solved first only where no export is given.
+    apart |= {each.name for each in fields(nag.Run)} if "seed" not in asked else set()
+    apart |= {"formulation"} if command in ("certify", "family") else set()
+    assert keywords_of(command) - asked <= apart
+
+
+@pytest.mark.parametrize("command", ASKED)
+def test_a_file_is_read_in_the_same_way_by_every_function(command: str) -> None:
+    taken = inspect.signature(getattr(nag, FUNCTIONS.get(command, command))).parameters
+    assert {name: taken[name].default for name in FILE_OPTIONS} == FILE_OPTIONS
+    documented = getattr(nag, FUNCTIONS.get(command, command)).__doc__
+    assert "how a file is read, as for `nag.read`" in documented
