@@ -335,3 +335,17 @@ def test_certificates_are_found_again_block_by_block(tmp_path, monkeypatch) -> N
         assert (engine.ledger.found, engine.ledger.kept) == (found, kept)
     assert told[:4] == [("proving boxes, blocks", k, 4) for k in range(1, 5)]
     assert told[4:] == [("proving errors, blocks", k, 4) for k in range(1, 5)]
+
+
+def test_what_is_proved_of_an_export_is_kept(tmp_path: Path, capsys) -> None:
+    export, ledger = tmp_path / "katsura.json", tmp_path / "ledger"
+    export.write_text(solved(katsura(9)))
+    told = ["certify", str(export), "--resume", str(ledger), "--json", "-"]
+    answers = []
+    for found in (False, True):
+        assert main(told) == 0
+        answer = capsys.readouterr()
+        assert (": 0 blocks found" in answer.err) is not found
+        assert ("0 worked out" in answer.err) is found
+        answers.append(answer.out)
+    assert answers[0] == answers[1]

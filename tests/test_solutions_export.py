@@ -167,6 +167,32 @@ def test_the_command_writes_solutions_as_arrays(tmp_path: Path, capsys) -> None:
     assert "--points" in capsys.readouterr().err
 
 
+def test_the_command_writes_solutions_as_a_table(tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    pandas = pytest.importorskip("pandas")
+    case, file = tmp_path / "case.toml", tmp_path / "roots.parquet"
+    case.write_text(CASE)
+    assert main(["solve", str(case), "--points", str(file), "--quiet"]) == 0
+    roots, frame = nag.solve(nag.read_case(case)), pandas.read_parquet(file)
+    for i, name in enumerate(["x", "y"]):
+        assert np.array_equal(
+            frame[f"{name}.real"] + 1j * frame[f"{name}.imag"], roots.points[:, i]
+        )
+    for name in ("multiplicity", "real", "residual", "accuracy", "condition", "precision"):
+        assert frame[name].tolist() == [getattr(root, name) for root in roots]
+
+
+def test_a_table_that_cannot_be_written_is_refused_before_the_work(
+    tmp_path: Path, capsys, monkeypatch
+) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    case, file = tmp_path / "case.toml", tmp_path / "roots.parquet"
+    case.write_text(CASE)
+    assert main(["solve", str(case), "--points", str(file), "--quiet"]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and "pip install pandas pyarrow" in said and not file.exists()
+
+
 def test_two_options_do_not_name_one_file(tmp_path, capsys) -> None:
     case, file = tmp_path / "a.txt", tmp_path / "a.out"
     case.write_text("x^2 - 2\n")

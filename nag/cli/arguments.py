@@ -269,17 +269,22 @@ def add_tracking(parser: argparse.ArgumentParser) -> None:
         default="default",
         help="how carefully paths are tracked (default: default)",
     )
-    group.add_argument(
+    add_sharing(group)
+    add_quiet(group)
+
+
+def add_sharing(parser: argparse._ActionsContainer) -> None:
+    """The options of the commands whose work falls into blocks."""
+    parser.add_argument(
         "--resume",
         metavar="DIR",
         help="keep finished work in the folder DIR, and find there what an earlier run has done",
     )
-    group.add_argument(
+    parser.add_argument(
         "--executor",
         metavar="NAME",
-        help="who tracks paths: processes:N, dask://ADDRESS or mpi (default: threads)",
+        help="who works out blocks: processes:N, dask://ADDRESS or mpi (default: threads here)",
     )
-    add_quiet(group)
 
 
 def add_quiet(parser: argparse._ActionsContainer) -> None:

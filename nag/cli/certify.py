@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import add_quiet
+from nag.cli.arguments import add_quiet, add_sharing
 from nag.cli.running import CommandAnswer
 
 if TYPE_CHECKING:
@@ -33,6 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="write the boxes to FILE as JSON; - for standard output alone",
     )
+    add_sharing(parser)
     add_quiet(parser)
 
 

@@ -374,6 +374,36 @@ def write_arrays(arrays: dict[str, Any], target: str, option: str) -> None:
         write_target(target, lambda stream: np.savez(stream, **arrays))
 
 
+def check_tables(option: str) -> None:
+    """Refuse a table where nothing that writes such is installed, before anything is worked out.
+
+    Raises:
+        UsageError: if pandas or pyarrow is not.
+    """
+    from importlib.util import find_spec
+
+    missing = [name for name in ("pandas", "pyarrow") if find_spec(name) is None]
+    if missing:
+        names = " ".join(missing)
+        raise UsageError(
+            f"--{option}: .parquet is written by pandas with pyarrow; pip install {names}, or name "
+            "a file .npz"
+        )
+
+
+def write_table(columns: dict[str, Any], target: str, option: str) -> None:
+    """Write columns of equal length by name to the Parquet file that an option names.
+
+    Raises:
+        UsageError: if the file cannot be written.
+    """
+    from nag.files.written_file import write_target
+    from nag.text.table import data_frame
+
+    with writing_to(option):
+        write_target(target, lambda stream: data_frame(columns).to_parquet(stream))
+
+
 def _document_parts(document: dict[str, Any]) -> Iterator[str]:
     """A JSON object as it is written, part by part."""
     from nag.text.json_text import lay_out_parts

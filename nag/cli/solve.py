@@ -16,7 +16,15 @@ from nag.cli.arguments import (
     read_problem,
 )
 from nag.cli.certify import proof_asked_for
-from nag.cli.running import CommandAnswer, chosen_run, name_case, run_row, write_arrays
+from nag.cli.running import (
+    CommandAnswer,
+    check_tables,
+    chosen_run,
+    name_case,
+    run_row,
+    write_arrays,
+    write_table,
+)
 
 if TYPE_CHECKING:
     from nag.solving.solutions import SolveResult
@@ -30,7 +38,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_running(parser)
     add_certify(parser)
     parser.add_argument(
-        "--points", metavar="FILE", help="write the solutions to FILE as NumPy arrays (.npz)"
+        "--points",
+        metavar="FILE",
+        help="write the solutions to FILE as NumPy arrays, or as a table where it is called "
+        "something.parquet (which needs pandas and pyarrow)",
     )
     add_start(
         parser,
@@ -41,12 +52,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> CommandAnswer:
     """All isolated solutions of a case."""
-    import numpy as np
-
     from nag.errors import StartError
     from nag.report.solutions import realisations, solution_lines
-    from nag.solving.solutions import NUMBERS
 
+    as_table = options.points is not None and options.points.endswith(".parquet")
+    if as_table:
+        check_tables("points")
     case, problem = read_problem(options)
 
     def document_of(found: SolveResult) -> dict[str, Any] | None:
@@ -58,10 +69,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     except StartError as error:
         raise UsageError(f"{options.case}: {error}") from None
     if options.points is not None:
-        table = result.table
-        arrays = {name: getattr(table, name) for name in ("points", *NUMBERS)}
-        names = np.array(result.system.variables, dtype=str)
-        write_arrays({**arrays, "variables": names}, options.points, "points")
+        write = write_table if as_table else write_arrays
+        write(_columns(result, as_table), options.points, "points")
     return CommandAnswer(
         solution_lines(result, case, problem, run_row(options, places=2)),
         result.complete,
@@ -71,3 +80,21 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         },
         proof_asked_for(options, result),
     )
+
+
+def _columns(result: SolveResult, as_table: bool) -> dict[str, Any]:
+    """What is known of the solutions by name, points as one array, or each part of a coordinate."""
+    import numpy as np
+
+    from nag.solving.solutions import NUMBERS
+
+    table, names = result.table, result.system.variables
+    numbers = {name: getattr(table, name) for name in NUMBERS}
+    if not as_table:
+        return {"points": table.points, **numbers, "variables": np.array(names, dtype=str)}
+    parts = {
+        f"{name}.{part}": getattr(table.points[:, i], part)
+        for i, name in enumerate(names)
+        for part in ("real", "imag")
+    }
+    return parts | numbers
