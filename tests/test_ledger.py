@@ -339,7 +339,7 @@ def test_certificates_are_found_again_block_by_block(tmp_path, monkeypatch) -> N
 
 def test_what_is_proved_of_an_export_is_kept(tmp_path: Path, capsys) -> None:
     export, ledger = tmp_path / "katsura.json", tmp_path / "ledger"
-    export.write_text(solved(katsura(9)))
+    export.write_text(solved(katsura(11)))
     told = ["certify", str(export), "--resume", str(ledger), "--json", "-"]
     answers = []
     for found in (False, True):
