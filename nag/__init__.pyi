@@ -86,7 +86,7 @@ class RunOptions(TypedDict, total=False):
     seed: int
     threads: int
     settings: Settings | Literal["fast", "default", "careful"]
-    progress: Progress | None
+    progress: Progress | bool | None
     found: Found | None
     resume: File | None
     executor: Executor | str | None

@@ -835,7 +835,7 @@ def eliminate(
     source = source_of_component(found.system, chosen)
     cloud = Cloud(source, AmbientVariables.itself(found.system), run.random(4), run)
     alike = list_alike(found, component)
-    return eliminate_component(cloud, alike, places, degree, polynomial, run.progress)
+    return eliminate_component(cloud, alike, places, degree, polynomial, run.tell)
 
 
 def _number_through(found: Decomposition, at: Sequence[Number | complex], run: Run) -> int:

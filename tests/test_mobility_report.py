@@ -15,13 +15,13 @@ from local_points import sarrus
 
 import nag
 from nag.cli import main
-from nag.cli.running import ProgressLine
 from nag.decomposition import components_through
 from nag.decomposition.growth import grow_component
 from nag.files.json_schema import schema
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.problem import Problem
 from nag.numerics.local_dimension import NoSolution
+from nag.text.progress_line import ProgressLine
 
 Z = (0, 0, 1)
 

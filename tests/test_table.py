@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem, system_line
-from nag.cli.running import INTERVAL, MINUTE, progress_line
 from nag.report.agreement import AgreementKind, agreement_text, compare
+from nag.text.progress_line import INTERVAL, MINUTE, progress_line
 from nag.text.table import align, label_lines, magnitude, printable
 from nag.witness.frame import expand_orbits
 from nag.witness.shown import component_table, multidegree_text, remarks, title_line
@@ -298,7 +298,7 @@ def test_progress_is_shown_on_a_terminal_and_erased_and_quiet_is_quiet() -> None
 
 def test_a_terminal_that_takes_no_line_away_is_written_to_as_a_file_is(monkeypatch) -> None:
     now = [0.0]
-    monkeypatch.setattr("nag.cli.running.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("nag.text.progress_line.time.monotonic", lambda: now[0])
     monkeypatch.setenv("TERM", "dumb")
     terminal = Terminal()
     with progress_line(terminal) as progress:
@@ -328,7 +328,7 @@ def test_a_line_is_no_wider_than_its_terminal(columns, least, most) -> None:
 @pytest.mark.parametrize("kind, wait", [(Terminal, INTERVAL), (io.StringIO, MINUTE)])
 def test_progress_is_not_written_more_often_than_it_can_be_read(kind, wait, monkeypatch) -> None:
     now = [0.0]
-    monkeypatch.setattr("nag.cli.running.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("nag.text.progress_line.time.monotonic", lambda: now[0])
     stream = kind()
     with progress_line(stream) as progress:
         for step, now[0] in ((1, wait), (2, 1.5 * wait), (3, 2.5 * wait)):
@@ -340,7 +340,7 @@ def test_progress_is_not_written_more_often_than_it_can_be_read(kind, wait, monk
 
 def test_a_line_says_how_a_stage_goes_and_that_is_no_other_stage(monkeypatch) -> None:
     now = [0.0]
-    monkeypatch.setattr("nag.cli.running.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("nag.text.progress_line.time.monotonic", lambda: now[0])
     terminal = Terminal()
     with progress_line(terminal) as progress:
         for step, now[0], remark in ((0, 20.0, ""), (30, 80.0, "; 7 doubtful")):
@@ -351,7 +351,7 @@ def test_a_line_says_how_a_stage_goes_and_that_is_no_other_stage(monkeypatch) ->
 
 def test_a_line_says_the_rate_and_the_time_left_of_its_stage(monkeypatch) -> None:
     now = [0.0]
-    monkeypatch.setattr("nag.cli.running.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("nag.text.progress_line.time.monotonic", lambda: now[0])
     pipe = io.StringIO()
     with progress_line(pipe) as progress:
         for step, now[0] in ((0, 20.0), (30, 80.0)):

@@ -111,8 +111,8 @@ def check_running(seed: Any, threads: Any, settings: Any, progress: Any = None) 
     check_whole(threads, "threads", 1)
     if not is_a(settings, "nag.tracking.settings", "Settings"):
         check_choice(settings, "settings", SETTINGS)
-    if progress is not None and not callable(progress):
+    if progress is not None and progress is not True and not callable(progress):
         raise NagError(
-            f"progress: {value_text(progress)} is given; give a function of a stage's name, the "
-            "step reached and the number of steps"
+            f"progress: {value_text(progress)} is given; give True for a bar, or a function of a "
+            "stage's name, the step reached and the number of steps"
         )

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 from nag.cli.arguments import UsageError
 from nag.numerics.linear_algebra_threads import VARIABLES
-from nag.text.progress import draw_bar, stage_name, stage_text
+from nag.text.progress import stage_name
+from nag.text.progress_line import ERASE, INTERVAL, ProgressLine, can_erase, progress_line
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -24,17 +25,8 @@ TARGETS = ("json", "csv", "html", "points")
 STANDARD_OUTPUT = "-"
 Progress = Callable[[str, int, int], None]
 
-# Seconds between two updates of the line: often enough to look alive, too seldom to cost time.
-INTERVAL = 0.1
-# Seconds between two lines in a file or a pipe: a batch job can be told from a hang, and a day of
-# work leaves 1,440 lines.
-MINUTE = 60.0
 # What is told where a stage has no steps yet.
 WORKING = "working"
-
-_ERASE = "\r\x1b[K"
-# Columns of a terminal that does not know how many it has.
-WIDTH = 80
 
 
 # No dataclass: loading those takes a fifth of the time of `nag --help`.
@@ -433,99 +425,6 @@ def check_option_target(option: str, target: str, source: str = "") -> None:
         raise UsageError(f"--{option}: {target}: is the case file; name another file")
 
 
-def _can_erase(stream: TextIO) -> bool:
-    """Whether a stream leads to a terminal that knows how to take a line away."""
-    return stream.isatty() and os.environ.get("TERM") != "dumb"
-
-
-class ProgressLine:
-    """How far the work is: one line on a terminal, with a bar; elsewhere a line every minute.
-
-    A terminal that cannot take a line away, ``TERM=dumb``, is elsewhere.
-
-    Called as ``line(stage, done, total)``, from any thread; a ``total`` of 0 means not known. From
-    then on until `erase` the line stands; `show` keeps its times up to date.
-
-    Attributes:
-        stage: that was told last, empty before the first.
-    """
-
-    def __init__(self, stream: TextIO, quiet: bool = False) -> None:
-        self._stream = stream
-        self._terminal = _can_erase(stream)
-        self._quiet = quiet
-        self._started = time.monotonic()
-        self._last = self._started - (INTERVAL if self._terminal else 0.0)
-        self._standing = self._shown = False
-        self.stage, self._done, self._total = "", 0, 0
-        self._stage_started, self._stage_first = self._started, 0
-
-    def __call__(self, stage: str, done: int, total: int) -> None:
-        if stage_name(stage) != stage_name(self.stage) or done < self._done:
-            self._stage_started, self._stage_first = time.monotonic(), done
-        self.stage, self._done, self._total = stage, done, total
-        self._standing = True
-        self.show()
-
-    def stage_text(self) -> str:
-        """The stage that was told last, and how far it was."""
-        return stage_text(self.stage, self._done, self._total)
-
-    def show(self) -> None:
-        """Write the line, if it is time to."""
-        now = time.monotonic()
-        wait = INTERVAL if self._terminal else MINUTE
-        if self._quiet or not self._standing or now - self._last < wait:
-            return
-        self._last = now
-        bar = draw_bar(self._done, self._total) if self._terminal else ""
-        text = f"{bar}{' ' if bar else ''}{self.stage_text()}{self._speed(now)}"
-        with contextlib.suppress(OSError, ValueError):
-            if self._terminal:
-                self._stream.write(f"{_ERASE}{text[: self._width - 1]}")
-                self._shown = True
-            else:
-                self._stream.write(f"nag: {text}\n")
-            self._stream.flush()
-
-    @property
-    def _width(self) -> int:
-        """Columns of the terminal; one that nobody has told its size says 0."""
-        try:
-            return os.get_terminal_size(self._stream.fileno()).columns or WIDTH
-        except (OSError, ValueError):
-            return WIDTH
-
-    def _speed(self, now: float) -> str:
-        """Seconds since the start; steps a second and the time left of the stage."""
-        parts = [f"{_duration(now - self._started)} so far"]
-        steps, seconds = self._done - self._stage_first, now - self._stage_started
-        if steps > 0 and seconds >= 1.0:
-            parts.append(f"{steps / seconds:.3g} a second")
-            if self._total > self._done:
-                left = (self._total - self._done) * seconds / steps
-                parts.append(f"{_duration(left)} left of this")
-        return " (" + ", ".join(parts) + ")"
-
-    def erase(self) -> None:
-        """Take the line off the terminal, until more is told."""
-        self._standing = False
-        if self._shown:
-            with contextlib.suppress(OSError, ValueError):
-                self._stream.write(_ERASE)
-                self._stream.flush()
-            self._shown = False
-
-
-def _duration(seconds: float) -> str:
-    whole = int(seconds)
-    if whole < 60:
-        return f"{whole} s"
-    if whole < 3600:
-        return f"{whole // 60} min {whole % 60:02} s"
-    return f"{whole // 3600} h {whole % 3600 // 60:02} min"
-
-
 class TellParent:
     """Tells the process that watches this one what `ProgressLine` is to show.
 
@@ -558,19 +457,6 @@ class TellParent:
 
 
 @contextlib.contextmanager
-def progress_line(stream: TextIO, quiet: bool = False) -> Iterator[ProgressLine | None]:
-    """A progress callback that writes to ``stream``; None if nothing is to be written."""
-    if quiet:
-        yield None
-        return
-    line = ProgressLine(stream)
-    try:
-        yield line
-    finally:
-        line.erase()
-
-
-@contextlib.contextmanager
 def compilation_notice(stream: TextIO, quiet: bool = False) -> Iterator[None]:
     """Say so on ``stream``, once, when a kernel is compiled inside the block.
 
@@ -586,7 +472,7 @@ def compilation_notice(stream: TextIO, quiet: bool = False) -> Iterator[None]:
 
     def notice(name: str) -> None:
         if not given:
-            start = _ERASE if _can_erase(stream) else ""
+            start = ERASE if can_erase(stream) else ""
             stream.write(f"{start}compiling the run, once; this takes a few seconds ...\n")
             stream.flush()
         given.append(name)

@@ -20,7 +20,8 @@ from types import FrameType
 from typing import TextIO
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import ProgressLine, TellParent, forget_unfinished, take_unfinished
+from nag.cli.running import TellParent, forget_unfinished, take_unfinished
+from nag.text.progress_line import ProgressLine
 
 # Seconds in which the child may end by itself, its files cleared away; then it is killed. Ctrl-C is
 # to be obeyed within one.

@@ -179,7 +179,7 @@ def _plot_surfaces(
     for number, component in chosen.items():
         source = source_of_component(answer.system, component)
         cloud = Cloud(source, AmbientVariables.itself(answer.system), run.random(4), run)
-        found = eliminate_component(cloud, {}, tuple(onto), None, False, run.progress)
+        found = eliminate_component(cloud, {}, tuple(onto), None, False, run.tell)
         if found.dimension != component.dimension or len(found.generators) != 1:
             raise ComponentError(f"component {number}: its image is no surface there")
         equations.append((f"component {number}", found.generators[0]))
@@ -212,8 +212,7 @@ def _plot_curves(
             raise NagError(
                 f"component: {number}: has dimension {component.dimension}; curves are drawn"
             )
-        if run.progress is not None:
-            run.progress("real curves", len(curves), len(taken))
+        run.tell("real curves", len(curves), len(taken))
         try:
             curve = find_real_curve(component, run=run)
         except ComponentError as error:

@@ -15,6 +15,7 @@ import numpy as np
 from nag.algebra.given import check_running, check_size
 from nag.errors import NagError
 from nag.numerics.linear_algebra_threads import one_thread
+from nag.text.progress_line import progress_line
 from nag.tracking.settings import Settings
 
 # Called with a stage's name, the step reached and the number of steps; 0 if that is not known.
@@ -36,7 +37,8 @@ class Run:
         threads: for path tracking; answers do not depend on them.
         settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking, or settings of one's own.
         progress: called with a stage's name, the step reached and the number of steps. What stands
-            behind a semicolon in the name says how it goes: paths whose ends are still open.
+            behind a semicolon in the name says how it goes: paths whose ends are still open. With
+            True a line with a bar shows it, in a notebook as an output of the cell.
         found: called now and then with what is known already, an incomplete answer, for whoever
             ends the work early: by `nag.decompose`, `nag.solve`, `nag.solve_family`, `nag.motion`,
             `nag.driven_motion`, `nag.modes` and `nag.mobility`; by `nag.solve_family` and
@@ -62,7 +64,7 @@ class Run:
     seed: int = 0
     threads: int = 1
     settings: Settings | str = "default"
-    progress: Progress | None = None
+    progress: Progress | bool | None = None
     found: Found | None = None
     resume: str | PathLike[str] | None = None
     executor: Any = None
@@ -109,7 +111,7 @@ class Run:
 
     def tell(self, stage: str, done: int, total: int) -> None:
         """Tell of the step ``done`` of ``total``; 0 if their number is not known."""
-        if self.progress is not None:
+        if callable(self.progress):
             self.progress(stage, done, total)
 
 
@@ -170,6 +172,9 @@ def takes_run(
                 raise NagError(f"{min(short)}: is given beside run; give one of them")
             named["run"] = Run(**short)
         run = named.get("run")
+        if run is not None and run.progress is True:
+            with progress_line() as line:
+                return call(*given, **(named | {"run": replace(run, progress=line)}))
         if run is not None and run.time_limit is not None:
             from nag.tracking.timed_call import call_within
 

@@ -72,8 +72,8 @@ def call_within(
             except queue.Empty:
                 break
             kind, value = ("ended", None) if message is None else message
-            if kind == "progress" and run.progress is not None:
-                run.progress(*value)
+            if kind == "progress":
+                run.tell(*value)
             elif kind == "found":
                 found = value
                 if run.found is not None:
