@@ -17,6 +17,7 @@ from nag.errors import StartError
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.solving.start.choice import choose
 from nag.solving.start.multihomogeneous import (
+    _Choices,
     best_groups,
     bezout_number,
     count,
@@ -96,6 +97,21 @@ def test_one_group_gives_bezouts_number(degrees: list[int]) -> None:
 def test_bilinear_systems_have_binomial_numbers(a: int, b: int) -> None:
     degrees = np.ones((a + b, 2), dtype=int)
     assert bezout_number(degrees, [a, b]) == comb(a + b, a)
+
+
+@given(st.lists(st.integers(1, 2), min_size=1, max_size=3), st.data())
+def test_factors_are_chosen_in_each_way_once(sizes: list[int], data: st.DataObject) -> None:
+    row = st.lists(st.integers(0, 2), min_size=len(sizes), max_size=len(sizes))
+    degrees = np.array(data.draw(st.lists(row, min_size=sum(sizes), max_size=sum(sizes))))
+    choices = _Choices.of(degrees, sizes)
+    assert len(choices) == bezout_number(degrees, sizes)
+    every = choices.choose(np.arange(len(choices)))
+    assert len({each.tobytes() for each in every}) == len(every)
+    for each in every:
+        assert np.bincount(each[:, 0], minlength=len(sizes)).tolist() == sizes
+        assert (each[:, 1] < degrees[np.arange(len(degrees)), each[:, 0]]).all()
+    some = np.array([k for k in (7, 0, 3) if k < len(choices)], dtype=int)
+    assert np.array_equal(choices.choose(some), every[some])
 
 
 @settings(max_examples=20)

@@ -9,6 +9,7 @@ References:
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import product
 from math import comb, factorial, prod
 
@@ -19,6 +20,7 @@ from nag.numerics.doubles import LARGEST_WHOLE
 from nag.solving.start.target import StartSystem, Target, group_degrees, homogenize_rows, unit
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.homotopy import straight_line
+from nag.tracking.starts import StartsByIndex
 
 Groups = tuple[tuple[int, ...], ...]
 # A start row is written out as a sum of terms; longer ones would slow every step down.
@@ -32,6 +34,8 @@ HOPELESS = 4
 # Partitions that the search tries: some always, and one more for so many paths to be saved.
 LEAST_TRIED, PATHS_FOR_A_TRY = 20, 20
 MOST_TRIED = 2000
+# Ways to choose factors, more than there may be paths; products with degrees fit into 64 bits.
+MOST_WAYS = 1 << 40
 
 
 def bezout_number(degrees: np.ndarray, sizes: Sequence[int]) -> int:
@@ -185,29 +189,60 @@ def _expand(forms: Sequence[tuple[tuple[int, ...], np.ndarray]], n: int) -> dict
     return terms
 
 
-def _choices(degrees: np.ndarray, sizes: Sequence[int]) -> np.ndarray:
-    """All ways to take one factor of each row, ``sizes[g]`` of group g; shape ``(P, rows, 2)``.
+@dataclass(frozen=True, eq=False)
+class _Choices:
+    """All ways to take one factor of each row, ``sizes[g]`` of group g, by index.
 
-    Entry ``(p, i)`` is the group of the factor of row ``i`` and the factor's number in it.
+    Attributes:
+        degrees: of the rows in the groups, shape ``(rows, groups)``.
+        strides: places of the digits, one a group, of the number that says how many factors are
+            still to be taken of each.
+        ways: how many ways there are from each row on, by that number, ``(rows + 1, states)``.
     """
-    table = degrees.tolist()
-    found: list[list[tuple[int, int]]] = []
 
-    def descend(i: int, left: list[int], chosen: list[tuple[int, int]]) -> None:
-        if i == len(table):
-            found.append(list(chosen))
-            return
-        for g, d in enumerate(table[i]):
-            if d and left[g]:
-                left[g] -= 1
-                for k in range(d):
-                    chosen.append((g, k))
-                    descend(i + 1, left, chosen)
-                    chosen.pop()
-                left[g] += 1
+    degrees: np.ndarray
+    strides: np.ndarray
+    ways: np.ndarray
 
-    descend(0, list(sizes), [])
-    return np.array(found, dtype=np.int64).reshape(len(found), len(table), 2)
+    @classmethod
+    def of(cls, degrees: np.ndarray, sizes: Sequence[int]) -> _Choices:
+        """Those of rows of the given degrees."""
+        strides = np.cumprod([1, *(size + 1 for size in sizes)])
+        states = int(strides[-1])
+        digits = np.arange(states)[:, None] // strides[:-1] % (np.array(sizes) + 1)
+        ways = np.zeros((len(degrees) + 1, states), dtype=np.int64)
+        ways[-1, 0] = 1
+        for i in range(len(degrees) - 1, -1, -1):
+            for g, d in enumerate(degrees[i].tolist()):
+                has = digits[:, g] > 0
+                ways[i, has] += d * ways[i + 1, np.flatnonzero(has) - strides[g]]
+            # What no way from all factors leads to may be more than 64 bits hold.
+            np.minimum(ways[i], MOST_WAYS, out=ways[i])
+        return cls(degrees, strides, ways)
+
+    def __len__(self) -> int:
+        return int(self.ways[0, -1])
+
+    def choose(self, indices: np.ndarray) -> np.ndarray:
+        """Some of them, in order of the rows' first factors, shape ``(k, rows, 2)``.
+
+        Entry ``(p, i)`` is the group of the factor of row ``i`` and the factor's number in it.
+        """
+        chosen = np.zeros((len(indices), len(self.degrees), 2), dtype=np.int64)
+        rank, left = indices.astype(np.int64), np.full(len(indices), self.strides[-1] - 1)
+        for i, row in enumerate(self.degrees.tolist()):
+            open_ = np.ones(len(indices), dtype=bool)
+            for g, d in enumerate(row):
+                stride = int(self.strides[g])
+                has = left // stride % (int(self.strides[g + 1]) // stride) > 0
+                block = np.where(has, self.ways[i + 1, left - stride * has], 0)
+                here = open_ & (rank < d * block)
+                chosen[here, i, 0], chosen[here, i, 1] = g, rank[here] // block[here]
+                rank[here] %= block[here]
+                left[here] -= stride
+                open_ &= ~here
+                rank[open_] -= d * block[open_]
+        return chosen
 
 
 def multihomogeneous(target: Target, groups: Groups, rng: np.random.Generator) -> StartSystem:
@@ -233,19 +268,26 @@ def multihomogeneous(target: Target, groups: Groups, rng: np.random.Generator) -
             factors.append((groups[g], forms[i, g, k]))
         start_rows.append(_expand(factors, n))
     gamma = complex(unit(rng, 1)[0])
-    choices = _choices(degrees, sizes)
-    shift = len(groups)
-    points = np.ones((len(choices), n + shift), dtype=np.complex128)
+    tables = []
     for g, size in enumerate(sizes):
-        rows = np.argsort(choices[:, :, 0] != g, axis=1, kind="stable")[:, :size]
-        numbers = np.take_along_axis(choices[:, :, 1], rows, axis=1)
         table = np.zeros((n, int(degrees[:, g].max(initial=0)), 1 + size), dtype=np.complex128)
         for i, k in product(range(n), range(table.shape[1])):
             if (i, g, k) in forms:
                 table[i, k] = forms[i, g, k]
-        matrix = table[rows, numbers]
-        solution = np.linalg.solve(matrix[:, :, 1:], -matrix[:, :, :1])[:, :, 0]
-        points[:, [shift + i for i in groups[g]]] = solution
+        tables.append(table)
+    choices, shift = _Choices.of(degrees, sizes), len(groups)
+
+    def start_points(indices: np.ndarray) -> np.ndarray:
+        chosen = choices.choose(indices)
+        points = np.ones((len(indices), n + shift), dtype=np.complex128)
+        for g, (size, table) in enumerate(zip(sizes, tables, strict=True)):
+            rows = np.argsort(chosen[:, :, 0] != g, axis=1, kind="stable")[:, :size]
+            matrix = table[rows, np.take_along_axis(chosen[:, :, 1], rows, axis=1)]
+            solution = np.linalg.solve(matrix[:, :, 1:], -matrix[:, :, :1])[:, :, 0]
+            points[:, [shift + i for i in groups[g]]] = solution
+        return points
+
     begin = homogenize_rows(start_rows, n, groups, degrees)
     goal = homogenize_rows(target.rows, n, groups, degrees)
+    points = StartsByIndex((len(choices), n + shift), start_points)
     return StartSystem("multihomogeneous", straight_line(begin, goal, gamma), points, groups)
