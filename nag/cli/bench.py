@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from nag.cli import bench_decompose, bench_models
+from nag.cli import bench_decompose, bench_models, bench_scale
 from nag.cli.arguments import UsageError, add_quiet, problem_of_case, read_case_file, whole
 from nag.cli.running import CommandAnswer
 
@@ -42,9 +42,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "what",
         nargs="?",
-        choices=("systems", "models"),
+        choices=("systems", "models", "scale"),
         default="systems",
-        help="the benchmark systems, or every mechanism in every formulation (default: systems)",
+        help="the benchmark systems, every mechanism in every formulation, or what a path costs in "
+        "time, memory and on disk, and what very many would (default: systems)",
     )
     parser.add_argument(
         "--patience",
@@ -97,6 +98,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     """The benchmarks; complete if all counts are right."""
     if options.what == "models":
         return bench_models.run(options)
+    if options.what == "scale":
+        return bench_scale.run(options)
     if options.folder is None:
         options.folder = str(FOLDER)
     if options.decompose or any(x is not None for x in (options.growth, options.chart, options.of)):
