@@ -23,8 +23,6 @@ SLOW = {
     "planar/roberts-cognates",
     "planar/wunderlich-12-bar",
     "spatial/general-7r",
-    "spatial/hexapod-6-3-held",
-    "spatial/hexapod-6-4-held",
     "spatial/kinematotropic-7r",
     "spatial/spherical-pair-6r",
     "spatial/universal-shaft",

@@ -121,8 +121,9 @@ SPARSE: dict[str, tuple[str, ...]] = {
         "planar/hart-inversor", "planar/klann-leg", "planar/peaucellier-placed",
     ),
     "sparse-platforms": (
-        "spatial/wren-4", "spatial/wren-5", "spatial/wren-6", "spatial/hexapod-6-3-held",
-        "spatial/hexapod-6-4-held", "spatial/kinematotropic-7r", "spatial/rssr-zero-rod",
+        "spatial/wren-4", "spatial/wren-5", "spatial/wren-6", "robots/hexapod-6-3",
+        "robots/hexapod-6-4", "robots/hexapod-6-5", "robots/hexapod-6-6",
+        "spatial/kinematotropic-7r", "spatial/rssr-zero-rod",
         "spherical/agile-eye-held",
     ),
     "sparse-bipyramids": ("spatial/bipyramid", "spatial/bipyramid-pentagon"),
