@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, read_case_file
-from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
+from nag.cli.running import (
+    CommandAnswer,
+    answer_document,
+    answer_of,
+    chosen_run,
+    name_case,
+    say_first,
+)
 from nag.cli.witness_input import (
     add_component,
     add_input,
@@ -16,7 +24,13 @@ from nag.cli.witness_input import (
     with_tested_traces,
 )
 
+if TYPE_CHECKING:
+    from nag.decomposition.singular_points import SingularLocus
+    from nag.witness.witness import Decomposition
+
 FORMAT = "nag-singular"
+# Labels are as wide as the widest from the first line on.
+WIDTH = len("answer")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -43,22 +57,41 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     found = with_tested_traces(found)
     whole = found.decomposition
     variables = whole.system.variables
+    # Their singular points may take longer than the components did.
+    early = [("of", _components_text(whole))]
+    say_first(options, found.case, early, WIDTH)
+
+    def fields_of(locus: SingularLocus) -> dict[str, Any]:
+        return {
+            "format": FORMAT,
+            "notes": list(locus.notes),
+            "variables": list(variables),
+            "components": [c.facts(i) for i, c in enumerate(whole.components, 1)],
+            **locus.document(variables),
+        }
+
+    def document_of(locus: SingularLocus) -> dict[str, Any]:
+        return answer_document(options, found.case, fields_of(locus), False)
+
     locus = singular_locus(
         whole,
         only=None if options.component is None else [options.component - 1],
-        run=chosen_run(options),
+        run=chosen_run(options, document_of),
     )
-    fields = {
-        "format": FORMAT,
-        "notes": list(locus.notes),
-        "variables": list(variables),
-        "components": [c.facts(i) for i, c in enumerate(whole.components, 1)],
-        **locus.document(variables),
-    }
-    blocks = [locus.rows(len(whole.components)), *(one.rows(variables) for one in locus.sets)]
+    fields = fields_of(locus)
+    known = [*early, *locus.rows(len(whole.components))]
+    blocks = [known, *(one.rows(variables) for one in locus.sets)]
     tail = [("open", note) for note in locus.notes] + doubt_rows(found)
     tail.append(("paths", paths_text(locus.paths)))
-    return answer_of(options, found.case, blocks, tail, fields, locus.complete and whole.complete)
+    complete = locus.complete and whole.complete
+    return answer_of(options, found.case, blocks, tail, fields, complete, width=WIDTH)
+
+
+def _components_text(whole: Decomposition) -> str:
+    """What there is, before anything of its singular points is known."""
+    from nag.witness.shown import kinds, kinds_text
+
+    return f"{kinds_text(kinds(whole.components))}, whose singular points are looked for"
 
 
 def _for_parameters(options: argparse.Namespace) -> CommandAnswer:

@@ -33,7 +33,7 @@ from nag.numerics.tangent_cone import TangentCone, form_text, tangent_cone
 from nag.numerics.zero_values import all_vanish
 from nag.text.json_text import pairs
 from nag.text.table import lines_of, one_line
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.component_equations import (
     component_fibres,
@@ -204,6 +204,12 @@ class _SingularSearch:
             self.proved.append(i)
         self.candidates += [replace(one, source=(i,)) for one in found.sets]
 
+    def told(self) -> SingularLocus:
+        """What is known by now: which components are smooth, and no singular points yet."""
+        singular = {i for one in self.candidates for i in one.source}
+        smooth = tuple(i for i in self.examined if i not in singular)
+        return SingularLocus((), smooth, self.counts, False, (ENDED_EARLY, *self.notes), ())
+
     def of_pair(self, i: int, j: int) -> None:
         """The intersection of two components that no common equations show."""
         try:
@@ -297,10 +303,15 @@ def singular_locus(
     natural = coordinates_of(given.system)
     whole = carry_decomposition(given, natural)
     chosen = list(range(len(whole.components))) if only is None else sorted(set(only))
+    found, run = run.found, run.without_found
     own = _own_equations(whole, run.random(8), run)
     search = _SingularSearch(whole, own, run)
+    if found is not None:
+        found(search.told())
     for i in chosen:
         search.on_component(i)
+        if found is not None:
+            found(search.told())
     search.of_pairs(chosen)
     rng = run.random(7)
     sets = _judge_candidates(search, rng, run)
