@@ -417,3 +417,13 @@ def test_numbers_that_are_not_known_exactly_are_told(tmp_path, capsys) -> None:
     assert "numbers     cos(1) is not known exactly" in capsys.readouterr().out
     assert main(["mobility", str(CASES / "spatial" / "rssr.toml"), "--local", "--quiet"]) == 0
     assert "numbers" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("name", "leads"), [("kinematotropic-7r", True), ("rccc", False)])
+def test_a_regular_reference_of_what_is_kinematotropic_leads_on(
+    name: str, leads: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(CASES / "spatial" / f"{name}.toml")
+    assert main(["mobility", path, "--quiet", "--local"]) == 0
+    said = capsys.readouterr().out
+    assert ("elsewhere   motions with 1 and 2 freedoms are known of it" in said) is leads

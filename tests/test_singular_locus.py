@@ -289,3 +289,21 @@ def test_three_lines_that_nearly_pass_through_one_point_meet_in_three(exponent: 
 def test_sheets_that_come_near_to_each_other_and_do_not_meet_are_smooth() -> None:
     locus = singular_locus(nag.decompose("(y - x^2)*(y - x^2 - 1/10^25)"))
     assert not locus.sets and locus.complete
+
+
+def test_what_is_smooth_is_told_before_all_is_known() -> None:
+    told: list[SingularLocus] = []
+    found = nag.decompose("(y - x^2)*(y^2 - x^3)")
+    locus = singular_locus(found, run=Run(found=told.append))
+    assert [one.complete for one in told] == [False] * 3
+    assert set(told[-1].smooth) == set(locus.smooth) and len(locus.smooth) == 1
+    assert all("ended early" in one.notes[0] for one in told)
+
+
+def test_the_command_tells_the_components_first(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["singular", str(CASES / "planar" / "four-bar-rhombus.toml"), "--quiet"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert (
+        lines[2]
+        == "of      3 components of dimension 1, degree 2, whose singular points are looked for"
+    )

@@ -127,6 +127,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     complete = options.of is None or known_of
     complete &= report.complete
     rows += case.note_rows
+    rows += _elsewhere_rows(report, case, problem) if at is None else []
     known = _beside_known(report, case) if at is None else None
     beside: dict[str, Any] | None = None
     if known is not None:
@@ -172,6 +173,20 @@ def _unsaid_rows(options: argparse.Namespace, report: MobilityReport) -> Iterato
             "not looked at: that is for what is rigid as it is given, but for parts that move by "
             "themselves, at its reference configuration, or at a real assembly of its parts",
         )
+
+
+def _elsewhere_rows(
+    report: MobilityReport, case: Case, problem: Problem | None
+) -> list[tuple[str, str]]:
+    """Where a mechanism is known to move with other numbers of freedoms than at its reference."""
+    if problem is None or report.local is None or not report.local.smooth:
+        return []
+    known = {t.dimension for t in case.truth if t.formulation == problem.formulation} - {0}
+    if len(known) < 2:
+        return []
+    freedoms = " and ".join(str(d + problem.free) for d in sorted(known))
+    text = f"motions with {freedoms} freedoms are known of it: `nag singular` looks for where they "
+    return [("elsewhere", f"{text}meet, and `nag mobility --at` takes such a configuration")]
 
 
 def _beside_known(report: MobilityReport, case: Case) -> tuple[str, bool, dict[str, Any]] | None:
