@@ -13,11 +13,12 @@ from solved import components_of
 
 import nag
 from nag.cli import main
-from nag.mechanism.framework import placed_framework
+from nag.mechanism.framework import Framework, placed_framework
 from nag.mechanism.framework_model import framework_model
 from nag.mechanism.linkage import Link, Linkage, LinkageModel, linkage_model, pin_model
 from nag.mechanism.other_equations import other_equations
 from nag.mechanism.problem import problem_of
+from nag.mechanism.real_assemblies import of_real_assemblies
 
 F = Fraction
 
@@ -148,3 +149,28 @@ def test_bars_that_meet_are_pinned_where_space_has_one_triangle_only(tmp_path, c
     at = ", ".join(f"{name} = {x}" for name, x in named)
     assert main(["mobility", str(file), "--check", "--quiet", "--at", at]) == 2
     assert "other bars to pin, and no --at" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("bars", "lengths", "dimension"),
+    [
+        (["AB", "BC", "CD", "AD", "AE", "CE"], [1, 2, 3, 6, 2, 4], 2),
+        (["AB", "BC", "AC", "BD", "CD"], [1, 2, 3, 4, 3], 2),
+        (["AB", "BC", "AC", "AD", "BD", "CD", "DE", "AE"], [1, 2, 3, 4, 4, 5, 2, 3], 3),
+    ],
+)
+def test_a_stretched_framework_is_compared_with_other_equations_than_its_own(
+    bars: list[str], lengths: list[int], dimension: int
+) -> None:
+    points = sorted(set("".join(bars)))
+    problem = problem_of(framework_model(Framework.of(points, bars, lengths, dimension=dimension)))
+    own = of_real_assemblies(problem).system
+    others = list(other_equations(problem))
+    assert others and all(of_real_assemblies(o.problem).system != own for o in others)
+
+
+def test_both_say_the_same_of_a_stretched_framework() -> None:
+    bars = ["AB", "BC", "CD", "AD", "AE", "CE"]
+    problem = problem_of(framework_model(Framework.of("ABCDE", bars, [1, 2, 3, 6, 2, 4])))
+    report, other = nag.mobility(problem), next(other_equations(problem))
+    assert nag.mobility(other.problem).same_motion(report, other.alike)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from nag.algebra.number import Number
 from nag.mechanism import FORMULATIONS
 from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.framework import Framework
 from nag.mechanism.framework_model import (
     FrameworkModel,
     cartesian_model,
+    framework_model,
     in_isotropic_coordinates,
     pin_differently,
 )
@@ -19,6 +21,7 @@ from nag.mechanism.linkage import LinkageModel, pin_model
 from nag.mechanism.mobility_report import Alike
 from nag.mechanism.model import ModelError
 from nag.mechanism.problem import Problem, problem_of
+from nag.mechanism.real_assemblies import lines_of_real, of_real_assemblies
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,43 @@ def other_equations(
         there = None if at is None else tuple(other.model.of_half_angles(problem.model, at))  # type: ignore[union-attr]
         yield OtherEquations("formulation E", other, there, "dimensions")
     elif problem.parts is not None:
-        yield from _other_coordinates(problem.parts, at)
+        stretched = lines_of_real(problem) is not None and at is None
+        others = _other_coordinates(problem.parts, at)
+        yield from _apart_where_stretched(problem, others) if stretched else others
+
+
+def _apart_where_stretched(
+    problem: Problem, others: Iterable[OtherEquations]
+) -> Iterator[OtherEquations]:
+    """Those whose equations of real assemblies are others, of parts that lengths put in line.
+
+    In real coordinates what was given in others may be the same. A framework is pinned by others of
+    its points then.
+    """
+    own = of_real_assemblies(problem).system
+    yield from (o for o in others if of_real_assemblies(o.problem).system != own)
+    if isinstance(problem.parts, FrameworkModel):
+        given = problem.parts.framework
+        for shift in range(1, len(given.bars)):
+            other = problem_of(framework_model(_in_another_order(given, shift)))
+            pinned = of_real_assemblies(other).parts
+            assert isinstance(pinned, FrameworkModel)
+            if set(pinned.pinned) != set(of_real_assemblies(problem).parts.pinned):  # type: ignore[union-attr]
+                name = f"{'-'.join(pinned.pinned)} pinned"
+                yield OtherEquations(name, other, None, "counts")
+
+
+def _in_another_order(framework: Framework, shift: int) -> Framework:
+    """The same framework, another of whose bars, and of its points, comes first."""
+    bars, lengths = framework.bars, framework.squared_lengths
+    first = bars[shift]
+    order = sorted(framework.points, key=lambda p: p not in first)
+    return replace(
+        framework,
+        points=tuple(order),
+        bars=(*bars[shift:], *bars[:shift]),
+        squared_lengths=(*lengths[shift:], *lengths[:shift]),
+    )
 
 
 def _other_coordinates(
