@@ -23,7 +23,6 @@ from nag.kinematics.motion import Motion, MotionError, motion_of
 from nag.kinematics.path import Curve
 from nag.kinematics.poses import Poses, pose_steps, turn_product
 from nag.kinematics.scene import Scene, SceneJoint, scene_of
-from nag.kinematics.spherical_chart import SphericalChart
 from nag.kinematics.walks import walks_of
 from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
@@ -38,6 +37,7 @@ from nag.real.curve import (
     RealVertex,
     VertexKind,
 )
+from nag.real.spherical_chart import SphericalChart
 
 ROOT = Path(__file__).parent.parent
 # Joints as seen from both bodies, and loops that return, in sizes and radians.

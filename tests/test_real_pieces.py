@@ -141,6 +141,26 @@ def test_real_samples_are_real_and_on_the_component(equations: list[str]) -> Non
     assert sample_real(component, 5) == samples
 
 
+def test_real_samples_of_a_ball_joint_are_spread_as_its_unit_quaternions_are() -> None:
+    """It turns about an axis: what is infinite in the chart are a few half turns like others."""
+    group = {"groups": [("a", "b", "c")], "nonzero": "1 + a^2 + b^2 + c^2"}
+    system = nag.system(["a - c", "2*b - 1"], "a b c", **group)
+    (component,) = nag.decompose(system).components
+    c = sample_real(component, 400).points[:, 2].real
+    halves = np.arctan2(np.sqrt(2) * c, np.sqrt(5 / 4))
+    assert np.quantile(halves, [0.25, 0.5, 0.75]) == pytest.approx(
+        [-np.pi / 4, 0, np.pi / 4], abs=0.15
+    )
+
+
+def test_real_samples_do_not_pile_up_where_a_curve_goes_to_infinity() -> None:
+    (hyperbola,) = nag.decompose("x*y = 1").components
+    x = np.abs(sample_real(hyperbola, 400).points[:, 0])
+    # The same with the variables exchanged.
+    assert np.mean(x < 1) == pytest.approx(0.5, abs=0.1)
+    assert np.mean((x > 1 / 4) & (x < 4)) > 0.5
+
+
 def test_real_samples_are_asked_for_at_the_prompt(tmp_path, capsys) -> None:
     text = 'title = "t"\nkind = "system"\nvariables = ["x", "y"]\nequations = ["x^2 + y^2 = {}"]\n'
     file, out = tmp_path / "circle.toml", tmp_path / "out.json"

@@ -2,11 +2,11 @@
 
 Read in this order, bottom-up: `poses` (places and turns of bodies at many points at once), `scene`
 on `poses` (bodies and joints of a mechanism, a linkage, a framework or a table, and where they are
-at points of its equations), `joint_values` (angles and slides), `spherical_chart` (coordinates to
-which a half turn is a place like any other), `walks` on that (how arcs of a real curve follow each
-other), `path` on `scene` and `walks` (one motion along them, evenly sampled), `turning_points`
-(where joints stand still), `driven` (joints held at values, bodies at places), `motion` (all that
-is said of a mechanism; `shown` for users) and `driven_motion` (one value of a joint after another).
+at points of its equations), `joint_values` (angles and slides), `walks` (how arcs of a real curve
+follow each other, in the coordinates of `nag.real.spherical_chart`), `path` on `scene` and `walks`
+(one motion along them, evenly sampled), `turning_points` (where joints stand still), `driven`
+(joints held at values, bodies at places), `motion` (all that is said of a mechanism; `shown` for
+users) and `driven_motion` (one value of a joint after another).
 """
 
 # For whoever must not load the rest: values that a joint is driven through, at most.

@@ -15,9 +15,9 @@ from nag.algebra.evaluation import Evaluator, PlacedDerivatives
 from nag.algebra.system import PolynomialSystem
 from nag.kinematics.poses import Poses, pose_steps
 from nag.kinematics.scene import Scene
-from nag.kinematics.spherical_chart import SphericalChart
 from nag.kinematics.walks import CurveWalk
 from nag.real.curve import RealCurve
+from nag.real.spherical_chart import SphericalChart
 
 # Decides: Singular values of equations along a curve, over the largest, that are zero: Newton's
 # steps that bring samples onto it leave them out.

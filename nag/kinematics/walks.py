@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.kinematics.spherical_chart import SphericalChart
 from nag.real.curve import RealCurve, VertexKind
+from nag.real.spherical_chart import SphericalChart
 
 # An end of an edge: its index, and whether it is the last point.
 End = tuple[int, bool]

@@ -9,8 +9,9 @@ values of it, from a circle of them, `critical_values` those over which real poi
 (from one to the other), `even_points` (along arcs), `arcs` (what they make up), `real_equations`
 (where coefficients are complex, the equations of real points), and `find_curve`, which puts all of
 it together and says what was not certain. `real_pieces` (whether a component of any dimension has
-real points) and `real_samples` (random ones) are on these. `real_through` says whether a component
-has real points of its dimension next to a given one.
+real points) and `real_samples` (random ones) are on these; `spherical_chart` has coordinates to
+which a half turn is a place like any other. `real_through` says whether a component has real points
+of its dimension next to a given one.
 
 Real curves inside complex surfaces, where these are singular or meet their conjugates, are not
 looked for.

@@ -12,9 +12,11 @@ from nag.errors import NagError
 from nag.numerics.digits import DIGITS, working_digits
 from nag.numerics.doubles import EPS, ROUGH
 from nag.numerics.located_zero import exact_zero
+from nag.real.curve import RealCurve, VertexKind
 from nag.real.find_curve import find_real_curve
 from nag.real.real_equations import find_real_equations
 from nag.real.real_pieces import Reality, RealPieces, find_real_points, join_pieces
+from nag.real.spherical_chart import SphericalChart
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.real_points import real_points_near
 from nag.witness.sampling import NoRealPointsError, Samples, SamplingError
@@ -40,7 +42,9 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
 
     Those of a finite set and of a curve are drawn from all of them, of a curve each arc as often as
     it is long; those of a larger set are real points near random ones, which favours what is seen
-    from there.
+    from there. Turns of a joint count by their half-angle, or the arc of their unit quaternion. Of
+    a curve that goes to infinity the lengths of other variables are those on a sphere about the
+    middle of it, the radius of which is the median distance of its points.
 
     Args:
         component: one of the components of a `nag.Decomposition`.
@@ -198,16 +202,33 @@ def _of_curve(
     curve = find_real_curve(component, run=run)
     doubt = "" if curve.complete else _say_points_may_miss(curve.reason)
     if curve.edges:
-        steps = [np.linalg.norm(np.diff(e.chart, axis=0), axis=1) for e in curve.edges]
         # An arc's points but for the first; they are on the curve to rounding.
         points = np.vstack([e.points[1:] for e in curve.edges])
-        lengths = np.concatenate(steps)
+        lengths = _lengths_of_steps(curve, SphericalChart.of(component._known_system()))
         return points[rng.choice(len(points), size=count, p=lengths / lengths.sum())], doubt
     isolated = [v.point for v in curve.vertices]
     if not isolated:
         none = Reality.NONE if curve.complete else Reality.NONE_FOUND
         raise _why_none(component._known_system(), none, curve.reason)
     return np.array(isolated)[rng.integers(len(isolated), size=count)], doubt
+
+
+def _lengths_of_steps(curve: RealCurve, coordinates: SphericalChart) -> np.ndarray:
+    """Distances between neighbours on all arcs, one after another."""
+    charts = [coordinates.make_continuous(coordinates.chart(e.points)) for e in curve.edges]
+    if any(v.kind is VertexKind.INFINITE for v in curve.vertices):
+        grouped = {i for columns in coordinates.columns for i in columns}
+        others = [i for i in range(coordinates.size) if i not in grouped]
+        every = np.vstack(charts)[:, others]
+        middle = np.median(every, axis=0)
+        radius = np.median(np.linalg.norm(every - middle, axis=1))
+        # It is zero where only turns change: these go where a norm vanishes, by a finite length.
+        for k, chart in enumerate(charts if radius > 0 else ()):
+            y = (chart[:, others] - middle) / radius
+            unit = np.hstack([np.ones((len(y), 1)), y])
+            unit /= np.linalg.norm(unit, axis=1, keepdims=True)
+            charts[k] = np.hstack([np.delete(chart, others, axis=1), radius * unit])
+    return np.concatenate([np.linalg.norm(np.diff(c, axis=0), axis=1) for c in charts])
 
 
 def _near(
@@ -218,12 +239,17 @@ def _near(
     run: Run,
 ) -> np.ndarray:
     system = component._known_system()
-    size = SPREAD * (1 + float(np.abs(known).max()))
+    coordinates = SphericalChart.of(system)
+    charts = coordinates.chart(known)
+    sizes = SPREAD * np.full(coordinates.size, 1 + float(np.abs(charts[:, : system.n]).max()))
+    for columns in coordinates.columns:
+        sizes[columns] = SPREAD
     found: list[np.ndarray] = []
     for _ in range(TRIES * count):
         if len(found) == count:
             break
-        near = known[rng.integers(len(known))] + size * rng.standard_normal(system.n)
+        near = charts[rng.integers(len(charts))] + sizes * rng.standard_normal(coordinates.size)
+        near = coordinates.points(near[None])[0]
         points = real_points_near(system, component, near, starts=1, run=run)
         if len(points):
             found.append(np.asarray(points.points)[0])

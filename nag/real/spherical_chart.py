@@ -1,4 +1,4 @@
-"""Coordinates along a motion in which infinity of a joint's variables is a place like any other.
+"""Coordinates in which infinity of a joint's variables is a place like any other.
 
 The variables of a joint's turn, or of a body's pose, are ratios: a half-angle's tangent, the three
 of a quaternion. They are infinite where their common denominator vanishes, at a half turn of a
