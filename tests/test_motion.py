@@ -416,6 +416,37 @@ def test_steps_onto_a_curve_of_more_equations_than_it_needs_do_not_run_along_it(
     assert np.abs(path.equations_at(middle)[0]).max() < 1e-13
 
 
+def test_a_framework_with_a_stretched_loop_moves_by_the_equations_of_its_real_places() -> None:
+    """Its own are singular along the whole motion. Grashof: two circuits for either side of D."""
+    bars = ["OQ", "OA", "AB", "BQ", "AC", "CB", "BD", "DQ"]
+    squares = tuple(Fraction(length**2) for length in (4, 1, 3, 3, 1, 2, 2, 2))
+    framework = nag.Framework(2, tuple("OQABCD"), tuple(map(tuple, bars)), squares)
+    motion = nag.motion(framework, samples=60)
+    assert motion.complete and len(motion.components) == 2
+    assert [circuit.closed for circuit in motion.circuits] == [True] * 4
+    for circuit in motion.circuits:
+        names = [c.name for c in circuit.values.coordinates]
+        assert circuit.values.still[names.index("C")]
+        assert abs(circuit.values.turns[names.index("O")]) == 1
+        ends = np.abs(circuit.values.ranges[names.index("B:B-Q")])
+        # The angle between the rods of 3 and 3 where their ends are 3 and 5 apart.
+        assert sorted(ends) == pytest.approx(
+            sorted(np.pi - np.array([math.acos(1 / 2), math.acos(-7 / 18)])), abs=1e-9
+        )
+
+
+def test_an_inversor_that_cannot_but_be_stretched_only_swings_its_folded_end() -> None:
+    """O-A, A-C and C-B are as long as O-B: really B and D fall together, and P turns about them."""
+    motion = nag.motion(nag.read_case(CASES / "planar" / "peaucellier.toml"), samples=60)
+    (circuit,) = motion.circuits
+    moves = {
+        c.name
+        for c, still in zip(circuit.values.coordinates, circuit.values.still, strict=True)
+        if not still
+    }
+    assert motion.complete and circuit.closed and moves == {"B:P-B", "D:D-P"}
+
+
 def test_circuits_of_a_rhombus_cross_each_other_where_it_is_flat() -> None:
     case = nag.read_case(ROOT / "cases" / "planar" / "four-bar-rhombus.toml")
     motion = nag.motion(case, samples=90)

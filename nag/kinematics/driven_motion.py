@@ -38,6 +38,7 @@ from nag.kinematics.motion import (
 from nag.kinematics.poses import Poses, pose_distances
 from nag.kinematics.scene import Scene, scene_of
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
+from nag.mechanism.real_assemblies import of_real_assemblies
 from nag.numerics.read_only import equal_values
 from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, TellFound, takes_run
@@ -196,7 +197,7 @@ def driven_motion(
         raise NagError(f"values: give 1 to {MOST_VALUES}, not {len(numbers)}")
     others, poses = read_drives(drive), read_poses(pose)
     given = tie_placed_bodies(mechanism, (each.body for each in poses))
-    problem = in_real_coordinates(problem_of(given, formulation=formulation))
+    problem = of_real_assemblies(in_real_coordinates(problem_of(given, formulation=formulation)))
     poses = place_frames(problem, poses)
     scene = scene_of(problem)
     steps = [Drive(coordinate, value) for value in numbers]

@@ -33,7 +33,7 @@ from nag.kinematics.turning_points import Values, values_along
 from nag.kinematics.walks import CurveWalk, walks_of
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
-from nag.mechanism.real_assemblies import obstacle
+from nag.mechanism.real_assemblies import obstacle, of_real_assemblies
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.read_only import RealArray, equal_values
 from nag.real.curve import RealCurve
@@ -408,6 +408,7 @@ def motion(
     reason = "" if problem.parts is None else obstacle(problem.parts)
     if reason:
         raise MotionError(f"its parts have no real assembly: {reason}")
+    problem = of_real_assemblies(problem)
     poses = place_frames(problem, poses)
     if poses or len(drives) > 1 or (drives and has_several_freedoms(problem, run)):
         return held_motion(problem, drives, poses, samples=samples, run=run)

@@ -259,11 +259,12 @@ def plot_mechanism(
         ComponentError: if there is no motion to draw.
     """
     from nag.mechanism.problem import in_real_coordinates
+    from nag.mechanism.real_assemblies import of_real_assemblies
 
     if problem.model is None:
         raise NagError(f"{kind}: is for mechanisms; a polynomial system is given")
     with _refuse_unwritable(path):
-        real = in_real_coordinates(problem)
+        real = of_real_assemblies(in_real_coordinates(problem))
         return _plot_mechanism(real, kind, what, title, path, run, onto, circuit)
 
 
