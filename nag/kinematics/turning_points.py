@@ -75,13 +75,7 @@ def values_along(path: Path) -> Values:
     if path.walk.closed:
         angles = np.array([each.kind == "angle" for each in coordinates], dtype=bool)
         whole[angles] = np.round((values[-1] - values[0])[angles] / (2 * np.pi)).astype(int)
-    turning = [
-        point
-        for column in range(len(coordinates))
-        if not still[column]
-        for point in _extremes(path, coordinates, values, column)
-    ]
-    turning.sort(key=lambda p: (p.arc, p.coordinate))
+    turning = _refine(path, coordinates, values, _find_extremes(path, values, still))
     ranges = np.stack([values.min(axis=0), values.max(axis=0)], axis=-1)
     for i, each in enumerate(coordinates):
         own = [p.value for p in turning if p.coordinate == each.name]
@@ -89,37 +83,43 @@ def values_along(path: Path) -> Values:
     return Values(coordinates, values, tuple(turning), ranges, whole, still)
 
 
-def _extremes(
-    path: Path, coordinates: tuple[Coordinate, ...], values: np.ndarray, column: int
-) -> list[TurningPoint]:
-    """The dead points of one coordinate."""
-    own = values[:, column]
+@dataclass(frozen=True, eq=False)
+class _Extremes:
+    """Samples next to dead points: of each its index, coordinate, and kind, shape ``(E,)``.
+
+    Attributes:
+        triples: points before, at and after them, shape ``(3, E, size)``.
+        near: the values there.
+    """
+
+    index: np.ndarray
+    column: np.ndarray
+    smallest: np.ndarray
+    triples: np.ndarray
+    near: np.ndarray
+
+
+def _find_extremes(path: Path, values: np.ndarray, still: np.ndarray) -> _Extremes:
+    """The samples at which coordinates that move reverse."""
     chart = path.chart
     if path.walk.closed:
         # One sample more before the first, which is the last but one.
-        own = np.concatenate([[own[-2] - own[-1] + own[0]], own])
+        values = np.vstack([values[-2] - values[-1] + values[0], values])
         chart = np.concatenate([path.before_first[None], chart])
-    steps = np.diff(own)
-    # A value that stays the same to rounding has no direction of its own.
-    signs = np.sign(np.where(np.abs(steps) < STILL / 10, 0.0, steps))
     found = []
-    before = 0.0
-    for i, sign in enumerate(signs):
-        if before * sign < 0 and i > 0:
-            index = i - 1 if path.walk.closed else i
-            triple = chart[i - 1 : i + 2]
-            parameter, value, all_values = _refine(path, triple, own[i], column, sign > 0)
-            step = path.arc[1] - path.arc[0]
-            arc = path.arc[index] + parameter * step
-            # What is the first sample to rounding is not the last.
-            arc = arc % path.length if path.walk.closed and abs(arc) > STILL else max(arc, 0.0)
-            kind = "smallest" if sign > 0 else "largest"
-            sample = round(arc / step)
-            there = _nearest_turns(coordinates, all_values, values[index])
-            name = coordinates[column].name
-            found.append(TurningPoint(name, sample, float(arc), value, kind, there))
-        before = sign or before
-    return found
+    for column in np.flatnonzero(~still).tolist():
+        steps = np.diff(values[:, column])
+        # A value that stays the same to rounding has no direction of its own.
+        signs = np.sign(np.where(np.abs(steps) < STILL / 10, 0.0, steps))
+        before = 0.0
+        for i, sign in enumerate(signs.tolist()):
+            if before * sign < 0 and i > 0:
+                found.append((i, column, sign > 0))
+            before = sign or before
+    at, columns, smallest = np.array(found, dtype=int).reshape(-1, 3).T
+    triples = np.stack([chart[at - 1], chart[at], chart[at + 1]])
+    index = at - 1 if path.walk.closed else at
+    return _Extremes(index, columns, smallest.astype(bool), triples, values[at, columns])
 
 
 def _nearest_turns(
@@ -132,31 +132,42 @@ def _nearest_turns(
 
 
 def _refine(
-    path: Path, triple: np.ndarray, near: float, column: int, smallest: bool
-) -> tuple[float, float, np.ndarray]:
-    """Place, in steps from the middle one of three samples, value of an extreme one, and all."""
-    scene, at = path.curve.scene, 0.0
-    coordinates = joint_coordinates(scene)
-    kind = coordinates[column].kind
+    path: Path, coordinates: tuple[Coordinate, ...], values: np.ndarray, extremes: _Extremes
+) -> list[TurningPoint]:
+    """The dead points next to samples, along the motion; all are refined together."""
+    near, columns = extremes.near, extremes.column
+    if not len(near):
+        return []
+    angle = np.array([each.kind == "angle" for each in coordinates], dtype=bool)[columns]
 
-    def values_at(t: np.ndarray) -> np.ndarray:
-        chart = along_three(*triple, t)
-        return joint_values(scene, path.curve.poses(path.curve.sharpen(chart)))
+    def values_at(places: np.ndarray) -> np.ndarray:
+        chart = path.curve.sharpen(along_three(*extremes.triples, places))
+        return joint_values(path.curve.scene, path.curve.poses(chart))
 
-    def value_at(t: np.ndarray) -> np.ndarray:
-        values = values_at(t)[:, column]
-        if kind == "angle":
-            values = near + (values - near + np.pi) % (2 * np.pi) - np.pi
-        return values
+    def own_of(there: np.ndarray) -> np.ndarray:
+        own = there[np.arange(len(there)), columns]
+        return np.where(angle, near + (own - near + np.pi) % (2 * np.pi) - np.pi, own)
 
-    best = near
+    # Places in steps from the middle one of three samples.
+    at, curved = np.zeros(len(near)), np.ones(len(near), dtype=bool)
     for width in NARROWER:
-        low, middle, high = value_at(at + width * np.array([-1.0, 0.0, 1.0]))
+        low, middle, high = (own_of(values_at(at + width * k)) for k in (-1.0, 0.0, 1.0))
         bend = high - 2 * middle + low
-        if not bend:
-            break
-        at += float(np.clip((low - high) / (2 * bend), -1.0, 1.0)) * width
-    last = float(value_at(np.array([at]))[0])
-    if np.isfinite(last) and (last <= near if smallest else last >= near):
-        best = last
-    return at, float(best), values_at(np.array([at]))[0]
+        curved &= bend != 0
+        step = np.clip((low - high) / (2 * np.where(curved, bend, 1.0)), -1.0, 1.0)
+        at += np.where(curved, step * width, 0.0)
+    every = values_at(at)
+    last = own_of(every)
+    better = np.isfinite(last) & np.where(extremes.smallest, last <= near, last >= near)
+    best = np.where(better, last, near)
+    step = path.arc[1] - path.arc[0]
+    turning = []
+    for k, index in enumerate(extremes.index.tolist()):
+        arc = float(path.arc[index] + at[k] * step)
+        # What is the first sample to rounding is not the last.
+        arc = arc % path.length if path.walk.closed and abs(arc) > STILL else max(arc, 0.0)
+        there = _nearest_turns(coordinates, every[k], values[index])
+        kind = "smallest" if extremes.smallest[k] else "largest"
+        name = coordinates[columns[k]].name
+        turning.append(TurningPoint(name, round(arc / step), arc, float(best[k]), kind, there))
+    return sorted(turning, key=lambda p: (p.arc, p.coordinate))
