@@ -344,7 +344,20 @@ def system(
     groups: Iterable[Iterable[str | int | SympyExpression]] = (),
     imaginary: str | None = None,
 ) -> PolynomialSystem: ...
-def write(result: Decomposition | SolveResult, path: File) -> None: ...
+def write(
+    result: Decomposition
+    | SolveResult
+    | Case
+    | Mechanism
+    | Model
+    | Parts
+    | Problem
+    | PolynomialSystem,
+    path: File,
+    *,
+    format: str = "auto",
+    title: str = "",
+) -> None: ...
 def write_decomposition(
     decomposition: Decomposition, path: File, origin: Origin | None = None
 ) -> None: ...

@@ -53,6 +53,28 @@ Coordinates = Literal["joint", "euler"]
 SUFFIXES = (".toml", ".json", ".urdf", ".xml", ".m2", ".sing", ".txt", ".bertini", ".phc")
 # How a file is read: keywords of `read`, and their defaults.
 FILE_OPTIONS: Mapping[str, Any] = {"set": None, "format": "auto", "hold": (), "at": None}
+# What a case may describe.
+DESCRIPTIONS = (
+    ("nag.files.cases", "Case"),
+    ("nag.mechanism.graph", "Mechanism"),
+    ("nag.mechanism.model", "Model"),
+    ("nag.mechanism.assembly", "AssemblyModel"),
+    ("nag.mechanism.linkage", "Linkage"),
+    ("nag.mechanism.framework", "Framework"),
+    ("nag.mechanism.dh", "DHLoop"),
+    ("nag.mechanism.problem", "Problem"),
+    ("nag.algebra.system", "PolynomialSystem"),
+)
+# Other programs' files by their endings.
+ENDINGS = {
+    ".m2": "m2",
+    ".sing": "singular",
+    ".phc": "phc",
+    ".bertini": "bertini",
+    ".jl": "hc",
+    ".txt": "text",
+    ".tex": "latex",
+}
 # What is said of a component of an export on which paths fail.
 UNTESTED = "the trace of its points could not be tested"
 
@@ -133,36 +155,78 @@ def _read_export(
     return read_file(path, convert)
 
 
-def write(result: Decomposition | SolveResult, path: str | os.PathLike[str]) -> None:
-    """Write a decomposition or solutions to a file from which `read` gives an equal one.
+def write(
+    result: Any, path: str | os.PathLike[str], *, format: str = "auto", title: str = ""
+) -> None:
+    """Write something to a file from which `read` gives an equal one.
 
-    The file is what ``nag decompose`` and ``nag solve`` write with ``--json``. Documents of other
-    commands say less than their results hold, so these are kept by `pickle`.
+    A decomposition and solutions are written as ``nag decompose`` and ``nag solve`` do with
+    ``--json``. Cases, mechanisms, their models, parts and systems are written as cases, in TOML:
+    `read` gives a `nag.Case`, equal to the one that was written, or whose ``mechanism``,
+    ``assembly`` or ``system`` is. Other results are kept by `pickle`.
+
+    Args:
+        result: what `nag.decompose`, `nag.intersect` or `nag.solve` returns; or a `nag.Case`, a
+            `nag.Mechanism`, a model, parts, a `nag.Problem` or a `nag.PolynomialSystem`.
+        path: the file; whatever was there is replaced.
+        format: of equations, ``"toml"``, or of another program: ``"bertini"``, ``"phc"``,
+            ``"m2"``, ``"singular"``, ``"hc"``, ``"text"``, ``"sympy"`` or ``"latex"``; by default
+            told by the ending (``.m2``, ``.sing``, ``.phc``, ``.bertini``, ``.jl``, ``.txt``), else
+            TOML.
+        title: of a case.
 
     Raises:
         nag.InputError: if the file cannot be written.
-        nag.NagError: if ``result`` is neither.
+        nag.NagError: if ``result`` is nothing of that kind, or the format cannot say it.
 
     >>> import nag, tempfile
     >>> circle = nag.decompose("x^2 + y^2 = 1")
+    >>> bars = {"base": "AD2", "left": "AB1", "top": "BC2", "right": "CD1"}
+    >>> four_bar = nag.Linkage.of(bars, "base")
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     nag.write(circle, f"{folder}/circle.json")
+    ...     nag.write(four_bar, f"{folder}/bars.toml", title="four bars")
     ...     nag.read(f"{folder}/circle.json") == circle
+    ...     nag.read(f"{folder}/bars.toml").assembly.linkage == four_bar
+    True
     True
     """
-    if is_a(result, "nag.witness.witness", "Decomposition"):
-        from nag.files.export import write_decomposition
+    from nag.algebra.given import check_path
 
-        write_decomposition(result, path)  # type: ignore[arg-type]
-    elif is_a(result, "nag.solving.solutions", "SolveResult"):
-        from nag.files.solutions_export import write_solutions
+    check_path(path)
+    found = is_a(result, "nag.witness.witness", "Decomposition")
+    if found or is_a(result, "nag.solving.solutions", "SolveResult"):
+        for name, given in (("format", format != "auto"), ("title", bool(title))):
+            if given:
+                raise NagError(f"{name}: is for cases and equations; an export has its own")
+        if found:
+            from nag.files.export import write_decomposition
 
-        write_solutions(result, path)  # type: ignore[arg-type]
-    else:
+            write_decomposition(result, path)
+        else:
+            from nag.files.solutions_export import write_solutions
+
+            write_solutions(result, path)
+        return
+    if not any(is_a(result, *kind) for kind in DESCRIPTIONS):
         raise NagError(
             f"result: {value_text(result)} is given; give what nag.decompose, nag.intersect or "
-            "nag.solve returns: other results are kept by pickle, or by their command's --json"
+            "nag.solve returns, a case, a mechanism, a model, parts or a nag.system: other results "
+            "are kept by pickle, or by their command's --json"
         )
+    from nag.files.case_writing import case_text
+    from nag.files.written_file import write_target
+
+    chosen = ENDINGS.get(os.path.splitext(path)[1], "toml") if format == "auto" else format
+    if chosen == "toml":
+        text = case_text(result, title)
+    else:
+        from nag.files.formats.writing import write_system
+        from nag.mechanism.problem import problem_of
+
+        title = title or getattr(result, "title", "")
+        text = write_system(problem_of(result).system, chosen, title)
+    write_target(path, text)
 
 
 def open_file(given: Any, **how: Any) -> Any:

@@ -1,10 +1,15 @@
-"""What users get is equal to itself after a pickle, and prints as one line."""
+"""What all results have in common: equality, one line, what they hold, arrays that stay."""
 
 from __future__ import annotations
 
+import ast
+import copy
 import pickle
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass, replace
 from functools import cache
+from pathlib import Path
+from tempfile import gettempdir
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,6 +17,7 @@ import numpy as np
 import pytest
 
 import nag
+from nag.numerics.read_only import equal_entries
 
 BENNETT = "cases/bennett.toml"
 
@@ -49,19 +55,169 @@ RESULTS = {
     "modes": lambda: nag.modes("cases/robots/3-rps.toml"),
     "case": lambda: nag.read(BENNETT),
     "model": lambda: nag.model(BENNETT),
+    "problem": lambda: nag.problem(BENNETT),
+    "system": lambda: nag.system(["x^2 - sqrt(2)*y", "y - 1"]),
+    "solution": lambda: solved()[0],
+    "solutions": lambda: solved()[:1],
+    "singular set": lambda: nag.singular(found())[0],
+    "framework": lambda: nag.Framework.of("ABC", ["AB", "BC", "CA"], [3, 4, "sqrt(2)"]),
+    "linkage": lambda: nag.read("cases/planar/four-bar.toml").assembly.linkage,
+    "table": lambda: nag.DHLoop.of([{"a": 1, "alpha": "pi/2"}, {"a": 2, "alpha": "pi/6"}] * 2),
+    "model of a linkage": lambda: nag.model("cases/planar/four-bar.toml"),
+    "mechanism": lambda: nag.read(BENNETT).mechanism,
+    "picture": lambda: nag.plot(BENNETT, Path(gettempdir()) / "nag-picture.svg", graph=True),
+}
+# What holds several things, and of what kind these are.
+SEVERAL = {
+    "decompose": nag.WitnessSet,
+    "intersect": nag.WitnessSet,
+    "member": nag.WitnessSet,
+    "solve": nag.Solution,
+    "solutions": nag.Solution,
+    "system": nag.Polynomial,
+    "eliminate": nag.Polynomial,
+    "sample": np.ndarray,
+    "family": np.ndarray,
+    "real points": np.ndarray,
+    "circuit": np.ndarray,
+    "singular set": np.ndarray,
+    "singular": object,
+    "real curve": object,
+    "motion": object,
+    "motion of a linkage": object,
+    "driven motion": object,
+    "modes": object,
+}
+# What is one thing, though it has parts: an answer, or a description.
+ONE = {
+    "component",
+    "certified components",
+    "certified points",
+    "solution",
+    "local",
+    "mobility",
+    "case",
+    "model",
+    "problem",
+    "framework",
+    "linkage",
+    "table",
+    "model of a linkage",
+    "mechanism",
+    "picture",
 }
 
 
 @pytest.mark.parametrize("name", RESULTS)
 def test_results_are_equal_to_themselves_after_a_pickle(name: str) -> None:
     result: Any = RESULTS[name]()
-    assert pickle.loads(pickle.dumps(result)) == result
+    for again in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
+        assert again == result
 
 
-@pytest.mark.parametrize("name", sorted(RESULTS.keys() - {"case"}))
+@pytest.mark.parametrize("name", RESULTS)
 def test_results_are_one_line_at_the_prompt(name: str) -> None:
     text = repr(RESULTS[name]())
     assert len(text) <= 100 and "\n" not in text
+
+
+def test_what_public_functions_return_is_asked_for_here() -> None:
+    """All but results of `find_real_curve` and the like, which are of the same classes."""
+    stub = ast.parse((Path(nag.__file__).parent / "__init__.pyi").read_text("utf-8"))
+    functions = [node for node in stub.body if isinstance(node, ast.FunctionDef)]
+    returned = {ast.unparse(node.returns) for node in functions if node.returns is not None}
+    kinds = {name.strip() for text in returned for name in text.split("|")}
+    kinds -= {"None", "int", "dict[str, Any]", "SolutionsExport", "AssemblyModel"}
+    assert kinds <= {type(result()).__name__ for result in RESULTS.values()}
+    assert SEVERAL.keys() | ONE == RESULTS.keys()
+
+
+@pytest.mark.parametrize("name", SEVERAL)
+def test_what_holds_several_things_is_a_sequence_of_them(name: str) -> None:
+    result = RESULTS[name]()
+    held = list(result)
+    assert len(result) == len(held) and bool(result) == bool(held)
+    assert all(isinstance(each, SEVERAL[name]) for each in held)
+    assert len(result[:1]) == len(held[:1]) and len(result[:0]) == 0
+    for k in (0, -1):
+        assert equal_entries(result[k], held[k]) and held[k] in result
+    with pytest.raises(IndexError):
+        result[len(held)]
+
+
+@pytest.mark.parametrize("name", sorted(ONE))
+def test_what_is_one_thing_has_no_length(name: str) -> None:
+    assert not hasattr(RESULTS[name](), "__len__")
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_what_is_made_of_a_result_for_other_programs_is_as_long(name: str) -> None:
+    result = RESULTS[name]()
+    if name in SEVERAL:
+        converted = {
+            "to_numpy": {np.ndarray, nag.Solution},
+            "to_sympy": {nag.Solution, nag.Polynomial},
+            "to_dataframe": {nag.WitnessSet, nag.Solution, object},
+        }
+        for method, kinds in converted.items():
+            if SEVERAL[name] in kinds and name not in ("solutions",):
+                assert hasattr(result, method), method
+    if hasattr(result, "to_numpy"):
+        array = result.to_numpy()
+        assert array.flags.writeable and (name not in SEVERAL or len(array) == len(result))
+    if hasattr(result, "to_sympy"):
+        assert len(result.to_sympy()) == len(result)
+    if hasattr(result, "to_dataframe"):
+        assert list(result.to_dataframe().columns)
+
+
+def arrays_in(value: Any, seen: set[int]) -> Iterator[np.ndarray]:
+    """Arrays that a result holds, at any depth."""
+    if id(value) in seen:
+        return
+    seen.add(id(value))
+    if isinstance(value, np.ndarray):
+        yield value
+    elif isinstance(value, Mapping):
+        for item in value.values():
+            yield from arrays_in(item, seen)
+    elif isinstance(value, list | tuple):
+        for item in value:
+            yield from arrays_in(item, seen)
+    elif is_dataclass(value):
+        for each in fields(value):
+            if not each.name.startswith("_"):
+                yield from arrays_in(getattr(value, each.name), seen)
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_no_array_of_a_result_can_be_made_writeable(name: str) -> None:
+    for array in arrays_in(RESULTS[name](), set()):
+        with pytest.raises(ValueError, match="WRITEABLE"):
+            array.setflags(write=True)
+
+
+@pytest.mark.parametrize("name", ["solve", "sample", "decompose", "family", "real points"])
+def test_nor_after_a_pickle_or_a_copy(name: str) -> None:
+    result = RESULTS[name]()
+    for again in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
+        part = again[0] if name == "decompose" else again
+        with pytest.raises(ValueError, match="WRITEABLE"):
+            part.points.setflags(write=True)
+
+
+def test_tables_of_solutions_are_put_together() -> None:
+    first, last = solved()[:1], solved()[1:]
+    assert first + last == solved().solutions
+    with pytest.raises(nag.NagError, match="the tables do not go together"):
+        first + nag.solve("x^2 - 2")[:1]
+
+
+def test_the_imaginary_unit_is_no_coordinate_elsewhere() -> None:
+    gaussian = nag.solve("x^2 + I", imaginary="I")
+    assert gaussian.to_numpy().shape == (2, 1)
+    assert [[str(symbol) for symbol in point] for point in gaussian.to_sympy()] == [["x"], ["x"]]
+    assert nag.sample(nag.system("x*(y - I)", imaginary="I"), count=2).to_numpy().shape == (2, 2)
 
 
 def incomplete() -> dict[str, Any]:

@@ -38,8 +38,8 @@ from nag.errors import NagError
 
 __all__ = ["exact_number", "exact_vector", "system"]
 
-# What iterates, as sequences of equations do, and holds none.
-ANSWERS = (("nag.witness.witness", "Decomposition"), ("nag.solving.solutions", "SolveResult"))
+# What iterates, as sequences of equations do, and holds none: results.
+ANSWERS = ("nag.numerics.read_only", "Several")
 
 
 def exact_number(value: Any, place: str = "the number") -> Number:
@@ -195,7 +195,7 @@ def _list_equations(equations: Any, place: str) -> list[Any]:
         return list(equations.ravel())
     if matrix:
         return list(equations)
-    answer = any(is_a(equations, *kind) for kind in ANSWERS)
+    answer = is_a(equations, *ANSWERS)
     if answer or not isinstance(equations, Iterable) or isinstance(equations, Mapping):
         raise ExpressionError(
             f"{place}: something of type {type(equations).__name__} is given; give texts like "

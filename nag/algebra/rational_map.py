@@ -23,7 +23,7 @@ class MapError(EquationError):
     """Maps that cannot be used; the message is one line."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class RationalMap:
     """A map of ``n`` unknowns that may depend on parameters.
 
@@ -68,7 +68,7 @@ class RationalMap:
         return result
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class MapGroup:
     """A finite group of rational maps.
 

@@ -25,7 +25,7 @@ from nag.algebra.rational_map import MapError, MapGroup
 NO_SYMMETRY = MapGroup((), ((),))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class SymmetricFamily:
     """A family, the symmetries of its solutions, and the coordinates that paths are tracked in.
 
@@ -141,7 +141,7 @@ def _cartesian(points: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarr
     return result
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class FamilyMember:
     """One system of a family.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, overload
 
 from nag.algebra.given import check_listed, check_type, value_text
 from nag.algebra.number import (
@@ -166,6 +166,15 @@ class PolynomialSystem:
 
     def __len__(self) -> int:
         return len(self.polynomials)
+
+    @overload
+    def __getitem__(self, index: int) -> Polynomial: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Polynomial, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> Polynomial | tuple[Polynomial, ...]:
+        return self.polynomials[index]
 
     def to_sympy(self) -> list[Any]:
         """The polynomials as sympy's expressions, exact, in symbols of the variables' names.

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import comb
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -28,11 +28,11 @@ from nag.numerics.coincidence import SPREAD, coincident
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.natural_coordinates import NaturalCoordinates
-from nag.numerics.read_only import ComplexArray, equal_values, fixed_array
+from nag.numerics.read_only import ComplexArray, Several, equal_values, fixed_array
 from nag.numerics.tangent_cone import TangentCone, form_text, tangent_cone
 from nag.numerics.zero_values import all_vanish
 from nag.text.json_text import pairs
-from nag.text.table import lines_of, one_line
+from nag.text.table import data_frame, lines_of, one_line
 from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.component_equations import (
@@ -45,12 +45,15 @@ from nag.witness.given_component import check_decomposition, check_index
 from nag.witness.multiplicity import multiplicity_at
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
+if TYPE_CHECKING:
+    import pandas
+
 # More pairs of components are not intersected.
 MOST_PAIRS = 150
 
 
 @dataclass(frozen=True, eq=False)
-class SingularSet:
+class SingularSet(Several[ComplexArray]):
     """An irreducible set of singular points, or an isolated one.
 
     Attributes:
@@ -75,6 +78,15 @@ class SingularSet:
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", fixed_array(self.points))
         object.__setattr__(self, "multiplicities", fixed_mapping(self.multiplicities))
+
+    @property
+    def entries(self) -> ComplexArray:
+        """The points."""
+        return self.points
+
+    def to_numpy(self) -> ComplexArray:
+        """The points, complex, shape ``(degree, n)``, to be written to."""
+        return self.points.copy()
 
     def __repr__(self) -> str:
         return f"SingularSet(dimension={self.dimension}, degree={self.degree})"
@@ -119,7 +131,7 @@ class SingularSet:
 
 
 @dataclass(frozen=True, eq=False)
-class SingularLocus:
+class SingularLocus(Several[SingularSet]):
     """The singular points of a zero set.
 
     Attributes:
@@ -139,6 +151,28 @@ class SingularLocus:
     proved: tuple[int, ...] = ()
 
     __eq__ = equal_values
+
+    @property
+    def entries(self) -> tuple[SingularSet, ...]:
+        """The sets."""
+        return self.sets
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each set: dimension, degree, and the components through it, from 1.
+
+        Those that are singular there themselves are `essential`.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        return data_frame(
+            {
+                "dimension": [one.dimension for one in self.sets],
+                "degree": [one.degree for one in self.sets],
+                "components": [tuple(i + 1 for i in one.multiplicities) for one in self.sets],
+                "essential": [tuple(i + 1 for i in one.essential) for one in self.sets],
+            }
+        )
 
     __repr__ = one_line
 

@@ -362,6 +362,11 @@ def _format_of(path: Path, text: str, format: str) -> str:
     return recognise_format(text)
 
 
+def parameter_table(path: Path, values: Mapping[str, Any]) -> CaseTable:
+    """The parameters of a case, as they are written, from what its file holds."""
+    return CaseTable(str(path), "", values).table("parameters")
+
+
 def is_robot(path: str | os.PathLike[str]) -> bool:
     """Whether a file is one of a robot, by its content."""
     return _format_of(Path(path), read_case_text(Path(path)), "auto") in ROBOTS

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from nag.algebra.groebner import dimension_and_degree
 from nag.algebra.polynomial import Exponents, Polynomial, divides
+from nag.algebra.to_sympy import to_sympy_polynomials
 from nag.interpolation.essential import VariableMap, essential_variables, maps
 from nag.interpolation.point_cloud import MORE_POINTS, Cloud, monomial_values
 from nag.interpolation.precise_samples import Source, source_of_component
@@ -37,8 +38,13 @@ from nag.interpolation.vanishing import (
 )
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.rational_relations import rank_of_columns
-from nag.numerics.read_only import equal_values
+from nag.numerics.read_only import Several, equal_values
+from nag.text.table import data_frame
 from nag.witness.witness import WitnessSet
+
+if TYPE_CHECKING:
+    import pandas
+    import sympy
 
 # Where no degree is asked for, no higher one is looked at.
 MOST_DEGREE = 12
@@ -48,7 +54,7 @@ MORE_DEGREES, ENOUGH_MONOMIALS = 2, 120
 
 
 @dataclass(frozen=True, eq=False)
-class ImageIdeal:
+class ImageIdeal(Several[Polynomial]):
     """What is known of the closure of the image of a component.
 
     Coefficients of polynomials are rational, or sums of the roots in the system's: of a
@@ -125,6 +131,33 @@ class ImageIdeal:
     def equations(self) -> tuple[str, ...]:
         """The generators as texts in the variables' names."""
         return tuple(f.text(self.names) for f in self.generators)
+
+    @property
+    def entries(self) -> tuple[Polynomial, ...]:
+        """The generators."""
+        return self.generators
+
+    def to_sympy(self) -> list[sympy.Expr]:
+        """The generators as sympy's expressions, in symbols of the variables' names.
+
+        Raises:
+            nag.NagError: if sympy is not installed.
+        """
+        return to_sympy_polynomials(self.generators, self.names)
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each generator: its text, its degree, and what proves it.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        return data_frame(
+            {
+                "equation": list(self.equations),
+                "degree": [f.degree for f in self.generators],
+                "proof": list(self.generator_proofs),
+            }
+        )
 
     def __repr__(self) -> str:
         from nag.interpolation.shown import ideal_line

@@ -34,7 +34,7 @@ from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.quaternion import conjugate, multiply
 from nag.numerics.double_ranks import NEARLY_SINGULAR
-from nag.numerics.read_only import RealArray, equal_values
+from nag.numerics.read_only import FixedArrays, RealArray, equal_values
 from nag.real.real_pieces import find_real_points
 from nag.text.table import join_words
 from nag.tracking.run import Run
@@ -82,7 +82,7 @@ class Pose:
 
 
 @dataclass(frozen=True, eq=False)
-class DrivenAssembly:
+class DrivenAssembly(FixedArrays):
     """An assembly at the value.
 
     Attributes:

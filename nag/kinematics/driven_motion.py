@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -39,9 +39,12 @@ from nag.kinematics.poses import Poses, pose_distances
 from nag.kinematics.scene import Scene, scene_of
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import of_real_assemblies
-from nag.numerics.read_only import equal_values
-from nag.text.table import one_line
+from nag.numerics.read_only import Several, equal_values
+from nag.text.table import data_frame, one_line
 from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, TellFound, takes_run
+
+if TYPE_CHECKING:
+    import pandas
 
 # Samples of a circuit that are compared with those of another one.
 COMPARED = 60
@@ -63,7 +66,7 @@ class Continuation:
 
 
 @dataclass(frozen=True, eq=False)
-class DrivenMotion(Sequence[Motion]):
+class DrivenMotion(Several[Motion]):
     """A mechanism with a joint at one value after another.
 
     Attributes:
@@ -87,20 +90,10 @@ class DrivenMotion(Sequence[Motion]):
         """Whether nothing is left open at any value."""
         return not self.notes and all(motion.complete for motion in self.motions)
 
-    def __len__(self) -> int:
-        return len(self.motions)
-
-    def __iter__(self) -> Iterator[Motion]:
-        return iter(self.motions)
-
-    @overload
-    def __getitem__(self, index: int) -> Motion: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> tuple[Motion, ...]: ...
-
-    def __getitem__(self, index: int | slice) -> Motion | tuple[Motion, ...]:
-        return self.motions[index]
+    @property
+    def entries(self) -> tuple[Motion, ...]:
+        """What is left at each value."""
+        return self.motions
 
     __repr__ = one_line
 
@@ -136,6 +129,14 @@ class DrivenMotion(Sequence[Motion]):
                 columns = columns | {"circuit": np.array(own, dtype=int)}
             tables.append({"driven": np.full(len(columns["arc"]), value)} | columns)
         return join_tables(tables)
+
+    def to_dataframe(self, *, angles: str = "degrees") -> pandas.DataFrame:
+        """The same as a frame of pandas.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        return data_frame(self.table(angles=angles))
 
     def document(self) -> dict[str, Any]:
         """All of it as a JSON object without its head; angles are in radians."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
@@ -35,12 +35,15 @@ from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import obstacle, of_real_assemblies
 from nag.numerics.local_dimension import local_dimension
-from nag.numerics.read_only import RealArray, equal_values
+from nag.numerics.read_only import RealArray, Several, equal_values
 from nag.real.curve import RealCurve
-from nag.text.table import count_text, one_line
+from nag.text.table import count_text, data_frame, one_line
 from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition, WitnessSet
+
+if TYPE_CHECKING:
+    import pandas
 
 # Samples of each circuit; an even number of steps, so that halves of coverings are whole ones.
 SAMPLES = 360
@@ -89,7 +92,7 @@ class Crossing:
 
 
 @dataclass(frozen=True, eq=False)
-class Circuit:
+class Circuit(Several[RealArray]):
     """One motion, sampled at even distances.
 
     Attributes:
@@ -131,8 +134,14 @@ class Circuit:
         """The whole way."""
         return float(self.arc[-1])
 
-    def __len__(self) -> int:
-        return len(self.arc)
+    @property
+    def entries(self) -> RealArray:
+        """The samples, in the variables of the equations."""
+        return self.points
+
+    def to_numpy(self) -> RealArray:
+        """The samples in the variables of the equations, shape ``(k, n)``, to be written to."""
+        return self.points.copy()
 
     def document(self, scene: Scene) -> dict[str, Any]:
         """The circuit as a JSON object."""
@@ -183,7 +192,7 @@ class Circuit:
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class Motion(Several[Circuit]):
     """Real motions of a mechanism.
 
     Attributes:
@@ -222,6 +231,11 @@ class Motion:
     poses: tuple[Pose, ...] = ()
 
     __eq__ = equal_values
+
+    @property
+    def entries(self) -> tuple[Circuit, ...]:
+        """The circuits."""
+        return self.circuits
 
     @property
     def complete(self) -> bool:
@@ -270,6 +284,14 @@ class Motion:
         """All circuits one below the other, or the assemblies where there is no circuit."""
         tables = [self.table(each.number, angles=angles) for each in self.circuits]
         return join_tables(tables) if tables else self.assembly_table(angles=angles)
+
+    def to_dataframe(self, *, angles: str = "degrees") -> pandas.DataFrame:
+        """The same as a frame of pandas.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        return data_frame(self.whole_table(angles=angles))
 
     def assembly_table(self, *, angles: str = "degrees") -> dict[str, np.ndarray]:
         """The assemblies with joints or bodies held, a row each, with the columns of `table`.

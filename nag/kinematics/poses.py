@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.mechanism.quaternion import conjugate, multiply, rotate
-from nag.numerics.read_only import RealArray, equal_values
+from nag.numerics.read_only import FixedArrays, RealArray, equal_values, handed_over
 
 
 def turn_product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -35,7 +35,7 @@ def _parts(a: np.ndarray) -> tuple[np.ndarray, ...]:
 
 
 @dataclass(frozen=True, eq=False)
-class Poses:
+class Poses(FixedArrays):
     """Where bodies are, at ``k`` configurations.
 
     Attributes:
@@ -49,8 +49,8 @@ class Poses:
     __eq__ = equal_values
 
     def __post_init__(self) -> None:
-        for array in (self.turns, self.places):
-            array.setflags(write=False)
+        for name in ("turns", "places"):
+            object.__setattr__(self, name, handed_over(getattr(self, name)))
 
     def __len__(self) -> int:
         return self.turns.shape[1]

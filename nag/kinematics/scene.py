@@ -25,7 +25,7 @@ from nag.mechanism.linkage import LinkageModel
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem
 from nag.mechanism.quaternion import translation
-from nag.numerics.read_only import equal_values
+from nag.numerics.read_only import FixedArrays, equal_values
 
 IDENTITY = (1, 0, 0, 0)
 UP = (0, 0, 1)
@@ -34,7 +34,7 @@ PLANE = 2
 
 
 @dataclass(frozen=True, eq=False)
-class SceneJoint:
+class SceneJoint(FixedArrays):
     """A joint, as each of its two bodies carries it.
 
     Attributes:
@@ -65,7 +65,7 @@ class SceneJoint:
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class Scene(FixedArrays):
     """Bodies and joints, and the way to their poses.
 
     Attributes:

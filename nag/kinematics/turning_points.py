@@ -8,7 +8,7 @@ import numpy as np
 
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values, unwrap_angles
 from nag.kinematics.path import Path, along_three
-from nag.numerics.read_only import BooleanArray, IntegerArray, RealArray, equal_values
+from nag.numerics.read_only import BooleanArray, FixedArrays, IntegerArray, RealArray, equal_values
 
 # Decides: By how much a joint moves that never does: 1e-14 was seen; others moved by 1e-3 and more.
 STILL = 1e-9
@@ -38,7 +38,7 @@ class TurningPoint:
 
 
 @dataclass(frozen=True, eq=False)
-class Values:
+class Values(FixedArrays):
     """Angles and slides along a motion.
 
     Attributes:

@@ -19,13 +19,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import acos, degrees, sqrt
+from math import acos, atan2, degrees, sqrt
 from typing import Any
 
 from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.from_python import exact_number
-from nag.algebra.number import Number, cosine, is_zero, pi_multiple, sine
+from nag.algebra.number import Number, brief_number_text, cosine, is_zero, pi_multiple, sine
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -49,7 +49,7 @@ from nag.mechanism.quaternion import (
     scale,
     translation,
 )
-from nag.text.table import count_text
+from nag.text.table import count_text, lines_of, one_line
 
 HalfAngle = tuple[Number, Number]
 
@@ -76,9 +76,9 @@ class DHError(MechanismError):
         self.key = key
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Row:
-    """A joint and the link after it.
+    """A joint and the link after it; rows are equal whatever the scale of their half-angles.
 
     Attributes:
         name: of the joint.
@@ -94,6 +94,17 @@ class Row:
     alpha: HalfAngle
     theta: HalfAngle | None = None
 
+    def __eq__(self, other: object) -> bool:
+        return self._key == other._key if isinstance(other, Row) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    @property
+    def _key(self) -> tuple[Any, ...]:
+        """What it is compared by: tangents of the half-angles, which have no scale."""
+        return (self.name, self.a, self.d, _tangent(self.alpha), _tangent(self.theta))
+
     @property
     def link(self) -> DualQuaternion:
         """The row without its turn about z, up to a real factor."""
@@ -108,6 +119,13 @@ class Row:
         assert self.theta is not None
         c, s = self.theta
         return dual_multiply(((c, ZERO, ZERO, s), NOTHING), self.link)
+
+
+def _tangent(half: HalfAngle | None) -> Number | str | None:
+    """The tangent of half an angle, infinite at half a turn."""
+    if half is None:
+        return None
+    return "infinite" if is_zero(half[0]) else half[1] / half[0]
 
 
 @dataclass(frozen=True)
@@ -149,6 +167,21 @@ class DHLoop:
                 raise DHError("another joint has that name", i, "name")
         if len(self.open) > MOST_JOINTS:
             raise DHError(f"{len(self.open)} open joints; at most {MOST_JOINTS} are multiplied out")
+
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        names = ", ".join(row.name for row in self.rows)
+        title = f"DHLoop of {count_text(len(self.rows), 'joint')} ({names}), {len(self.open)} open"
+        rows = []
+        for row in self.rows:
+            values = f"a = {brief_number_text(row.a)}, d = {brief_number_text(row.d)}"
+            for name, half in (("alpha", row.alpha), ("theta", row.theta)):
+                if half is not None:
+                    turn = 2 * atan2(float(half[1]), float(half[0]))
+                    values += f", {name} = {degrees(turn):.6g} degrees"
+            rows.append((row.name, values))
+        return lines_of(title, rows)
 
     @property
     def open(self) -> tuple[int, ...]:

@@ -16,9 +16,10 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.from_python import exact_number, exact_vector
-from nag.algebra.number import Number, is_zero
+from nag.algebra.number import Number, brief_number_text, is_zero, square_root
 from nag.errors import MechanismError
 from nag.mechanism.graph import connected_to
+from nag.text.table import count_text, lines_of, one_line
 
 if TYPE_CHECKING:
     import networkx
@@ -150,6 +151,18 @@ class Framework:
                 "bars",
             )
 
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        space = "the plane" if self.dimension == 2 else "space"
+        given = "by lengths" if self.placement is None else "by places"
+        size = f"{count_text(len(self.points), 'point')} and {count_text(len(self.bars), 'bar')}"
+        lengths = (
+            f"{first}-{second} {_length_text(squared)}"
+            for (first, second), squared in zip(self.bars, self.squared_lengths, strict=True)
+        )
+        return lines_of(f"Framework of {size} in {space}, {given}", [("bars", ", ".join(lengths))])
+
     @property
     def motions(self) -> int:
         """Dimension of the group of motions."""
@@ -245,6 +258,12 @@ class Framework:
             for second, third in combinations(ends, 2):
                 if frozenset((second, third)) not in joined:
                     yield first, second, third
+
+
+def _length_text(squared: Number) -> str:
+    """A length, exactly where it has a short text."""
+    length = square_root(squared)
+    return brief_number_text(length)
 
 
 def placed_framework(dimension: int, placement: dict[str, Place], bars: Sequence[Bar]) -> Framework:

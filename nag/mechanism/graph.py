@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 from nag.algebra.from_python import exact_vector
 from nag.algebra.given import check_listed, check_type, is_a, value_text
@@ -244,11 +244,28 @@ class Mechanism:
 
         return loop_of_lines(lines)
 
-    def lines(self) -> np.ndarray:
-        """Direction, of length 1, and moment of each joint that has an axis, shape ``(k, 6)``."""
-        from nag.mechanism.lines import lines_of
+    @overload
+    def lines(self, exact: Literal[False] = False) -> np.ndarray: ...
 
-        return lines_of(self)
+    @overload
+    def lines(self, exact: Literal[True]) -> tuple[tuple[Number, ...], ...]: ...
+
+    def lines(self, exact: bool = False) -> np.ndarray | tuple[tuple[Number, ...], ...]:
+        """Direction and moment, point x direction, of each joint that has an axis.
+
+        Args:
+            exact: whether the numbers are kept as they are, six of each joint, of which
+                `from_lines` makes the same axes; else they are doubles, shape ``(k, 6)``,
+                directions of length 1.
+
+        >>> import nag
+        >>> bennett = nag.read_case("cases/bennett.toml").mechanism
+        >>> nag.mobility(nag.Mechanism.from_lines(bennett.lines(exact=True))).local_dimension
+        1
+        """
+        from nag.mechanism.lines import exact_lines_of, lines_of
+
+        return exact_lines_of(self) if exact else lines_of(self)
 
     def to_graph(self) -> networkx.MultiGraph:
         """The mechanism as a networkx graph, of which `from_graph` makes the same mechanism.

@@ -213,3 +213,9 @@ def lines_of(mechanism: Mechanism) -> np.ndarray:
             moment = np.cross([float(x) for x in near], direction)
             rows.append([*direction, *moment])
     return np.array(rows).reshape(-1, 6)
+
+
+def exact_lines_of(mechanism: Mechanism) -> tuple[tuple[Number, ...], ...]:
+    """The same in the numbers that are given, directions of any length."""
+    placed = [joint for joint in mechanism.joints if joint.axis is not None]
+    return tuple((*joint.axis, *cross(joint.point, joint.axis)) for joint in placed)

@@ -32,7 +32,7 @@ from nag.mechanism.given_rotation import GivenFrame, turn_about
 from nag.mechanism.graph import connected_to
 from nag.mechanism.loops import minimum_cycles
 from nag.mechanism.path_estimates import Alternative
-from nag.text.table import count_text
+from nag.text.table import count_text, lines_of, one_line
 
 Place = tuple[Number, Number]
 
@@ -133,6 +133,13 @@ class Linkage:
             raise LinkageError(
                 f"no pin connects it with the ground {self.ground!r}", stray[0], "pins"
             )
+
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        names = ", ".join(link.name for link in self.links)
+        title = f"Linkage of {count_text(len(self.links), 'link')} ({names}), ground {self.ground}"
+        return lines_of(title, [(link.name, f"pins {', '.join(link.pins)}") for link in self.links])
 
     @property
     def gruebler_kutzbach(self) -> int:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,11 +15,12 @@ from nag.mechanism.inverse_kinematics import REACHED
 from nag.mechanism.leg_image import COORDINATES
 from nag.mechanism.motions import MotionType, ScrewSystem
 from nag.mechanism.platform import LegEquations, PlatformModel
-from nag.numerics.read_only import equal_values
+from nag.numerics.read_only import FixedArrays, Several, equal_values
 from nag.text.table import (
     Row,
     align,
     count_text,
+    data_frame,
     html_table,
     join_words,
     magnitude,
@@ -27,6 +28,9 @@ from nag.text.table import (
     sheet,
 )
 from nag.witness.witness import Decomposition, WitnessSet
+
+if TYPE_CHECKING:
+    import pandas
 
 # Of a mode the quadratic equations are printed if they are so few and have so few terms.
 MOST_EQUATIONS, MOST_TERMS = 2, 8
@@ -45,7 +49,7 @@ class ModeReality(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class OperationMode:
+class OperationMode(FixedArrays):
     """A component of the poses of a platform.
 
     Attributes:
@@ -217,7 +221,7 @@ class SpuriousComponent:
 
 
 @dataclass(frozen=True, eq=False)
-class OperationModes:
+class OperationModes(Several[OperationMode]):
     """The operation modes of a parallel robot.
 
     Attributes:
@@ -237,6 +241,21 @@ class OperationModes:
     notes: tuple[str, ...]
 
     __eq__ = equal_values
+
+    @property
+    def entries(self) -> tuple[OperationMode, ...]:
+        """The modes."""
+        return self.modes
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each mode: dimension, degree, motion, reality, whether it has the reference.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        names = ("dimension", "degree", "motion", "reality", "through_reference")
+        columns = {name: [getattr(mode, name) for mode in self.modes] for name in names}
+        return data_frame(columns)
 
     @property
     def complete(self) -> bool:

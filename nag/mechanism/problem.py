@@ -21,6 +21,7 @@ from nag.errors import NagError, StartError
 from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.parts import check_formulation, model_parts, parts_in_formulation
+from nag.text.table import lines_of, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, answers_early
 
 if TYPE_CHECKING:
@@ -50,6 +51,18 @@ class Problem:
     points: tuple[NamedPoint, ...] = ()
     family: FamilyMember | None = None
     model: Model | AssemblyModel | None = None
+
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        about = [("system", one_line(self.system)[1:-1])]
+        if self.model is not None:
+            about.append(("of", one_line(self.model)[1:-1]))
+        if self.points:
+            about.append(("points", ", ".join(point.name for point in self.points)))
+        if self.symmetries:
+            about.append(("symmetries", str(len(self.symmetries))))
+        return lines_of("Problem", about)
 
     @property
     def parts(self) -> AssemblyModel | None:

@@ -11,6 +11,7 @@ from typing import Any, Self, TypeVar, overload
 
 import numpy as np
 
+from nag.errors import NagError
 from nag.numerics.large_arrays import empty_array, leave_to_file
 from nag.numerics.read_only import equal_entries
 
@@ -164,6 +165,15 @@ class RecordTable(ArrayTable, Sequence[Record]):
 
     def __iter__(self) -> Iterator[Record]:
         return map(self.record, range(len(self)))
+
+    def __add__(self, other: Self) -> Self:
+        """The rows of one table, and those of another below them."""
+        if type(other) is not type(self):
+            return NotImplemented
+        try:
+            return self.concatenate([self, other])
+        except ValueError as error:
+            raise NagError(f"the tables do not go together: {error}") from None
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Sequence):

@@ -1,10 +1,10 @@
-"""Arrays of results, which nobody may change, and results that are equal."""
+"""What results have in common: arrays that nobody may change, equality, and what they hold."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias, TypeVar, overload
 
 import numpy as np
 
@@ -16,13 +16,26 @@ ByteArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.int8]]
 BooleanArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
 
+Item = TypeVar("Item")
+
+
 def fixed_array(array: np.ndarray, dtype: type | None = None) -> np.ndarray:
     """The array itself if nobody can write to it, else a read-only copy: others may hold it."""
     array = np.asarray(array, dtype=dtype)
     if _can_be_written(array):
         array = array.copy()
-        array.setflags(write=False)
-    return array
+    return handed_over(array) if array.flags.owndata else array
+
+
+def handed_over(array: np.ndarray) -> np.ndarray:
+    """An array, to which nobody else will write, as one to which nobody can.
+
+    Of one that owns its data the flag could be set back; of a view of it that is refused.
+    """
+    if not array.flags.owndata:
+        return fixed_array(array)
+    array.setflags(write=False)
+    return array.view()
 
 
 def _can_be_written(array: np.ndarray) -> bool:
@@ -33,6 +46,59 @@ def _can_be_written(array: np.ndarray) -> bool:
             return True
         owner = owner.base
     return False
+
+
+class FixedArrays:
+    """A dataclass whose arrays cannot be written to, after it was pickled or copied either."""
+
+    def __post_init__(self) -> None:
+        fix_fields(self)
+
+    def __setstate__(self, state: Mapping[str, Any]) -> None:
+        for name, value in state.items():
+            fixed = handed_over(value) if isinstance(value, np.ndarray) else value
+            object.__setattr__(self, name, fixed)
+
+
+def fix_fields(made: Any, deep: bool = False) -> None:
+    """Fix the arrays that a dataclass holds, which was just made or is done.
+
+    Args:
+        deep: whether those of the dataclasses that it holds, too.
+    """
+    for each in fields(made):
+        value = getattr(made, each.name)
+        if isinstance(value, np.ndarray):
+            object.__setattr__(made, each.name, fixed_array(value))
+        elif deep and is_dataclass(value):
+            fix_fields(value, deep)
+
+
+class Several(FixedArrays, Sequence[Item]):
+    """A result that is a sequence of what it holds."""
+
+    @property
+    def entries(self) -> Sequence[Item]:
+        """What that is, in order."""
+        raise NotImplementedError
+
+    def __len__(self) -> int:
+        return len(self.entries)
+
+    def __iter__(self) -> Iterator[Item]:
+        return iter(self.entries)
+
+    @overload
+    def __getitem__(self, index: int) -> Item: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Item]: ...
+
+    def __getitem__(self, index: int | slice) -> Item | Sequence[Item]:
+        return self.entries[index]
+
+    def __contains__(self, item: object) -> bool:
+        return any(equal_entries(each, item) for each in self.entries)
 
 
 def equal_values(one: object, other: object) -> bool:

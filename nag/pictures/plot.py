@@ -47,6 +47,11 @@ class Picture:
         """Whether nothing is missing."""
         return not self.notes
 
+    def __repr__(self) -> str:
+        from nag.text.table import named_line
+
+        return named_line(self, f": {self.path}")
+
     def __str__(self) -> str:
         from nag.text.table import label_lines
 

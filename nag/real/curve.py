@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nag.numerics.read_only import RealArray, equal_values, fixed_array
-from nag.text.table import one_line
+from nag.numerics.read_only import RealArray, Several, equal_values, fixed_array
+from nag.text.table import data_frame, one_line
 
 if TYPE_CHECKING:
     import networkx
+    import pandas
 
 # Of documents.
 FORMAT, VERSION = "nag-real-curve", 1
@@ -141,7 +142,7 @@ class RealPiece:
 
 
 @dataclass(frozen=True, eq=False)
-class RealCurve:
+class RealCurve(Several[RealPiece]):
     """All real points of a one-dimensional component, as a graph.
 
     Attributes:
@@ -175,6 +176,23 @@ class RealCurve:
         object.__setattr__(self, "verdict", PictureVerdict(self.verdict))
         if self.meetings is not None:
             object.__setattr__(self, "meetings", fixed_array(self.meetings, float))
+
+    @property
+    def entries(self) -> tuple[RealPiece, ...]:
+        """The connected pieces."""
+        return self.pieces
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each point of an arc: the arc's number, from 0, and its coordinates.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        numbers = [np.full(len(edge.points), k) for k, edge in enumerate(self.edges)]
+        points = [edge.points for edge in self.edges]
+        whole = np.vstack([*points, np.zeros((0, len(self.variables)))])
+        columns = {"edge": np.concatenate([*numbers, np.zeros(0, dtype=int)])}
+        return data_frame(columns | dict(zip(self.variables, whole.T, strict=True)))
 
     @property
     def complete(self) -> bool:

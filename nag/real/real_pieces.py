@@ -27,7 +27,7 @@ from nag.decomposition.intersection import intersect_components
 from nag.errors import ComponentError, StartError
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import local_dimension
-from nag.numerics.read_only import RealArray, equal_values, fixed_array
+from nag.numerics.read_only import RealArray, Several, equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
 from nag.real.curve import RealCurve
 from nag.real.find_curve import RealCurveError, find_real_curve
@@ -72,7 +72,7 @@ class Reality(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class RealPieces:
+class RealPieces(Several[RealArray]):
     """Real points of a component.
 
     Attributes:
@@ -94,8 +94,14 @@ class RealPieces:
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", fixed_array(self.points, float))
 
-    def __len__(self) -> int:
-        return len(self.points)
+    @property
+    def entries(self) -> RealArray:
+        """The points."""
+        return self.points
+
+    def to_numpy(self) -> RealArray:
+        """The points, shape ``(k, n)``, to be written to."""
+        return self.points.copy()
 
     __repr__ = one_line
 

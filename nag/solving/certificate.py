@@ -34,7 +34,7 @@ from nag.numerics.point_claims import (
     find_nonvanishing,
     zero_digits,
 )
-from nag.numerics.read_only import equal_values
+from nag.numerics.read_only import equal_values, fix_fields
 from nag.solving.solution_claims import claims_of_solutions
 from nag.solving.solutions import Solution, Solutions, SolveResult
 from nag.solving.start.multihomogeneous import best_groups
@@ -78,6 +78,10 @@ class SolutionsCertificate:
     bound_name: str
 
     __eq__ = equal_values
+
+    def __post_init__(self) -> None:
+        # What is worked out of points in place is done.
+        fix_fields(self, deep=True)
 
     @cached_property
     def simple(self) -> int:

@@ -8,12 +8,12 @@ solved by itself, as `nag.solving.parameter.solve_targets` solves one.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Iterator, Sequence
+from collections.abc import Generator, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -29,7 +29,9 @@ from nag.numerics.read_only import (
     ComplexArray,
     IntegerArray,
     RealArray,
+    Several,
     equal_values,
+    fixed_array,
 )
 from nag.solving.member_lines import MemberLines
 from nag.solving.parameter import Solved, solve_generic, solve_targets
@@ -41,6 +43,9 @@ from nag.tracking.run import DEFAULT_RUN, Run, TellFound, takes_run
 from nag.tracking.settings import Settings, find_settings
 from nag.tracking.track import track, track_members
 
+if TYPE_CHECKING:
+    import pandas
+
 __all__ = ["FamilySolutions", "family_of", "solve_family_members", "solve_members"]
 
 # Members that are tracked together, and paths; neither changes an answer.
@@ -50,7 +55,7 @@ MOST_BYTES = 1 << 34
 
 
 @dataclass(frozen=True, eq=False)
-class FamilySolutions:
+class FamilySolutions(Several[ComplexArray]):
     """The isolated solutions of M members of a family.
 
     Attributes:
@@ -76,6 +81,10 @@ class FamilySolutions:
 
     __eq__ = equal_values
 
+    def __post_init__(self) -> None:
+        for name in ("values", "points", "status", "errors", "one_by_one", "complete"):
+            object.__setattr__(self, name, fixed_array(getattr(self, name)))
+
     @property
     def variables(self) -> tuple[str, ...]:
         """Names of the unknowns."""
@@ -86,22 +95,20 @@ class FamilySolutions:
         """Names of the parameters."""
         return self.start.family.parameters
 
+    @property
+    def entries(self) -> Sequence[ComplexArray]:
+        """The solutions of each member, as `at` has them."""
+        return [self.at(k) for k in range(len(self))]
+
     def __len__(self) -> int:
         return len(self.values)
 
-    def __iter__(self) -> Iterator[ComplexArray]:
-        """The solutions of each member, as `at` has them."""
-        return map(self.at, range(len(self)))
+    def to_numpy(self) -> ComplexArray:
+        """All solutions, complex, shape ``(M, S, n)``, NaN where there is none, to be written to.
 
-    @overload
-    def __getitem__(self, member: int) -> ComplexArray: ...
-
-    @overload
-    def __getitem__(self, member: slice) -> list[ComplexArray]: ...
-
-    def __getitem__(self, member: int | slice) -> ComplexArray | list[ComplexArray]:
-        chosen = range(len(self))[member]
-        return self.at(chosen) if isinstance(chosen, int) else [self.at(k) for k in chosen]
+        The same as `points`, which cannot be written to.
+        """
+        return self.points.copy()
 
     __repr__ = one_line
 
@@ -116,7 +123,7 @@ class FamilySolutions:
         title = f"FamilySolutions of {', '.join(self.variables)} by {', '.join(self.parameters)}"
         return lines_of(title, rows)
 
-    def to_dataframe(self, real: bool = False) -> Any:
+    def to_dataframe(self, real: bool = False) -> pandas.DataFrame:
         """A row for each solution: its member, from 0, parameters, coordinates, and whether real.
 
         Args:
@@ -345,13 +352,12 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
     proved = np.zeros(M, dtype=bool)
     one_by_one = np.zeros(M, dtype=bool)
     complete = np.zeros(M, dtype=bool)
-    found = FamilySolutions(solved, values, points, status, errors, one_by_one, complete)
+    arrays = (values, points, status, errors, one_by_one, complete)
     done = 0
 
     def first_members() -> FamilySolutions:
         # What is told stays as it is, while the others are solved.
-        arrays = ("values", "points", "status", "errors", "one_by_one", "complete")
-        return replace(found, **{name: getattr(found, name)[:done].copy() for name in arrays})
+        return FamilySolutions(solved, *(array[:done].copy() for array in arrays))
 
     # What is under way ends before what was found is told.
     with TellFound(run, first_members) as tell, closing(_track_all(solved, values, run)) as tracked:
@@ -369,7 +375,7 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
             own = _solve_alone(solved, values[member], run)
             places[member], status[member], errors[member], complete[member] = own
             tell(number + 1 < len(alone))
-    return found
+    return FamilySolutions(solved, *arrays)
 
 
 def _track_all(

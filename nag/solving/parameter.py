@@ -19,7 +19,7 @@ from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import Completeness, judge_number
 from nag.errors import StartError
-from nag.numerics.read_only import equal_values
+from nag.numerics.read_only import FixedArrays, equal_values
 from nag.numerics.system_facts import SystemFacts
 from nag.solving.certificate import bound_of_zeros
 from nag.solving.parameter_line import parameter_line
@@ -45,7 +45,7 @@ __all__ = ["Family", "Solved", "solve_generic", "solve_member", "solve_targets"]
 
 
 @dataclass(frozen=True, eq=False)
-class Solved:
+class Solved(FixedArrays):
     """A family solved for random parameters: what `solve_targets` starts from.
 
     Attributes:

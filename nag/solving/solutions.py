@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from types import MappingProxyType
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,14 +15,21 @@ from nag.numerics.array_table import RecordTable
 from nag.numerics.read_only import (
     BooleanArray,
     ComplexArray,
+    FixedArrays,
     IntegerArray,
     RealArray,
+    Several,
     equal_values,
     fixed_array,
+    handed_over,
 )
 from nag.text.json_text import Objects, pairs, real_or_null
 from nag.text.table import count_text, data_frame, one_line
 from nag.tracking.run import Run
+
+if TYPE_CHECKING:
+    import pandas
+    import sympy
 
 # Of exported results.
 FORMAT, VERSION = "nag-solutions", 1
@@ -38,7 +45,7 @@ NUMBERS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Solution:
+class Solution(FixedArrays):
     """One isolated solution.
 
     Attributes:
@@ -69,6 +76,10 @@ class Solution:
         object.__setattr__(self, "point", fixed_array(self.point, np.complex128))
         if self.radii is not None:
             object.__setattr__(self, "radii", fixed_array(self.radii))
+
+    def to_numpy(self) -> ComplexArray:
+        """The point, to be written to."""
+        return self.point.copy()
 
     def document(self) -> dict[str, Any]:
         """The solution as a JSON object."""
@@ -114,7 +125,7 @@ class Solutions(RecordTable[Solution]):
     def __post_init__(self) -> None:
         for name in ("points", *NUMBERS):
             # Whoever makes the table hands its columns over: they may be large.
-            getattr(self, name).setflags(write=False)
+            object.__setattr__(self, name, handed_over(getattr(self, name)))
         fixed = {i: fixed_array(radii) for i, radii in self.radii.items()}
         object.__setattr__(self, "radii", MappingProxyType(fixed))
 
@@ -166,7 +177,7 @@ def _solutions(
 
 
 @dataclass(frozen=True, eq=False)
-class LargerSets:
+class LargerSets(FixedArrays):
     """End points on solution sets of positive dimension, each shape ``(k, n)``.
 
     Attributes:
@@ -247,7 +258,7 @@ class PathStatistics:
 
 
 @dataclass(frozen=True, eq=False)
-class SolveResult(Sequence[Solution]):
+class SolveResult(Several[Solution]):
     """All isolated solutions of a system that were found.
 
     Attributes:
@@ -381,26 +392,20 @@ class SolveResult(Sequence[Solution]):
         """Whether it has such points, or may have."""
         return self.positive_dimensional or len(self.on_doubtful) > 0
 
-    def __iter__(self) -> Iterator[Solution]:
-        return iter(self.solutions)
-
-    def __len__(self) -> int:
-        return len(self.solutions)
-
-    @overload
-    def __getitem__(self, index: int) -> Solution: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> Sequence[Solution]: ...
-
-    def __getitem__(self, index: int | slice) -> Solution | Sequence[Solution]:
-        return self.solutions[index]
+    @property
+    def entries(self) -> Sequence[Solution]:
+        """The isolated solutions."""
+        return self.solutions
 
     def to_numpy(self) -> ComplexArray:
-        """The isolated solutions, complex, shape ``(k, n)``, to be written to."""
-        return self.points.copy()
+        """The isolated solutions, complex, shape ``(k, n)``, to be written to.
 
-    def to_dataframe(self, real: bool = False) -> Any:
+        As in frames, without the imaginary unit, which is the last variable of a system with
+        complex coefficients.
+        """
+        return self.points[:, : len(self.system.own_variables)].copy()
+
+    def to_dataframe(self, real: bool = False) -> pandas.DataFrame:
         """A row for each isolated solution: its coordinates, complex, and what is known of it.
 
         Args:
@@ -417,13 +422,14 @@ class SolveResult(Sequence[Solution]):
             columns[name] = getattr(table, name)
         return data_frame(columns)
 
-    def to_sympy(self) -> list[dict[Any, Any]]:
+    def to_sympy(self) -> list[dict[sympy.Symbol, sympy.Expr]]:
         """The isolated solutions as sympy has them: values, floats, by symbols.
 
         Raises:
             nag.NagError: if sympy is not installed.
         """
-        return [to_sympy_point(self.system.variables, s.point) for s in self.solutions]
+        names = self.system.own_variables
+        return [to_sympy_point(names, x) for x in self.to_numpy()]
 
     def rows(self, most: int | None = None, columns: int | None = None) -> list[list[str]]:
         """Headings, and a row for each solution, the real ones first.

@@ -42,7 +42,7 @@ from nag.numerics.point_claims import (
     find_nonvanishing,
     is_away,
 )
-from nag.numerics.read_only import equal_values
+from nag.numerics.read_only import equal_values, fix_fields
 from nag.witness.component_claims import claims_of_components
 from nag.witness.frame import image
 from nag.witness.moving import witness_at
@@ -79,6 +79,10 @@ class ComponentCertificate:
     images: tuple[CertifiedPoints | None, ...] = ()
 
     __eq__ = equal_values
+
+    def __post_init__(self) -> None:
+        # What is worked out of points in place is done.
+        fix_fields(self, deep=True)
 
     @property
     def all_proved(self) -> bool:

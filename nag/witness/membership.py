@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import flint
 import numpy as np
@@ -23,10 +23,10 @@ from nag.numerics.digits import BITS, bits_of, doubles, in_bits, to_ball
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.newton import newton_step
-from nag.numerics.read_only import equal_values
+from nag.numerics.read_only import Several, equal_values
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import LEAST, NONZERO, ON
-from nag.text.table import lines_of, one_line
+from nag.text.table import data_frame, lines_of, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.close_points import BASIN, DIGITS, PointInWords, distance, with_newton_constant
@@ -39,6 +39,9 @@ from nag.witness.given_component import check_decomposition, in_doubles, round_p
 from nag.witness.slices import pad_rows
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
+if TYPE_CHECKING:
+    import pandas
+
 
 class Membership(Enum):
     """The answer of a membership test."""
@@ -49,7 +52,7 @@ class Membership(Enum):
 
 
 @dataclass(frozen=True, eq=False)
-class PointMembership:
+class PointMembership(Several[WitnessSet]):
     """Which components of a decomposition a point lies on.
 
     Attributes:
@@ -77,6 +80,26 @@ class PointMembership:
             text += f"; not known for {', '.join(map(str, self.open))}"
         point = ", ".join(map(number_text, self.point))
         return lines_of("PointMembership", [("answer", text), ("point", f"({point})")])
+
+    @property
+    def entries(self) -> tuple[WitnessSet, ...]:
+        """The components that it lies on."""
+        return self.on
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each component: its number, dimension, degree, and whether it is on it.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        return data_frame(
+            {
+                "number": list(range(1, len(self.components) + 1)),
+                "dimension": [c.dimension for c in self.components],
+                "degree": [c.degree for c in self.components],
+                "answer": [answer.value for answer in self.answers],
+            }
+        )
 
     @property
     def on(self) -> tuple[WitnessSet, ...]:

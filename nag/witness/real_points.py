@@ -18,7 +18,7 @@ from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.numerics.coincidence import coincident
-from nag.numerics.read_only import BooleanArray, RealArray, equal_values, fixed_array
+from nag.numerics.read_only import BooleanArray, RealArray, Several, equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
 from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -48,7 +48,7 @@ LEVEL, APART = 1e-15, 1e-5
 
 
 @dataclass(frozen=True, eq=False)
-class RealPoints:
+class RealPoints(Several[RealArray]):
     """Real points of a component, the nearest first.
 
     Attributes:
@@ -72,6 +72,15 @@ class RealPoints:
     def __post_init__(self) -> None:
         for name in ("points", "distances", "stationary"):
             object.__setattr__(self, name, fixed_array(getattr(self, name)))
+
+    @property
+    def entries(self) -> RealArray:
+        """The points."""
+        return self.points
+
+    def to_numpy(self) -> RealArray:
+        """The points, shape ``(count, n)``, to be written to."""
+        return self.points.copy()
 
     @property
     def complete(self) -> bool:

@@ -5,17 +5,18 @@ from __future__ import annotations
 import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.to_sympy import to_sympy_point
 from nag.errors import ComponentError, NagError
 from nag.numerics.doubles import EPS, SHARP
 from nag.numerics.natural_coordinates import NaturalCoordinates
-from nag.numerics.read_only import ComplexArray, equal_values, fixed_array
+from nag.numerics.read_only import ComplexArray, Several, equal_values, fixed_array
 from nag.numerics.zero_values import ON
 from nag.text.json_text import pairs
 from nag.text.table import data_frame, one_line
@@ -29,9 +30,13 @@ from nag.witness.moving import move_and_sharpen
 from nag.witness.slices import random_rows
 from nag.witness.witness import WitnessSet, relative_errors
 
+if TYPE_CHECKING:
+    import pandas
+    import sympy
+
 
 @dataclass(frozen=True, eq=False)
-class Samples:
+class Samples(Several[ComplexArray]):
     """Points of a component.
 
     Attributes:
@@ -54,17 +59,38 @@ class Samples:
         object.__setattr__(self, "points", fixed_array(self.points))
 
     @property
+    def entries(self) -> ComplexArray:
+        """The points."""
+        return self.points
+
+    @property
     def complete(self) -> bool:
         """Whether the set that they are drawn from is certain to be whole."""
         return not self.doubt
 
-    def to_dataframe(self) -> Any:
-        """A row for each point: its coordinates, complex, by their names.
+    def to_numpy(self) -> np.ndarray:
+        """The points, complex, or real where real ones were asked for, to be written to.
+
+        As in frames, without the imaginary unit: shape ``(count, variables)``.
+        """
+        return self.points[:, : len(self.variables)].copy()
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each point: its coordinates, as `to_numpy` has them, by their names.
 
         Raises:
             nag.NagError: if pandas is not installed.
         """
-        return data_frame({name: self.points[:, i] for i, name in enumerate(self.variables)})
+        columns = self.to_numpy().T
+        return data_frame(dict(zip(self.variables, columns, strict=True)))
+
+    def to_sympy(self) -> list[dict[sympy.Symbol, sympy.Expr]]:
+        """The points as sympy has them: values, floats, by symbols.
+
+        Raises:
+            nag.NagError: if sympy is not installed.
+        """
+        return [to_sympy_point(self.variables, x) for x in self.to_numpy()]
 
     def rows(self, variables: Sequence[str]) -> list[list[str]]:
         """Headings, and a row for each of the first points, in their first coordinates."""

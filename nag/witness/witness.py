@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,12 +13,22 @@ from nag.algebra.given import check_error, check_listed, check_type
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
-from nag.numerics.read_only import ComplexArray, IntegerArray, RealArray, equal_values, fixed_array
+from nag.numerics.read_only import (
+    ComplexArray,
+    FixedArrays,
+    IntegerArray,
+    RealArray,
+    Several,
+    equal_values,
+    fixed_array,
+)
 from nag.text.json_text import pairs, real_or_null
 from nag.text.table import data_frame, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
+    import pandas
+
     from nag.decomposition.curve_genus import Genus
     from nag.tracking.settings import Settings
     from nag.witness.constraints import Constraints
@@ -54,7 +64,7 @@ class Status(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class Slice:
+class Slice(FixedArrays):
     """A linear slice ``A x = b`` of codimension ``len(b)`` in affine space.
 
     Attributes:
@@ -96,7 +106,7 @@ class Slice:
 
 
 @dataclass(frozen=True, eq=False)
-class WitnessSet:
+class WitnessSet(FixedArrays):
     """A component by its points on a generic slice.
 
     Attributes:
@@ -452,7 +462,7 @@ class PathCounts:
 
 
 @dataclass(frozen=True)
-class Decomposition(Sequence[WitnessSet]):
+class Decomposition(Several[WitnessSet]):
     """The irreducible components of the zero set of ``system``.
 
     Attributes:
@@ -491,22 +501,12 @@ class Decomposition(Sequence[WitnessSet]):
         )
         object.__setattr__(self, "components", known)
 
-    def __iter__(self) -> Iterator[WitnessSet]:
-        return iter(self.components)
+    @property
+    def entries(self) -> tuple[WitnessSet, ...]:
+        """The components."""
+        return self.components
 
-    def __len__(self) -> int:
-        return len(self.components)
-
-    @overload
-    def __getitem__(self, index: int) -> WitnessSet: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> tuple[WitnessSet, ...]: ...
-
-    def __getitem__(self, index: int | slice) -> WitnessSet | tuple[WitnessSet, ...]:
-        return self.components[index]
-
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> pandas.DataFrame:
         """A row for each component: number, dimension, degree, multiplicity, status, orbit.
 
         Raises:

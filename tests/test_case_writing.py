@@ -1,0 +1,88 @@
+"""What is written as a case is read again, equal: cases, mechanisms, parts and systems."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from linkages import CASES
+
+import nag
+
+SHIPPED = sorted(path.relative_to(CASES).as_posix() for path in CASES.rglob("*.toml"))
+
+
+def again(given: Any, folder: Path, **how: Any) -> nag.Case:
+    path = folder / "again.toml"
+    nag.write(given, path, **how)
+    read = nag.read(path)
+    assert isinstance(read, nag.Case)
+    return read
+
+
+@pytest.mark.parametrize("folder", sorted({name.rpartition("/")[0] for name in SHIPPED}))
+def test_shipped_cases_and_what_they_describe_are_read_again(folder: str, tmp_path: Path) -> None:
+    for name in (n for n in SHIPPED if n.rpartition("/")[0] == folder):
+        case = nag.read_case(CASES / name)
+        assert again(case, tmp_path) == case, name
+        assert again(case.described, tmp_path).described == case.described, name
+
+
+def test_values_that_were_set_are_those_of_the_case(tmp_path: Path) -> None:
+    case = nag.read_case(CASES / "rhombus.toml", {"b": "sqrt(2)"})
+    assert again(case, tmp_path) == case != nag.read_case(CASES / "rhombus.toml")
+    assert not again(case, tmp_path).truth
+
+
+def test_parts_are_read_again(tmp_path: Path) -> None:
+    placed = nag.Framework.of({"A": (0, 0), "B": ("1/3", 0.25), "C": (1, "sqrt(2)")}, ["AB", "BC"])
+    by_lengths = nag.Framework.of("ABC", ["AB", "BC", "CA"], [3, "sqrt(5)", 4])
+    plate = {"P": (0, 0), "Q": (2, 0), "R": (1, "1/7")}
+    linkage = nag.Linkage.of({"base": plate, "rod": ("P", "S", 2), "other": "QS3"}, "base")
+    rows = [{"a": "5/3", "alpha": "pi/3"}, {"a": 1, "d": "1/2", "alpha": 0}, {"alpha": "pi"}]
+    table = nag.DHLoop.of([*rows, {"a": 1, "alpha": "pi/2", "theta": "pi/5"}])
+    for part, name in ((placed, "framework"), (by_lengths, "framework"), (linkage, "linkage")):
+        assert getattr(again(part, tmp_path).assembly, name) == part
+    assert again(table, tmp_path).assembly.loop == table
+
+
+def test_systems_mechanisms_and_models_are_read_again(tmp_path: Path) -> None:
+    system = nag.system(["x^2 - sqrt(2)*y'", "y' + I*x - 1/3"], ["y'", "x"], groups=[[0], [1]])
+    case = again(system, tmp_path, title="two")
+    assert case.system == system and case.title == "two"
+    mechanism = nag.read_case(CASES / "bennett.toml").mechanism
+    for given in (mechanism, nag.model(mechanism), nag.problem(mechanism)):
+        assert again(given, tmp_path).mechanism == mechanism
+    assert nag.model(again(nag.model(mechanism), tmp_path)) == nag.model(mechanism)
+
+
+@pytest.mark.parametrize("ending", ["m2", "sing", "phc", "bertini", "jl", "txt"])
+def test_an_ending_names_another_program(ending: str, tmp_path: Path) -> None:
+    system, path = nag.system(["x^2 - 1/3*y", "x*y - 2"]), tmp_path / f"a.{ending}"
+    nag.write(system, path)
+    assert nag.read(path).system == system
+    nag.write(
+        system,
+        tmp_path / "other",
+        format={"jl": "hc", "sing": "singular"}.get(ending, ending.replace("txt", "text")),
+    )
+    assert (tmp_path / "other").read_text().splitlines()[1:] == path.read_text().splitlines()[1:]
+    foreign = nag.read(path)
+    assert again(foreign, tmp_path) == foreign
+
+
+@pytest.mark.parametrize(
+    ("given", "how", "message"),
+    [
+        (lambda: nag.system("x", nonzero="x - 1"), {}, "cannot say what is nonzero"),
+        (lambda: nag.Framework.of(["1a", "b"], [("1a", "b")], [1]), {}, "'1a' cannot name a point"),
+        (lambda: nag.decompose("x"), {"format": "m2"}, "format: is for cases and equations"),
+        (lambda: nag.system("x"), {"format": "word"}, "format: 'word' is unknown"),
+        (lambda: 3, {}, "result: 3 is given; give what"),
+    ],
+)
+def test_what_cannot_be_said_is_refused(given: Any, how: Any, message: str, tmp_path: Path) -> None:
+    with pytest.raises(nag.NagError, match=message) as refused:
+        nag.write(given(), tmp_path / "a.toml", **how)
+    assert "\n" not in str(refused.value) and not (tmp_path / "a.toml").exists()
