@@ -18,7 +18,8 @@ from nag.text.table import one_line
 
 if TYPE_CHECKING:
     import networkx
-    import numpy as np
+
+    from nag.numerics.read_only import RealArray
 
 Vector = tuple[Number, Number, Number]
 ORIGIN: Vector = (Fraction(0), Fraction(0), Fraction(0))
@@ -245,12 +246,12 @@ class Mechanism:
         return loop_of_lines(lines)
 
     @overload
-    def lines(self, exact: Literal[False] = False) -> np.ndarray: ...
+    def lines(self, exact: Literal[False] = False) -> RealArray: ...
 
     @overload
     def lines(self, exact: Literal[True]) -> tuple[tuple[Number, ...], ...]: ...
 
-    def lines(self, exact: bool = False) -> np.ndarray | tuple[tuple[Number, ...], ...]:
+    def lines(self, exact: bool = False) -> RealArray | tuple[tuple[Number, ...], ...]:
         """Direction and moment, point x direction, of each joint that has an axis.
 
         Args:
@@ -446,6 +447,14 @@ def _first_repeated(names: Iterable[str]) -> str | None:
     return None
 
 
+def is_equations(given: Any) -> bool:
+    """Whether equations are given, by themselves, in a case or as a system."""
+    if is_a(given, "nag.files.cases", "Case"):
+        return bool(given.kind == "system")
+    texts = isinstance(given, str) or is_a(given, "nag.algebra.system", "PolynomialSystem")
+    return texts or isinstance(given, list | tuple) or hasattr(given, "free_symbols")
+
+
 def check_mechanism(given: Any, others: str = "") -> None:
     """Make sure that a mechanism is given.
 
@@ -461,9 +470,15 @@ def check_mechanism(given: Any, others: str = "") -> None:
         what = "a networkx graph is given; make it a mechanism first: "
         what += "nag.Mechanism.from_graph(graph, ground=...)"
         what += ", or of bars nag.framework_of_graph(graph)"
-    elif is_a(given, "nag.files.cases", "Case"):
+    elif is_a(given, "nag.files.cases", "Case") and not is_equations(given):
         what = (
             f"a nag.Case is given; give its mechanism, case.mechanism{others and ', or '}{others}"
+        )
+    elif is_equations(given):
+        what = (
+            "equations are given, which have no bodies; ask nag.local (the dimension at a point) "
+            "or nag.decompose (all components), or give a nag.Mechanism"
+            f"{others and ', or '}{others}"
         )
     else:
         what = f"{value_text(given)} is given; give a nag.Mechanism{others and ', or '}{others}"

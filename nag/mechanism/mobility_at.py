@@ -175,7 +175,7 @@ def mobility_in_steps(
         problem = product_of_loops(mechanism, detail, run)
     problem = problem or problem_of(mechanism, formulation=formulation)
     if problem.model is None:
-        check_mechanism(problem.system, "the parts of a case, case.assembly")
+        check_mechanism(problem.system, "parts (a nag.Linkage, a nag.Framework, a nag.DHLoop)")
     made = problem.mechanism
     check_body(of, problem.parts if made is None else made.mechanism)
     at = problem.reference
@@ -233,7 +233,7 @@ def tree_of(given: Any) -> Mechanism | None:
     """
     mechanism = model_parts(given)
     if not isinstance(mechanism, Problem | Model | AssemblyModel | PolynomialSystem):
-        check_mechanism(mechanism, "the parts of a case, case.assembly")
+        check_mechanism(mechanism, "parts (a nag.Linkage, a nag.Framework, a nag.DHLoop)")
         return None if has_loops(mechanism) else mechanism
     return None
 

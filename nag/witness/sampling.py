@@ -16,7 +16,7 @@ from nag.algebra.to_sympy import to_sympy_point
 from nag.errors import ComponentError, NagError
 from nag.numerics.doubles import EPS, SHARP
 from nag.numerics.natural_coordinates import NaturalCoordinates
-from nag.numerics.read_only import ComplexArray, Several, equal_values, fixed_array
+from nag.numerics.read_only import ComplexArray, RealArray, Several, equal_values, fixed_array
 from nag.numerics.zero_values import ON
 from nag.text.json_text import pairs
 from nag.text.table import data_frame, one_line
@@ -68,7 +68,7 @@ class Samples(Several[ComplexArray]):
         """Whether the set that they are drawn from is certain to be whole."""
         return not self.doubt
 
-    def to_numpy(self) -> np.ndarray:
+    def to_numpy(self) -> ComplexArray | RealArray:
         """The points, complex, or real where real ones were asked for, to be written to.
 
         As in frames, without the imaginary unit: shape ``(count, variables)``.
