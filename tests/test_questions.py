@@ -174,6 +174,65 @@ def test_results_are_frames_of_pandas() -> None:
         samples = nag.sample(given, count=3, real=real)
         assert list(samples.to_dataframe().columns) == list(samples.variables)
         assert np.array_equal(samples.to_dataframe().to_numpy(), samples.points)
+        assert samples.to_numpy().dtype == (np.float64 if real else np.complex128)
+
+
+def test_families_are_solved_of_whatever_describes_one(tmp_path: Path) -> None:
+    values = [[2.0, 1.0], [8.0, -1.0]]
+    equations = ["x^2 + y^2 = r", "x = a*y"]
+    expected = nag.solve_family(equations, ["r", "a"], values)
+    columns = {"a": [1.0, -1.0], "r": [2.0, 8.0]}
+    (tmp_path / "values.csv").write_text("a,r\n1,2\n-1,8\n")
+    np.save(tmp_path / "values.npy", values)
+    case = tmp_path / "case.toml"
+    case.write_text(
+        'title = "Circles"\nkind = "system"\nvariables = ["x", "y"]\n'
+        'equations = ["x^2 + y^2 = r", "x = a*y"]\nparameters = { r = 1, a = 1 }\n'
+    )
+    for given in (equations, nag.system(equations), case, str(case), nag.read(case)):
+        for asked in (
+            nag.solve_family(given, "r a", values),
+            nag.solve_family(given, ["r", "a"], tmp_path / "values.npy"),
+            nag.solve_family(given, values=columns),
+            nag.solve_family(given, values=tmp_path / "values.csv"),
+        ):
+            assert asked.complete.all() and asked.counts.tolist() == [2, 2]
+            for one, other in zip(asked, expected, strict=True):
+                assert np.allclose(sorted(one[:, 0].real), sorted(other[:, 0].real))
+    four_bar = nag.model(CASES / "planar" / "four-bar.toml")
+    angle = four_bar.system.variables[0]
+    assert len(nag.solve_family(four_bar, [angle], [[0.5], [0.25]])) == 2
+    for given, message in (
+        (CASES / "bennett.toml", "some polynomials must not vanish"),
+        (CASES / "rhombus.toml", "5 equations for 6 unknowns"),
+    ):
+        with pytest.raises(nag.NagError, match=message):
+            nag.solve_family(given, ["a"], [[1]])
+
+
+def test_what_is_not_solved_yet_is_solved_or_decomposed_to_be_certified() -> None:
+    roots, curve = nag.certify(["x^2 - 2", "x*y - 1"]), nag.certify(CIRCLE_AND_LINE)
+    assert roots and len(roots.found) == 2 and isinstance(roots.found, nag.SolveResult)
+    assert curve and len(curve.found) == 2 and isinstance(curve.found, nag.Decomposition)
+    bennett = CASES / "bennett.toml"
+    for given in (bennett, nag.read(bennett).mechanism, nag.decompose(bennett)[0]):
+        assert nag.certify(given).found.dimension == 1
+    assert nag.certify(nag.solve("x^2 - 2")) == nag.certify("x^2 - 2")
+
+
+def test_how_a_file_is_read_is_said_in_every_question(tmp_path: Path) -> None:
+    rhombus = CASES / "rhombus.toml"
+    kite = nag.read(rhombus, set={"b": 2})
+    assert nag.decompose(rhombus, set={"b": 2}) == nag.decompose(kite)
+    assert nag.problem(rhombus, set={"b": "2"}).system == kite.system
+    assert nag.local(rhombus, "stretched", set={"b": 1}) == nag.local(rhombus, "stretched")
+    (tmp_path / "line").write_text("2\n x - y;\n x + y;\n")
+    assert len(nag.solve(tmp_path / "line", format="phc")) == 1
+    assert nag.solve(system=["x^2 - 1"]) == nag.solve(["x^2 - 1"])
+    with pytest.raises(nag.NagError, match="hold is for robots"):
+        nag.mobility(CASES / "bennett.toml", hold="B0")
+    with pytest.raises(nag.NagError, match="set: says how a file is read; Case, not the name"):
+        nag.decompose(kite, set={"b": 2})
 
 
 def test_polynomials_are_sympys_and_back() -> None:

@@ -32,7 +32,8 @@ TURN = 0.25
 
 def _why_none(system: PolynomialSystem, reality: Reality, reason: str) -> NagError:
     kind = NoRealPointsError if reality is Reality.NONE else SamplingError
-    nothing = Samples(np.zeros((0, system.n)), 0.0, EPS, variables=system.own_variables)
+    none = np.zeros((0, system.n))
+    nothing = Samples(none, 0.0, EPS, variables=system.own_variables, real=True)
     return kind(f"real points: {reality}{reason and ': '}{reason}", nothing)
 
 
@@ -105,7 +106,8 @@ def _samples(component: WitnessSet, points: np.ndarray, doubt: str = "") -> Samp
             found[x.tobytes()] = (x, error) if error < np.inf else _singular_point(component, x)
         known[k], errors[k] = found[x.tobytes()]
     residual = float(evaluator.residuals(known).max(initial=0.0))
-    return Samples(known, residual, float(errors.max(initial=EPS)), doubt, system.own_variables)
+    error = float(errors.max(initial=EPS))
+    return Samples(known, residual, error, doubt, system.own_variables, real=True)
 
 
 @np.errstate(all="ignore")

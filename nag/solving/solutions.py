@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
@@ -397,13 +397,23 @@ class SolveResult(Several[Solution]):
         """The isolated solutions."""
         return self.solutions
 
-    def to_numpy(self) -> ComplexArray:
+    @overload
+    def to_numpy(self, real: Literal[False] = False) -> ComplexArray: ...
+
+    @overload
+    def to_numpy(self, real: bool) -> ComplexArray | RealArray: ...
+
+    def to_numpy(self, real: bool = False) -> ComplexArray | RealArray:
         """The isolated solutions, complex, shape ``(k, n)``, to be written to.
 
         As in frames, without the imaginary unit, which is the last variable of a system with
         complex coefficients.
+
+        Args:
+            real: only the real ones, as floats.
         """
-        return self.points[:, : len(self.system.own_variables)].copy()
+        points = self.points[:, : len(self.system.own_variables)]
+        return points[self.table.real].real.copy() if real else points.copy()
 
     def to_dataframe(self, real: bool = False) -> pandas.DataFrame:
         """A row for each isolated solution: its coordinates, complex, and what is known of it.

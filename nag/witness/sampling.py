@@ -45,6 +45,7 @@ class Samples(Several[ComplexArray]):
         accuracy: largest estimated relative error of a point.
         doubt: why the set that they are drawn from may not be whole; empty if it is.
         variables: names of the coordinates, without the imaginary unit.
+        real: whether real points were asked for, whose imaginary parts are all 0.
     """
 
     points: ComplexArray
@@ -52,6 +53,7 @@ class Samples(Several[ComplexArray]):
     accuracy: float
     doubt: str = ""
     variables: tuple[str, ...] = ()
+    real: bool = False
 
     __eq__ = equal_values
 
@@ -69,11 +71,12 @@ class Samples(Several[ComplexArray]):
         return not self.doubt
 
     def to_numpy(self) -> ComplexArray | RealArray:
-        """The points, complex, or real where real ones were asked for, to be written to.
+        """The points, complex, or floats where real ones were asked for, to be written to.
 
         As in frames, without the imaginary unit: shape ``(count, variables)``.
         """
-        return self.points[:, : len(self.variables)].copy()
+        points = self.points[:, : len(self.variables)]
+        return points.real.copy() if self.real else points.copy()
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A row for each point: its coordinates, as `to_numpy` has them, by their names.
