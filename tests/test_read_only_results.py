@@ -24,6 +24,8 @@ from nag.decomposition import (
     singular_parameters,
     witness_at,
 )
+from nag.numerics.large_arrays import empty_array, leave_to_file
+from nag.numerics.read_only import handed_over
 from nag.witness.witness import even_radii
 
 ROOT = Path(__file__).parent.parent
@@ -194,3 +196,13 @@ def test_results_can_be_copied_and_pickled(copied: Callable[[Any], Any]) -> None
     assert repr(copied(report)) == repr(report)
     node = RESULTS["singular locus"]().sets[0]
     assert copied(node).multiplicities == node.multiplicities == {0: 1, 1: 1}
+
+
+def test_a_large_array_is_handed_over_where_it_lies(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("nag.numerics.large_arrays.LARGE", 1)
+    for whole in (empty_array((3, 2), complex), empty_array((4,), bool)):
+        given = handed_over(whole)
+        assert np.shares_memory(given, whole) and given.dtype == whole.dtype
+        with pytest.raises(ValueError, match="WRITEABLE"):
+            given.setflags(write=True)
+    leave_to_file(given)

@@ -170,10 +170,11 @@ class RecordTable(ArrayTable, Sequence[Record]):
         """The rows of one table, and those of another below them."""
         if type(other) is not type(self):
             return NotImplemented
-        try:
-            return self.concatenate([self, other])
-        except ValueError as error:
-            raise NagError(f"the tables do not go together: {error}") from None
+        for name, column in self._columns():
+            own, others = np.shape(column)[1:], np.shape(getattr(other, name))[1:]
+            if own != others:
+                raise NagError(f"the tables do not go together: {name} have shapes {own}, {others}")
+        return self.concatenate([self, other])
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Sequence):

@@ -30,12 +30,16 @@ def fixed_array(array: np.ndarray, dtype: type | None = None) -> np.ndarray:
 def handed_over(array: np.ndarray) -> np.ndarray:
     """An array, to which nobody else will write, as one to which nobody can.
 
-    Of one that owns its data the flag could be set back; of a view of it that is refused.
+    Of one that owns its data the flag could be set back; of a view of it that is refused. It is not
+    copied, as it may lie in a file.
     """
-    if not array.flags.owndata:
+    if array.flags.owndata:
+        array.setflags(write=False)
+        return array.view()
+    if not (array.size and array.flags.c_contiguous):
         return fixed_array(array)
-    array.setflags(write=False)
-    return array.view()
+    content = memoryview(array.reshape(-1).view(np.uint8)).toreadonly()
+    return np.frombuffer(content, dtype=array.dtype).reshape(array.shape)
 
 
 def _can_be_written(array: np.ndarray) -> bool:
@@ -60,18 +64,20 @@ class FixedArrays:
             object.__setattr__(self, name, fixed)
 
 
-def fix_fields(made: Any, deep: bool = False) -> None:
-    """Fix the arrays that a dataclass holds, which was just made or is done.
+def fix_fields(made: Any, done: bool = False) -> None:
+    """Fix the arrays that a dataclass holds.
 
     Args:
-        deep: whether those of the dataclasses that it holds, too.
+        done: whether nobody will write to them any more, nor to those of dataclasses that it
+            holds, which are fixed as well; else it was just made, and others may hold them.
     """
     for each in fields(made):
         value = getattr(made, each.name)
         if isinstance(value, np.ndarray):
-            object.__setattr__(made, each.name, fixed_array(value))
-        elif deep and is_dataclass(value):
-            fix_fields(value, deep)
+            fixed = handed_over(value) if done and _can_be_written(value) else fixed_array(value)
+            object.__setattr__(made, each.name, fixed)
+        elif done and is_dataclass(value):
+            fix_fields(value, done)
 
 
 class Several(FixedArrays, Sequence[Item]):

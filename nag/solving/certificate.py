@@ -81,7 +81,7 @@ class SolutionsCertificate:
 
     def __post_init__(self) -> None:
         # What is worked out of points in place is done.
-        fix_fields(self, deep=True)
+        fix_fields(self, done=True)
 
     @cached_property
     def simple(self) -> int:

@@ -82,7 +82,7 @@ class ComponentCertificate:
 
     def __post_init__(self) -> None:
         # What is worked out of points in place is done.
-        fix_fields(self, deep=True)
+        fix_fields(self, done=True)
 
     @property
     def all_proved(self) -> bool:
