@@ -32,6 +32,7 @@ from nag.numerics.read_only import (
     Several,
     equal_values,
     fixed_array,
+    handed_over,
 )
 from nag.solving.member_lines import MemberLines
 from nag.solving.parameter import Solved, solve_generic, solve_targets
@@ -375,7 +376,8 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
             own = _solve_alone(solved, values[member], run)
             places[member], status[member], errors[member], complete[member] = own
             tell(number + 1 < len(alone))
-    return FamilySolutions(solved, *arrays)
+    # The values may be the caller's; the others are nobody else's, and large.
+    return FamilySolutions(solved, values, *map(handed_over, arrays[1:]))
 
 
 def _track_all(
