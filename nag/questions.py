@@ -913,8 +913,10 @@ def _number_through(found: Decomposition, at: Sequence[Number | complex], run: R
     located = locate_point(found, at, run=run)
     if located.open or len(located.numbers) != 1:
         on = ", ".join(map(str, located.numbers))
-        said = "it is not known which components it lies on" if located.open else f"lies on {on}"
-        raise NagError(f"point: {said if on or located.open else 'lies on none'}; give a component")
+        said = f"it lies on components {on}" if on else "it lies on no component"
+        if located.open:
+            said = "it is not known which components it lies on"
+        raise NagError(f"point: {said}; give component, the number of one")
     return located.numbers[0]
 
 

@@ -98,6 +98,15 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
         (lambda: nag.write("x", "file"), "give what nag.decompose, nag.intersect or nag.solve"),
         (lambda: nag.eliminate("x - y", onto="z"), "'z' is not one of the variables"),
         (lambda: nag.eliminate(["x", "y"]), "nothing to eliminate from"),
+        (lambda: nag.eliminate("x*y", point=(0, 0)), "point: it lies on components 1, 2; give"),
+        (lambda: nag.eliminate("x*y", point=(1, 2)), "point: it lies on no component; give"),
+        (lambda: nag.eliminate("x*y", component=1, point=(0, 1)), "component names one already"),
+        (lambda: nag.mobility("x - y"), "equations are given, which have no bodies; ask nag.local"),
+        (lambda: nag.decompose("x*y", method="some"), "method: 'some' is unknown"),
+        (lambda: nag.decompose("x*y", starts=3), 'starts: is for method="sampling"'),
+        (lambda: nag.decompose("x*y", coordinates="euler"), "coordinates: is for mechanisms"),
+        (lambda: nag.sample(nag.solve("x^2 - 1")), "solutions are given, and components are asked"),
+        (lambda: nag.sample(nag.decompose("x"), formulation="E"), "formulation: components are"),
     ],
 )
 def test_what_makes_no_sense_is_one_line(ask, message: str) -> None:
@@ -218,6 +227,25 @@ def test_what_is_not_solved_yet_is_solved_or_decomposed_to_be_certified() -> Non
     for given in (bennett, nag.read(bennett).mechanism, nag.decompose(bennett)[0]):
         assert nag.certify(given).found.dimension == 1
     assert nag.certify(nag.solve("x^2 - 2")) == nag.certify("x^2 - 2")
+
+
+def test_components_come_by_other_methods_and_in_other_coordinates() -> None:
+    bennett = CASES / "bennett.toml"
+    some = nag.decompose(CIRCLE_AND_LINE, method="sampling", starts=20)
+    assert {c.degree for c in some} <= {1, 2} and not some.complete
+    joint, euler = (nag.decompose(bennett, coordinates=which) for which in ("joint", "euler"))
+    assert joint == nag.decompose(bennett, formulation="H")
+    names = nag.problem(bennett, formulation="E").system.variables
+    assert euler.system.variables == names and {c.dimension for c in euler} == {1}
+    circles = "(x^2 + y^2 - 1)*(x - y)*(x + y)"
+    by_orbit = nag.decompose(circles, symmetries=[{"x": "-x"}])
+    assert len(by_orbit) == 2 and len(nag.decompose(circles, expand=True)) == 3
+    assert len(nag.decompose(circles, symmetries=[{"x": "-x"}], expand=True)) == 3
+
+
+def test_a_component_is_named_by_a_point_of_it() -> None:
+    through = nag.eliminate(CIRCLE_AND_LINE, "x,y", point=("3/5", "4/5"))
+    assert through.equations == ("x^2 + y^2 - 1",)
 
 
 def test_how_a_file_is_read_is_said_in_every_question(tmp_path: Path) -> None:
