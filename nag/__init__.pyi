@@ -129,7 +129,7 @@ Drives: TypeAlias = tuple[str, float] | Mapping[str, float]
 Poses: TypeAlias = Mapping[str, Sequence[float]]
 
 def certify(
-    found: SolveResult | Decomposed,
+    given: SolveResult | Decomposed,
     paths: bool = False,
     *,
     formulation: Formulation = "auto",

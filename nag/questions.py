@@ -1232,12 +1232,12 @@ class Certified:
 @takes_files
 @takes_run
 def certify(
-    found: Any, paths: bool = False, *, formulation: str = "auto", run: Run = DEFAULT_RUN
+    given: Any, paths: bool = False, *, formulation: str = "auto", run: Run = DEFAULT_RUN
 ) -> Certified:
     """Prove the points of a result: one zero in a box about each, distinct, and which are real.
 
     Args:
-        found: what `nag.solve` or `nag.decompose` returned, an export of it, or a component; or
+        given: what `nag.solve` or `nag.decompose` returned, an export of it, or a component; or
             anything that describes a problem, see `nag.problem`, which is solved now if it is as
             many equations as unknowns and no mechanism, else decomposed.
         paths: whether the paths from the start system are proved as well, and of components the
@@ -1250,7 +1250,7 @@ def certify(
         result.
 
     Raises:
-        nag.NagError: if ``found`` is nothing of that kind.
+        nag.NagError: if ``given`` is nothing of that kind.
 
     >>> import nag
     >>> bool(nag.certify(nag.solve(["x^2 + y^2 - 1", "x - y"])))
@@ -1259,16 +1259,16 @@ def certify(
     >>> proved.found
     <Decomposition: 1 component of dimension 1, degree 2>
     """
-    if is_a(found, "nag.witness.witness", "WitnessSet"):
-        found = _of_one_component(found)
-    known = is_a(found, "nag.solving.solutions", "SolveResult")
-    if known or is_a(found, "nag.witness.witness", "Decomposition"):
+    if is_a(given, "nag.witness.witness", "WitnessSet"):
+        given = _of_one_component(given)
+    known = is_a(given, "nag.solving.solutions", "SolveResult")
+    if known or is_a(given, "nag.witness.witness", "Decomposition"):
         if formulation != "auto":
             raise NagError("formulation: a result is given; it is in one already")
-        return certify_result(found, paths)
+        return certify_result(given, paths)
     from nag.mechanism.problem import problem_of
 
-    asked = problem_of(found, formulation=formulation)
+    asked = problem_of(given, formulation=formulation)
     square = len(asked.system.polynomials) == asked.system.n
     solved = asked.model is None and square
     return certify_result(asked.solve(run=run) if solved else asked.decompose(run=run), paths)

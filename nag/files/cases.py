@@ -285,13 +285,11 @@ def _case_of_text(
     for key in {"plate", "plates"} & top.values.keys():
         top.fail(key, 'plates are links of kind = "linkage": [[link]] with pins and their shape')
     top.allow(sorted({key for keys in _KEYS.values() for key in keys}))
+    _refuse_misplaced(top)
     _require_all(top)
     kind = top.text("kind")
     if kind not in _KEYS:
         top.fail("kind", f"{quote(kind)} is no kind of case; write one of {', '.join(_KEYS)}")
-    for key in sorted(top.values.keys() - set(_KEYS[kind])):
-        other = next(k for k, keys in _KEYS.items() if key in keys)
-        top.fail(key, f"belongs to a case of kind {other!r}; leave it out")
     title = top.text("title")
     budget = Budget()
     table = top.table("parameters")
@@ -323,6 +321,15 @@ def _case_of_text(
         symmetries=_read_symmetries(top, system),
         family=family,
     )
+
+
+def _refuse_misplaced(top: CaseTable) -> None:
+    """Complain about a key that a case of another kind has."""
+    kind = top.values.get("kind")
+    own = _KEYS.get(kind) if isinstance(kind, str) else None
+    for key in [] if own is None else sorted(top.values.keys() - set(own)):
+        other = next(k for k, keys in _KEYS.items() if key in keys)
+        top.fail(key, f"belongs to a case of kind {other!r}; leave it out")
 
 
 def _require_all(top: CaseTable) -> None:
