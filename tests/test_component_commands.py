@@ -215,8 +215,8 @@ def test_other_values_of_parameters_are_taken(capsys) -> None:
 @pytest.mark.parametrize(
     ("argv", "part"),
     [
-        (["member", "{case}"], "which point? give either the name of one of the case"),
-        (["member", "{case}", "right", "--at", "x=1,y=0"], "not both"),
+        (["member", "{case}"], "which point? write either --at"),
+        (["member", "{case}", "right", "--at", "x=1,y=0"], "which point? write either --at"),
         (["member", "{case}", "rigth"], "has no point 'rigth' (did you mean 'right'?)"),
         (["member", "{export}", "right"], "has no named points; write coordinates, --at"),
         (["member", "{case}", "--at", "x=1"], "--at: no value for y"),

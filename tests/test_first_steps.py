@@ -266,3 +266,11 @@ def test_a_table_of_values_names_the_parameters_of_a_system_in_plain_text(
     (tmp_path / "values.csv").write_text("b\n2\n")
     assert main(words) == 2
     assert "has no [family]" in capsys.readouterr().err
+
+
+def test_who_certifies_a_case_is_told_what_writes_an_export(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["certify", str(CASES / "bennett.toml")]) == 2
+    told = capsys.readouterr().err
+    assert "is no export" in told and "--json FILE" in told and told.count("\n") == 1

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import os
 import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import add_quiet, add_sharing
+from nag.cli.arguments import UsageError, add_quiet, add_sharing
 from nag.cli.running import CommandAnswer
+from nag.cli.witness_input import is_export
 
 if TYPE_CHECKING:
     from nag.numerics.claims import Claim
@@ -44,6 +46,11 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.questions import certify_result
     from nag.text.table import sheet
 
+    if os.path.isfile(options.export) and not is_export(options.export):
+        raise UsageError(
+            f"{options.export}: is no export; nag certify proves what `nag solve --json FILE` or "
+            "`nag decompose --json FILE` wrote, and --certify of these proves it at once"
+        )
     found, title, lost = read_file(options.export, _read_result)
     proved = certify_result(found, options.paths, lost)
     rows = [("system", system_line(found.system)), *proved.rows]

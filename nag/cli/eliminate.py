@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from nag.witness.witness import WitnessSet
 
 MOST_DEGREE = 100
+# Of more variables a message names the first.
+MOST_NAMES = 12
 
 
 def _degree(text: str) -> int:
@@ -102,7 +104,9 @@ def _read_names(text: str | None, system: PolynomialSystem) -> tuple[int, ...] |
     try:
         return place_variables([name.strip() for name in text.split(",")], system)
     except NagError as error:
-        more = "; `nag model` prints them, --formulation E has Euler parameters"
+        names = ", ".join(system.own_variables[:MOST_NAMES])
+        more = f"; they are {names}{', ...' if system.n > MOST_NAMES else ''} (of a mechanism "
+        more += "--formulation E has Euler parameters)"
         unknown = "is not one of the variables" in str(error)
         raise UsageError(f"--{error}{more if unknown else ''}") from None
 

@@ -26,7 +26,10 @@ if TYPE_CHECKING:
     from nag.algebra.system import PolynomialSystem
     from nag.witness.witness import Decomposition, WitnessSet
 
-ONE_POINT = "which point? give either the name of one of the case ('reference') or --at, not both"
+ONE_POINT = (
+    "which point? write either --at 'x = 1, y = 2', or the name of a point of the case behind the "
+    "file"
+)
 Points = Mapping[str, tuple["Number", ...]]
 Check = Callable[["PolynomialSystem", Points], object]
 

@@ -19,7 +19,7 @@ from nag.text.table import join_words
 
 # Legs of a body that is taken for the platform without being named.
 LEGS_OF_A_PLATFORM = 3
-NAMED_PLATFORM = "name the platform; nag modes takes --platform NAME"
+NAMED_PLATFORM = "name the platform (--platform NAME)"
 
 
 @dataclass(frozen=True)
