@@ -305,9 +305,9 @@ BROKEN: dict[str, tuple[str | bytes, str, str]] = {
         "(did you mean 'axis'?)",
     ),
     "unknown joint type": (
-        mechanism(joint(type='"hinge"')),
+        mechanism(joint(type='"hinges"')),
         "[[joint]] 1 'J': type",
-        "'hinge' is unknown; use one of",
+        "'hinges' is unknown; use one of",
     ),
     "axis of length zero": (
         mechanism(joint(axis='[0, "1 - 1", "sqrt(2) - sqrt(2)"]')),

@@ -316,3 +316,29 @@ def test_coordinates_of_samples_are_printed_to_what_is_known_of_them(
             # The component is x = 0, y = 1 or y = -1, with any z.
             _, x, y, z = line.split()
             assert x == "0" and y in ("1", "-1") and z.endswith("i") == (not more)
+
+
+def test_who_is_given_no_equations_is_told_how_to_get_them(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "cubic.txt"
+    file.write_text("x*z - y^2\ny*w - z^2\nx*w - y*z\n")
+    assert main(["eliminate", str(file), "--quiet"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    hint = re.search(r"hint (--onto \S+) gives equations in these variables", shown)
+    assert "equations none" in shown and hint
+    assert main(["eliminate", str(file), "--quiet", *hint[1].split()]) == 0
+    shown = capsys.readouterr().out
+    assert shown.count(" = 0\n") == 3 and "hint" not in shown
+
+
+def test_a_family_says_where_its_solutions_can_be_had(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "circle.txt").write_text("x^2 + y^2 = r\nx*y = s\n")
+    (tmp_path / "values.csv").write_text("r,s\n5,2\n2,1\n")
+    words = ["family", str(tmp_path / "circle.txt"), "--values", str(tmp_path / "values.csv")]
+    assert main([*words, "--quiet"]) == 0
+    shown = capsys.readouterr().out
+    # The circle of radius sqrt(2) touches x y = 1.
+    assert "1 member was solved by itself" in shown and "--points FILE writes" in shown

@@ -655,3 +655,10 @@ def test_i_is_the_unit_of_singulars_complex_rings(tmp_path: Path) -> None:
     file = tmp_path / "complex.sing"
     file.write_text("ring r = (complex,30), (x,y), dp;\nideal j = x2 + i, y - i*x;")
     assert read_case(file).system.imaginary
+
+
+def test_an_ideal_without_a_ring_is_asked_for_its_ring(tmp_path: Path) -> None:
+    file = tmp_path / "ideal.m2"
+    file.write_text("K = ideal(a^2 - b, b^2 - a*b^2)\n")
+    with pytest.raises(CaseError, match=r"there is no ring; write R = QQ\[x, y\]"):
+        read_case(file)

@@ -194,3 +194,18 @@ def test_a_slide_whose_axis_turns_is_carried_by_the_first_body(formulation, swap
     for point in (p for c in answer.components for p in c.points):
         at = [complex(x) for x in m.unreduced_point(m.lift(point))]
         assert residual(m.unreduced, at) < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("word", "type"),
+    [
+        ("translational", "prismatic"),
+        ("slider", "prismatic"),
+        ("hinge", "revolute"),
+        ("ball", "spherical"),
+    ],
+)
+def test_joints_may_be_called_what_others_call_them(word: str, type: str) -> None:
+    axis = (0, 0, 1) if type != "spherical" else None
+    joint = Joint(name="J", type=word, bodies=("A", "B"), point=(0, 0, 0), axis=axis)
+    assert joint.type == type

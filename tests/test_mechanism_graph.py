@@ -19,7 +19,7 @@ def joint(name="J", kind="revolute", bodies=("A", "B"), point=(0, 0, 0), axis=(0
     ("build", "text", "at"),
     [
         (lambda: Mechanism("A", ()), "at least one joint", (None, None, None)),
-        (lambda: Mechanism("A", (joint(kind="hinge"),)), "unknown", ("J", None, "type")),
+        (lambda: Mechanism("A", (joint(kind="door"),)), "unknown", ("J", None, "type")),
         (
             lambda: Mechanism("A", (joint(kind="helical"),)),
             "not algebraic",

@@ -338,3 +338,18 @@ def test_limits_of_joints_are_said_not_to_be_used(
     free = text.replace('lower="-1" upper="1" ', "").replace('range="-1 1"', "")
     free = free.replace('type="revolute"', 'type="continuous"')
     assert not read_case(written(tmp_path, free)).notes
+
+
+def test_postures_say_what_was_moved_and_what_angles_count_from(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    turns = urdf(*(("revolute", "1 0 0", "0 0 0", "0 0 1") for _ in range(3)))
+    case = read_case(written(tmp_path, turns))
+    first, second, *_ = (joint.name for joint in case.mechanism.joints)
+    hand = case.mechanism.body_names[-1]
+    words = ["motion", str(case.path), "--at", f"{first} = 0.3, {second} = 0.4", "--quiet"]
+    assert main([*words, "--pose", f"{hand}=0,0,0"]) == 0
+    found = " ".join(capsys.readouterr().out.split())
+    # The elbow is on one side or on the other.
+    assert f"driven {hand} moved by (0, 0, 0) from where it is drawn: 2 real assemblies" in found
+    assert "angles count from the position in which it is drawn" in found

@@ -82,7 +82,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if options.of is not None and options.growth is None:
         raise UsageError("--of: is chained with --growth; ask for that as well")
     if options.chart is not None and importlib.util.find_spec("matplotlib") is None:
-        raise UsageError('--chart: matplotlib is missing; install it with pip install "nag[plot]"')
+        raise UsageError("--chart: matplotlib is missing; pip install matplotlib")
     if options.chart is not None:
         try:
             check_target(options.chart)

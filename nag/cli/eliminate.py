@@ -89,6 +89,9 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError(f"{options.case}: {error}") from None
     complete = not found.note and not tail
     tail = [*([("open", found.note)] if found.note else []), *tail, checked_row(found)]
+    if options.onto is None and not found.generators:
+        names = ",".join(cloud.ambient.system.own_variables[:MOST_NAMES])
+        tail.append(("hint", f"--onto {names} gives equations in these variables"))
     blocks = [*top, *found.rows()], elimination_lines(found)
     said = f"coefficients recognised in {found.digits} digits" if found.digits else ""
     return answer_of(options, case, blocks, tail, found.document(), complete, said=said)

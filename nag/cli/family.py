@@ -137,16 +137,16 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         rows.append(("fewer", text))
     alone = int(found.one_by_one.sum())
     if alone:
-        rows.append(
-            (
-                "by themselves",
-                f"{count_text(alone, 'member')}, not all paths to which end regularly",
-            )
-        )
+        was = "was solved by itself, as not all paths to it end"
+        if alone > 1:
+            was = "were solved one by one, as not all paths to them end"
+        rows.append(("one by one", f"{count_text(alone, 'member')} {was} at simple solutions"))
     incomplete = (~found.complete).nonzero()[0]
     if len(incomplete):
         more = " and more" if len(incomplete) > 5 else ""
         rows.append(("open", f"members {', '.join(str(k + 1) for k in incomplete[:5])}{more}"))
+    if options.points is None and options.json is None:
+        rows.append(("written", "nowhere: --points FILE writes all solutions"))
     complete = bool(found.complete.all())
     fields = _fields(found)
     if options.points is not None:

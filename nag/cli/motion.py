@@ -209,7 +209,10 @@ def _run_once(
         tail.append(("page", options.html))
     blocks: list[Any] = [motion_rows(found), *_circuit_blocks(found)]
     if found.drive is not None or found.held or found.poses:
-        blocks.append([("driven", drive_text(found))])
+        driven = [("driven", drive_text(found))]
+        if problem.reference is not None:
+            driven.append(("angles", "count from the position in which it is drawn"))
+        blocks.append(driven)
         blocks.append(assembly_rows(found) if found.assemblies else [])
     return answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
 

@@ -67,11 +67,13 @@ def locus_rows(locus: SingularLocus, count: int) -> list[tuple[str, str]]:
         rows.append(("kinds", kinds + str(sum(one.intersection for one in locus.sets))))
     smooth = locus.smooth
     if smooth:
-        which = "the component" if count == 1 else f"component {_numbers(smooth)} of {count}"
-        if len(smooth) > 1:
-            which = f"components {_numbers(smooth)} of {count}"
+        which = "the component"
+        if count > 1:
+            alone = "by itself" if len(smooth) == 1 else "each by itself"
+            noun = "component" if len(smooth) == 1 else "components"
+            which = f"{noun} {_numbers(smooth)} of {count}, {alone}"
         proof = "; proved, by a Groebner basis" if set(smooth) <= set(locus.proved) else ""
-        rows.append(("smooth", f"{which}, by itself{proof}"))
+        rows.append(("smooth", f"{which}{proof}"))
     if not locus.complete:
         rows.append(("", "INCOMPLETE, see below"))
     return rows

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from nag.kinematics.driven_motion import DrivenMotion, range_of
@@ -158,9 +160,16 @@ def drive_text(motion: Motion) -> str:
         value = value_text(each or Coordinate("", "", "angle"), drive.value)
         texts.append(f"{drive.coordinate} at {value}")
     for pose in motion.poses:
-        numbers = (*pose.place, *(pose.quaternion or ()))
-        texts.append(f"frame of {pose.body} at ({', '.join(f'{x:.6g}' for x in numbers)})")
+        # The origin of the body's frame is the global one where it is drawn.
+        text = f"{pose.body} moved by {_numbers_text(pose.place)} from where it is drawn"
+        if pose.quaternion is not None:
+            text += f", with the quaternion {_numbers_text(pose.quaternion)}"
+        texts.append(text)
     return f"{', '.join(texts)}{_assemblies_text(motion)}"
+
+
+def _numbers_text(numbers: Sequence[float]) -> str:
+    return f"({', '.join(f'{x:.6g}' for x in numbers)})"
 
 
 def _assemblies_text(motion: Motion) -> str:

@@ -225,7 +225,14 @@ COORDINATES: Mapping[tuple[str, ...], tuple[tuple[str, Literal["angle", "slide"]
 )
 
 # Other names in use (PT13 has "translational").
-SYNONYMS = MappingProxyType({"translational": "prismatic"})
+SYNONYMS = MappingProxyType(
+    {
+        "translational": "prismatic",
+        "slider": "prismatic",
+        "hinge": "revolute",
+        "ball": "spherical",
+    }
+)
 
 HELICAL = (
     "a helical joint is not algebraic: its turn and its slide are an angle and a multiple of it; "

@@ -468,7 +468,9 @@ def _sentence(report: MobilityReport) -> str:
         return f"{asked}; {meaning}"
     if status is MobilityStatus.RIGID and not report.in_line:
         return f"no configuration moves, not even infinitesimally{_nearly(report)}"
-    where = "at a general configuration of those with the most freedoms"
+    where = "at a general configuration"
+    if len({dimension for dimension, _ in report.components or ()}) > 1:
+        where += " of those with the most freedoms"
     if report.in_line:
         where = f"in every real assembly {report.in_line}; {where}"
     text = f"{where} {_meaning(report)}"

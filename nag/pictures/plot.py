@@ -67,7 +67,7 @@ def check_kind(path: str) -> None:
     if not path.endswith(KINDS):
         raise NagError(f"{path}: name a file that ends in {', '.join(KINDS)}")
     if importlib.util.find_spec("matplotlib") is None:
-        raise NagError('matplotlib is missing; install it with pip install "nag[plot]"')
+        raise NagError("matplotlib is missing; pip install matplotlib")
 
 
 def choose_picture(given: Mapping[str, Any], dashes: str = "") -> str:

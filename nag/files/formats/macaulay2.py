@@ -24,6 +24,7 @@ _FINITE = re.compile(r"\b(?:ZZ\s*/\s*\w+|GF\b[^\[\n]{0,99})\s*\[")
 _OPERATIONS = re.compile(
     r"\b(minors|pfaffians|intersect|saturate|eliminate|radical|quotient|trim|kernel|ker|gens|sum)\b"
 )
+_IDEAL = re.compile(r"\bideal[ \t]*\(")
 _ASSIGNED = re.compile(r"\s*([A-Za-z]\w*)\s*:?=(?!=)\s*")
 _OF_LIST = re.compile(r"ideal\b\s*\(?\s*([A-Za-z]\w*)\s*\)?")
 _LISTED = re.compile(r"(?:(?:ideal|polySystem|matrix)\b\s*)?([({])")
@@ -36,9 +37,9 @@ MOST_NESTED = 8
 
 
 def recognise(text: str) -> bool:
-    """Whether a text makes a ring as Macaulay2 does."""
+    """Whether a text makes a ring as Macaulay2 does, or an ideal."""
     plain = _COMMENT.sub("", text)
-    return bool(_find_ring(plain) or _FINITE.search(plain))
+    return bool(_find_ring(plain) or _FINITE.search(plain) or _IDEAL.search(plain))
 
 
 def _find_ring(text: str) -> re.Match[str] | None:
