@@ -10,6 +10,8 @@ from nag.cli.running import CommandAnswer
 
 # Sizes of the systems that are measured: 2,048 to 16,384 paths.
 SIZES = (11, 12, 13, 14)
+# Parts of a second.
+MILLI, MICRO = 1e-3, 1e-6
 # Numbers of paths of the plan.
 MANY = (10**6, 10**9)
 
@@ -29,9 +31,9 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         [
             str(c.unknowns),
             str(c.paths),
-            f"{1e3 * c.seconds / c.paths:.3g}",
-            f"{1e6 * c.seconds / c.steps:.3g}",
-            f"{1e3 * c.proof / c.paths:.3g} ms",
+            f"{c.seconds / c.paths / MILLI:.3g}",
+            f"{c.seconds / c.steps / MICRO:.3g}",
+            f"{c.proof / c.paths / MILLI:.3g} ms",
             f"{c.found / c.seconds:.1%}",
             f"{c.memory / 2**20:.0f}",
             f"{c.ledger / 2**20:.1f} MB",
