@@ -255,7 +255,7 @@ def witness_set_html(component: WitnessSet) -> str:
     errors = np.linalg.norm(component.radii, axis=1)
     for i, point in enumerate(component.points[:MOST_POINTS]):
         cells = map(number_text, point, component.radii[i])
-        rows.append([str(i), *cells, magnitude(float(errors[i]))])
+        rows.append([str(i + 1), *cells, magnitude(float(errors[i]))])
     hidden = component.degree - MOST_POINTS
     note = f"{component.status}; {_rests_on([component])}"
     more = f"; {count_text(hidden, 'more point')}" if hidden > 0 else ""
@@ -274,7 +274,7 @@ def _point_table(
     for i, point in enumerate(points[:MOST_POINTS]):
         error = _error_of(point, accuracy)
         cells = [number_text(z, error) for z in point]
-        rows.append([str(i), *cells, *(column[i] for column in more.values())])
+        rows.append([str(i + 1), *cells, *(column[i] for column in more.values())])
     hidden = len(points) - MOST_POINTS
     note += f"; {count_text(hidden, 'more point')}" if hidden > 0 else ""
     return html_table(caption, rows, note)
