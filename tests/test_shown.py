@@ -124,17 +124,17 @@ def test_a_notebook_shows_a_row_for_each_solution_joint_point_and_equation() -> 
     joints = Table(bennett()._repr_html_()).rows
     assert [row[0] for row in joints] == ["joint", *(j.name for j in bennett().joints)]
     points = Table(nag.decompose("x^2 + y^2 = 1").components[0]._repr_html_()).rows
-    assert [row[0] for row in points] == ["point", "0", "1"]
+    assert [row[0] for row in points] == ["point", "1", "2"]
     assert points[0][1:] == ["x", "y", "error"]
     assert all(0 < float(row[-1]) < 1e-15 for row in points[1:])
     equations = Table(nag.system(["x = 1", "x*y = 2"])._repr_html_()).rows
-    assert equations[1:] == [["0", "1", "x - 1"], ["1", "2", "x*y - 2"]]
+    assert equations[1:] == [["1", "1", "x - 1"], ["2", "2", "x*y - 2"]]
 
 
 def test_a_notebook_shows_a_row_for_each_point_and_body() -> None:
     one = circle()
     points = Table(sample(one.system, one, 3)._repr_html_()).rows
-    assert [row[0] for row in points] == ["point", "0", "1", "2"]
+    assert [row[0] for row in points] == ["point", "1", "2", "3"]
     near = Table(real_points_near(one.system, one, np.array([3.0, 0.0]))._repr_html_()).rows
     assert near[0] == ["point", "x0", "x1", "distance", "stationary"]
     assert near[1][3:] == ["2", "yes"]

@@ -214,7 +214,7 @@ class PolynomialSystem:
     def _repr_html_(self) -> str:
         """A table, one row an equation."""
         rows = [["equation", "degree", "is zero"]]
-        for i, f in enumerate(self.polynomials[:MOST_ROWS]):
+        for i, f in enumerate(self.polynomials[:MOST_ROWS], 1):
             rows.append([str(i), str(f.degree), shorten_text(f.text(self.variables), 2 * LINE)])
         hidden = len(self.polynomials) - MOST_ROWS
         note = f"and {count_text(hidden, 'more equation')}" if hidden > 0 else ""
