@@ -9,6 +9,7 @@ import random
 from fractions import Fraction
 from pathlib import Path
 
+import networkx as nx
 import numpy as np
 import pytest
 from hypothesis import given
@@ -414,6 +415,21 @@ def test_steps_onto_a_curve_of_more_equations_than_it_needs_do_not_run_along_it(
     along = ((middle - chart[:-1]) * steps).sum(axis=1) / (steps**2).sum(axis=1)
     assert np.abs(along - 0.5).max() < 0.01
     assert np.abs(path.equations_at(middle)[0]).max() < 1e-13
+
+
+def test_joints_fit_where_the_gradient_of_one_of_too_many_equations_vanishes() -> None:
+    # A spherical joint leaves four equations of rank three; where all bodies are in the plane of
+    # symmetry, half a way from the reference, one of them is singular.
+    G = nx.MultiGraph()
+    G.add_edge("base", "crank", type="revolute", point=(0, 0, 0), axis=(0, 0, 1))
+    G.add_edge("crank", "rod", type="spherical", point=(1, 0, 0))
+    axes = {"axis": (0, 0, 1), "second_axis": (1, 0, 0), "bodies": ("rod", "rocker")}
+    G.add_edge("rod", "rocker", type="universal", point=(4, 3, 0), **axes)
+    G.add_edge("rocker", "base", type="revolute", point=(4, 0, 2), axis=(1, 0, 0))
+    mechanism = nag.Mechanism.from_graph(G, ground="base")
+    motion = nag.motion(mechanism, samples=12)
+    (circuit,) = motion.circuits
+    assert joint_errors(motion.scene, circuit.poses).max() < FIT
 
 
 def test_a_framework_with_a_stretched_loop_moves_by_the_equations_of_its_real_places() -> None:

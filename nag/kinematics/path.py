@@ -62,7 +62,11 @@ class Curve:
 
     @cached_property
     def _equations(self) -> tuple[Evaluator, PlacedDerivatives]:
-        """The equations, homogeneous in each group of the chart, with their derivatives."""
+        """The equations, homogeneous in each group of the chart, with their derivatives.
+
+        Their coefficients have length one. The gradient of one may vanish at a regular point, where
+        the others have full rank, so that rows of length one would be rounding errors there.
+        """
         coordinates = self.coordinates
         given = Evaluator.of(self.system.polynomials, self.system.n)
         rows = []
@@ -71,8 +75,9 @@ class Curve:
             exponents = given.exponents[there]
             degrees = [exponents[:, list(own)].sum(axis=1) for own in coordinates.groups]
             missing = [own.max(initial=0) - own for own in degrees]
+            length = float(np.linalg.norm(coefficients)) or 1.0
             whole = map(tuple, np.column_stack([exponents, *missing]).tolist())
-            rows.append(dict(zip(whole, coefficients[there].tolist(), strict=True)))
+            rows.append(dict(zip(whole, (coefficients[there] / length).tolist(), strict=True)))
         monomials = sorted({e for row in rows for e in row})
         table = np.array([[row.get(e, 0.0) for e in monomials] for row in rows])
         table = table.reshape(len(rows), len(monomials))
@@ -81,18 +86,16 @@ class Curve:
         return evaluator, evaluator.placed_derivatives(size)
 
     def equations_at(self, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Values and Jacobians by the chart's coordinates, rows of length one.
+        """Values and Jacobians by the chart's coordinates.
 
         The last rows, whose values are zero, are those of the lengths of groups. Shapes
         ``(k, rows)`` and ``(k, rows, size)``.
         """
         evaluator, derivatives = self._equations
         values, rows = evaluator.values(chart).real, derivatives(chart).real
-        sizes = np.linalg.norm(rows, axis=2)
-        sizes = np.where(sizes > 0, sizes, 1.0)
         lengths = self.coordinates.directions_of_scaling(chart)
         none = np.zeros(lengths.shape[:2])
-        return np.hstack([values / sizes, none]), np.hstack([rows / sizes[:, :, None], lengths])
+        return np.hstack([values, none]), np.hstack([rows, lengths])
 
     def sharpen(self, chart: np.ndarray) -> np.ndarray:
         """Points of a chart, brought onto the curve by Newton's method on all equations.
