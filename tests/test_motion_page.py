@@ -16,10 +16,11 @@ from traced_curves import trace_loop
 import nag
 from nag.kinematics.motion import Motion, motion_of
 from nag.kinematics.scene import Scene
+from nag.mechanism.linkage import Linkage
 from nag.mechanism.problem import in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import real_assemblies
 from nag.page.link_shapes import link_shapes
-from nag.page.motion_page import motion_page
+from nag.page.motion_page import driven_page, motion_page
 
 ROOT = Path(__file__).parent.parent
 # One of each kind of joint, and of space.
@@ -187,3 +188,32 @@ def test_a_link_that_moves_little_in_the_picture_is_dragged_as_well(tmp_path) ->
     assert len(motion.circuits) == 2
     seen = see(motion_page(motion, "title", "case.toml"), tmp_path)
     assert seen["messages"] == [] and seen["dragged"]
+
+
+def data_of(page: str) -> dict:
+    """What a page's script is given."""
+    (text,) = re.findall(r'<script type="application/json" id="motion">(.*?)</script>', page)
+    return json.loads(text)
+
+
+def five_bar(second: float, third: float, fourth: float) -> Linkage:
+    links = {"base": ("A", "E", 3), "crank": ("A", "B", 2), "left": ("B", "C", second)}
+    right = {"right": ("C", "D", third), "rocker": ("D", "E", fourth)}
+    return Linkage.of(links | right, "base")
+
+
+def test_crossings_of_a_driven_motion_name_the_circuits_at_their_value() -> None:
+    # With the crank along the base a parallelogram is left, or four links as long together as one
+    # and the other two: its circuits cross each other, or one itself; before, none does.
+    values = [-np.pi / 3, 0.0]
+    for lengths, words in (((2.5, 1, 2.5), "crosses circuit"), ((4, 2, 3), "crosses itself")):
+        driven = nag.driven_motion(five_bar(*lengths), "A", values, samples=24)
+        data = data_of(driven_page(driven, "five-bar", "five-bar"))
+        texts = [c["text"] for each in data["circuits"] for c in each["crossings"]]
+        assert texts and all(re.fullmatch(rf"{words}( [12])? at .* %", text) for text in texts)
+
+
+def test_what_does_not_fit_in_a_page_is_to_be_driven_through_fewer_values() -> None:
+    driven = nag.driven_motion(five_bar(2.5, 2.7, 1.8), "A", np.linspace(0, 1.2, 40), samples=12)
+    with pytest.raises(nag.NagError, match=r"fewer values \(--drive\)"):
+        driven_page(driven, "five-bar", "five-bar")

@@ -60,8 +60,11 @@ def crossing_text(motion: Motion, circuit: Circuit, crossing: Crossing) -> str:
         texts.append(f"{noun} {join_words(others)}")
     if circuit.number in crossing.circuits:
         texts.append("itself")
-    if crossing.components:
-        texts.append(count_text(len(crossing.components), "other component"))
+    # Components of the circuits that are named are not others besides.
+    named = {c.component for c in motion.circuits if str(c.number) in others}
+    unnamed = len(crossing.components or ()) - len(named - {circuit.component})
+    if unnamed > 0:
+        texts.append(count_text(unnamed, "other component"))
     where = f"crosses {join_words(texts)}" if texts else "singular"
     return f"{where} at {share:.1f} %"
 

@@ -55,7 +55,7 @@ def driven_page(driven: DrivenMotion, title: str, file: str) -> str:
     Raises:
         NagError: if there is no circuit at any value, or too many for one page.
     """
-    circuits, values, families = [], [], []
+    circuits, values, families, motions = [], [], [], []
     family = {
         (each.first + i, k): number
         for number, each in enumerate(c for c in driven.continuations if c.moves)
@@ -63,11 +63,12 @@ def driven_page(driven: DrivenMotion, title: str, file: str) -> str:
     }
     for i, motion in enumerate(driven.motions):
         for k, circuit in enumerate(motion.circuits if motion.drive is None else ()):
-            circuits.append(replace(circuit, number=len(circuits) + 1))
+            circuits.append(circuit)
+            motions.append(motion)
             values.append(i)
             families.append(family[i, k])
     shown = [value_text(driven.coordinate, value) for value in driven.values]
-    held = _Held(driven.coordinate.name, shown, values, families)
+    held = _Held(driven.coordinate.name, shown, values, families, motions)
     return _fitting_page(replace(driven[0], circuits=tuple(circuits)), title, file, held)
 
 
@@ -80,28 +81,31 @@ class _Held:
         values: as text.
         of_circuit: index of the value that each circuit belongs to.
         family: a number of each circuit, the same for those that continue each other.
+        motions: that each circuit is of, in which circuits have their numbers.
     """
 
     name: str
     values: list[str]
     of_circuit: list[int]
     family: list[int]
+    motions: list[Motion]
 
 
 def _fitting_page(motion: Motion, title: str, file: str, held: _Held | None) -> str:
     """The page with as many frames as fit."""
     if not motion.circuits:
         raise NagError("html: there is no real motion to show")
-    page = _with_frames(motion, title, file, _frame_count(motion, BYTES), held)
+    page = _with_frames(motion, title, file, _frame_count(motion, BYTES, held), held)
     excess = len(page.encode()) - MOST_BYTES
     if excess > 0:
-        page = _with_frames(motion, title, file, _frame_count(motion, BYTES - excess), held)
+        page = _with_frames(motion, title, file, _frame_count(motion, BYTES - excess, held), held)
     return page
 
 
 def _with_frames(motion: Motion, title: str, file: str, frames: int, held: _Held | None) -> str:
     """The page with so many frames for each circuit, at most."""
-    data = _page_data(motion, title, file, frames)
+    motions = [motion] * len(motion.circuits) if held is None else held.motions
+    data = _page_data(motion, title, file, frames, motions)
     if held is not None:
         data["held"] = {"name": held.name, "values": held.values}
         own = zip(data["circuits"], held.of_circuit, held.family, strict=True)
@@ -109,7 +113,7 @@ def _with_frames(motion: Motion, title: str, file: str, frames: int, held: _Held
             # Circuits are told apart by the others at the same value.
             before = held.of_circuit[:number].count(value)
             count = held.of_circuit.count(value)
-            each |= {"value": value, "family": family}
+            each |= {"number": number + 1, "value": value, "family": family}
             each["label"] = f"circuit {before + 1} of {count}, {_closed_text(each['closed'])}"
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     parts = {
@@ -153,8 +157,10 @@ def _part(name: str) -> str:
     return re.sub(r"</(script|style)", r"<\\/\1", page_part(name), flags=re.IGNORECASE)
 
 
-def _page_data(motion: Motion, title: str, file: str, frames: int) -> dict[str, Any]:
-    """What the page shows, for its script."""
+def _page_data(
+    motion: Motion, title: str, file: str, frames: int, motions: Sequence[Motion]
+) -> dict[str, Any]:
+    """What the page shows, for its script; ``motions`` that each circuit has its number in."""
     scene = motion.scene
     shapes = link_shapes(scene, _slide_ranges(motion))
     root = _root_turn(motion)
@@ -186,7 +192,9 @@ def _page_data(motion: Motion, title: str, file: str, frames: int) -> dict[str, 
             {"name": each.name, "kind": each.kind} for each in motion.circuits[0].values.coordinates
         ],
         "facts": facts(motion),
-        "circuits": [_circuit_data(motion, c, frames) for c in motion.circuits],
+        "circuits": [
+            _circuit_data(own, c, frames) for own, c in zip(motions, motion.circuits, strict=True)
+        ],
     }
 
 
@@ -255,16 +263,18 @@ def _colours(motion: Motion) -> list[int]:
     return found
 
 
-def _frame_count(motion: Motion, most: int) -> int:
+def _frame_count(motion: Motion, most: int, held: _Held | None) -> int:
     """How many frames each circuit has, for all of them to take so many bytes at most."""
     first = motion.circuits[0]
     numbers = 7 * len(motion.scene.bodies) + len(first.values.coordinates)
     # Four bytes each, in base64 a third more.
     frames = int(most * 3 / 16 / numbers / len(motion.circuits))
     if frames < LEAST_FRAMES:
+        alone = "show one of them (--circuit NUMBER)"
+        less = alone if held is None else "drive through fewer values (--drive)"
         raise NagError(
             f"html: {len(motion.circuits)} circuits of {len(motion.scene.bodies)} bodies do not "
-            "fit in one page; show one of them (--circuit NUMBER)"
+            f"fit in one page; {less}"
         )
     return min(frames, max(len(c) for c in motion.circuits))
 
