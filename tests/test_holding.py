@@ -398,3 +398,10 @@ def test_a_point_of_no_joint_is_refused(name: str, said: str) -> None:
     hand = next(b for b in tie.bodies if b != case.mechanism.ground)
     with pytest.raises(nag.NagError, match=said):
         nag.motion(case, pose={name.format(hand=hand): (0, 0, 0)})
+
+
+def test_parts_without_a_reference_are_told_that_no_body_can_be_placed() -> None:
+    with pytest.raises(
+        nag.NagError, match="pose: bodies are placed in mechanisms with a reference"
+    ):
+        nag.motion(CASES / "planar" / "four-bar.toml", pose={"crank": (0, 0, 0)})

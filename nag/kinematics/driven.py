@@ -227,10 +227,12 @@ def hold(problem: Problem, drives: Sequence[Drive], poses: Sequence[Pose]) -> tu
     if isinstance(made, LinkageModel) and not poses:
         return _hold_pins(made.linkage, scene, chosen)
     if not isinstance(made, Model):
-        raise NagError(
-            "drive: of frameworks no angle can be held, and but for mechanisms at a reference "
-            "configuration no body be placed; give one of these"
-        )
+        if poses:
+            raise NagError(
+                "pose: bodies are placed in mechanisms with a reference configuration alone; "
+                "give one, or hold joints"
+            )
+        raise NagError("drive: of frameworks no angle can be held; give a linkage or a mechanism")
     mechanism = HeldMechanism(made.mechanism, {})
     for each, drive in chosen:
         freedom = each.name[len(each.joint) + 1 :] or each.kind
