@@ -185,11 +185,14 @@ def test_a_rod_that_turns_about_itself_is_named(moved) -> None:
     assert motion.idle == "rod turns about itself"
 
 
-@given(st.floats(-3, 3), st.floats(-3, 3), st.integers(0, 2**32 - 1))
-def test_angles_of_a_universal_joint_are_those_that_it_was_turned_by(first, second, seed) -> None:
+@given(st.floats(-3, 3), st.floats(-3, 3), st.floats(0.3, 2.8), st.integers(0, 2**32 - 1))
+def test_angles_of_a_universal_joint_are_those_that_it_was_turned_by(
+    first: float, second: float, between: float, seed: int
+) -> None:
+    # Its axes need not be orthogonal.
     rng = np.random.default_rng(seed)
     frame = np.linalg.qr(rng.standard_normal((3, 3)))[0]
-    u, v = frame[0], frame[1]
+    u, v = frame[0], math.cos(between) * frame[0] + math.sin(between) * frame[1]
     one = np.array([1.0, 0, 0, 0])
     joint = SceneJoint("U", "universal", (0, 1), np.zeros((2, 3)), np.array([one, one]), u, v)
     scene = Scene(("a", "b"), 0, (joint,), None, True, {}, (), lambda p: None)

@@ -81,13 +81,15 @@ def _values(joint: SceneJoint, poses: Poses) -> list[np.ndarray]:
 def _two_angles(joint: SceneJoint, relative: np.ndarray) -> list[np.ndarray]:
     """Angles about both axes of a universal joint.
 
-    The relative quaternion is (c + s u)(c' + s' v) with u and v orthogonal, so that its coordinates
-    along 1, u, v and u x v are products of cosines and sines of half the angles.
+    The relative quaternion is (c + s u)(c' + s' v) = cc' - ss' (u.v) + sc' u + cs' v + ss' u x v,
+    with u and v at any angle, so that its coordinates in this basis give the products of cosines
+    and sines of half the angles.
     """
     u, v = joint.axis, joint.second_axis
     assert u is not None and v is not None
-    one, along_u = relative[:, 0], relative[:, 1:] @ u
-    along_v, along_both = relative[:, 1:] @ v, relative[:, 1:] @ np.cross(u, v)
+    basis = np.stack([u, v, np.cross(u, v)], axis=-1)
+    along_u, along_v, along_both = np.linalg.solve(basis, relative[:, 1:].T)
+    one = relative[:, 0] + along_both * (u @ v)
     return [
         np.arctan2(
             2 * (one * along_u + along_v * along_both),
@@ -126,7 +128,8 @@ def _errors(joint: SceneJoint, poses: Poses, size: float) -> np.ndarray:
         axes = [poses.turn(b, joint.axis_in(k)) for k, b in enumerate(joint.bodies)]
         if own.orthogonalities == 1:
             other = poses.turn(second, joint.axis_in(1, second=True))
-            errors = np.abs((axes[0] * other).sum(axis=-1))
+            assert joint.second_axis is not None
+            errors = np.abs((axes[0] * other).sum(axis=-1) - joint.axis @ joint.second_axis)
         elif own.orthogonalities:
             errors = np.linalg.norm(axes[0] - axes[1], axis=-1)
         along = (gap * axes[0]).sum(axis=-1)
