@@ -55,7 +55,8 @@ def _of_gallery(config: Any) -> list[File]:
     for (path, table), (picture, page) in zip(CASES, made, strict=True):
         relative = path.relative_to(ROOT / "cases")
         folder = "" if len(relative.parts) == 1 else relative.parts[0]
-        name = f"{folder}-{path.stem}".lstrip("-")
+        # The folders are kept: `planar-four-bar` and `planar/four-bar` are two mechanisms.
+        name, stem = relative.with_suffix("").as_posix(), path.stem
         text = [f"# {table['title']}", ""]
         if picture:
             files.append(File.generated(config, f"gallery/{name}.svg", abs_src_path=str(picture)))
@@ -64,9 +65,9 @@ def _of_gallery(config: Any) -> list[File]:
                 File.generated(config, f"gallery/{name}-moves.html", abs_src_path=str(page))
             )
             text += [
-                f'<iframe src="{name}-moves.html" loading="lazy" title="it moves"></iframe>',
+                f'<iframe src="{stem}-moves.html" loading="lazy" title="it moves"></iframe>',
                 "",
-                f"[The page by itself]({name}-moves.html): drag a link, or choose a circuit.",
+                f"[The page by itself]({stem}-moves.html): drag a link, or choose a circuit.",
                 "",
             ]
         case = f"cases/{relative.as_posix()}"
@@ -84,7 +85,7 @@ def _of_gallery(config: Any) -> list[File]:
             ]
             text.append("")
         if picture:
-            text += [f"![bodies and joints]({name}.svg)", ""]
+            text += [f"![bodies and joints]({stem}.svg)", ""]
         text += ["The case:", "", "```toml", path.read_text("utf-8").rstrip(), "```", ""]
         files.append(File.generated(config, f"gallery/{name}.md", content="\n".join(text)))
         shown = f'<img src="{name}.svg" alt="" loading="lazy">' if picture else ""
