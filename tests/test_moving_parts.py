@@ -314,6 +314,13 @@ def test_what_a_rod_carries_turns_idly_with_it() -> None:
     assert moving is not None and [e.bodies for e in moving.hanging] == [("arm",)]
 
 
+def test_rods_between_bodies_that_are_rigid_together_turn_idly() -> None:
+    report = nag.mobility(CASES / "robots" / "hexapod-6-3.toml", detail="local")
+    assert report.sentence.startswith("nothing moves but idly, with 6 freedoms: ")
+    assert report.moving is not None and not report.moving.hanging
+    assert report.moving.together == (("base", "platform"),)
+
+
 def test_a_door_between_parts_that_are_rigid_together_hangs() -> None:
     hinges = [
         joint("low", "revolute", ("wall", "door"), (0, 0, 0), Z),

@@ -243,12 +243,16 @@ def _idle(
 ) -> tuple[list[IdleFreedom], list[IdleFreedom]]:
     """Freedoms of one unit, or of several as one, that move nothing else, each once.
 
-    Those of units that are joined to one other unit alone come apart: to move by itself is all that
-    these can do.
+    Those of units that are joined to one other body alone come apart: to move by itself is all that
+    these can do. A rod between two bodies is none of them, though these be rigid together.
     """
     names = mechanism.body_names
     unit_of = {body: k for k, own in enumerate(units) for body in own}
     first = [names.index(own[0]) for own in units]
+    ties = networkx.Graph()
+    ties.add_nodes_from(names)
+    ties.add_edges_from(joint.bodies for joint in mechanism.joints if joint.of_type.is_rigid)
+    welded = {body: k for k, own in enumerate(networkx.connected_components(ties)) for body in own}
     graph = networkx.Graph()
     graph.add_nodes_from(range(len(units)))
     graph.add_edges_from(tuple(unit_of[b] for b in joint.bodies) for joint in mechanism.joints)
@@ -271,7 +275,7 @@ def _idle(
         at = [j for j in at if {unit_of[b] for b in j.bodies} & set(own)]
         joint = at[0].name if turns and count == 1 and len(at) == 1 else ""
         part = IdleFreedom(tuple(body for k in own for body in units[k]), count, turns, joint)
-        beside = set().union(*(graph.neighbors(k) for k in own)) - set(own)
+        beside = {welded[b] for j in at for b in j.bodies if unit_of[b] not in own}
         (hanging if len(beside) == 1 else found).append(part)
     return found, hanging
 
