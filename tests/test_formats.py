@@ -122,6 +122,20 @@ def test_files_are_told_by_their_content_and_read_exactly(
     assert system.text() == equations
 
 
+def test_bertinis_last_line_may_stand_without_its_first() -> None:
+    assert "INPUT\n" in BERTINI and "END;" in BERTINI
+    alone = BERTINI[BERTINI.index("INPUT\n") + len("INPUT\n") :]
+    whole = read_system_text("file", BERTINI, "bertini")
+    assert read_system_text("file", alone, "bertini") == whole
+
+
+def test_what_is_divided_by_may_be_a_name_of_a_constant() -> None:
+    text = "variable_group x;\nfunction f;\nh = Pi/2;\nk = 4;\nf = x*h/h/k - k^-1;\nEND;\n"
+    assert read_system_text("file", text, "bertini")[0] == nag.system("x/4 - 1/4")
+    with pytest.raises(CaseError, match="line 3, column 17: the divisor contains a variable"):
+        read_system_text("file", "variable_group x;\nfunction f;\nh = x - 1; f = 1/h;", "bertini")
+
+
 def test_groups_and_parameters_of_bertini_are_kept() -> None:
     system, parameters = read_system_text("file", BERTINI, "bertini")
     assert system.groups == ((0, 1), (2,))

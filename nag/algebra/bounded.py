@@ -109,6 +109,8 @@ class BoundedArithmetic:
                     "the divisor contains a variable; multiply the equation by it instead"
                 )
             real, imaginary = parts
+            if self.unit is None:
+                return self.divide(left, real)
             norm = self.add((1, self.multiply(part, part)) for part in parts)
             conjugate = real - imaginary * Polynomial.variable(self.n, self.unit)
             return self.multiply(left, self.divide(conjugate, norm))
@@ -117,12 +119,10 @@ class BoundedArithmetic:
         return self.multiply(left, 1 / right)
 
     def _parts(self, value: Polynomial) -> tuple[Number, Number] | None:
-        """The real and the imaginary part of a constant with the imaginary unit, else None."""
-        if self.unit is None:
-            return None
+        """The real and the imaginary part of a constant, else None."""
         parts: list[Number] = [Fraction(0), Fraction(0)]
         for e, c in value.terms.items():
-            power = e[self.unit]
+            power = 0 if self.unit is None else e[self.unit]
             if sum(e) != power:
                 return None
             parts[power % 2] += -c if power % 4 > 1 else c

@@ -68,8 +68,8 @@ def _input_section(source: SourceFile) -> Passage:
         config = [m for m in marks if m[1] == "CONFIG"]
         if config:
             source.fail(config[0].start(), "CONFIG without INPUT; write the line INPUT after it")
-        return Passage(source.text, 0)
-    end = next((m.start() for m in marks if m[1] == "END" and m.start() > begins[0]), None)
+        begins = [0]
+    end = next((m.start() for m in marks if m[1] == "END" and m.start() >= begins[0]), None)
     return Passage(source.text[begins[0] : end], begins[0])
 
 
