@@ -216,7 +216,7 @@ def mobility(
 ) -> MobilityReport: ...
 @overload
 def model(
-    mechanism: Mechanism,
+    mechanism: Mechanism | Model,
     formulation: Formulation = "auto",
     modes: Iterable[tuple[str, int]] = (),
     space: Literal["planar", "spherical", "spatial"] | None = None,
@@ -228,14 +228,14 @@ def model(
 ) -> AssemblyModel: ...
 @overload
 def model(
-    mechanism: File | Case,
+    mechanism: File | Case | Problem,
     formulation: Formulation = "auto",
     modes: Iterable[tuple[str, int]] = (),
     space: Literal["planar", "spherical", "spatial"] | None = None,
     **options: Unpack[FileOptions],
 ) -> Model | AssemblyModel: ...
 def modes(
-    mechanism: File | Case | Mechanism,
+    mechanism: File | Case | Mechanism | Model | Problem,
     platform: str | None = None,
     *,
     budget: float = 60,
@@ -336,7 +336,7 @@ def solve_family(
     **options: Unpack[Options],
 ) -> FamilySolutions: ...
 def system(
-    equations: Equations,
+    equations: PolynomialSystem | Equations,
     variables: Names | None = None,
     *,
     parameters: Mapping[str, AnyNumber] | Mapping[SympyExpression, AnyNumber] | None = None,

@@ -48,9 +48,24 @@ def test_files_cases_mechanisms_and_models_are_asked_alike() -> None:
     for given in (*every, nag.model(path)):
         assert [(c.dimension, c.degree) for c in nag.decompose(given)] == [(1, 2)]
         assert nag.local(given).dimension == 1
-    for given in every:
+    for given in (*every, nag.model(path), nag.problem(path)):
         assert nag.mobility(given).local_dimension == 1
         assert nag.model(given).system == nag.model(path).system
+
+
+def test_modes_are_asked_of_models_as_of_mechanisms() -> None:
+    path = CASES / "robots" / "tripteron.toml"
+    found = nag.modes(path)
+    assert nag.modes(nag.model(path)) == nag.modes(nag.problem(path)) == found
+
+
+def test_a_system_is_taken_as_it_is_and_an_answer_names_its_own() -> None:
+    system = nag.system(["x^2 - 2"])
+    assert nag.system(system) is system
+    with pytest.raises(nag.NagError, match=r"^variables: a nag\.PolynomialSystem is given"):
+        nag.system(system, variables="x")
+    with pytest.raises(nag.NagError, match=r"a SolveResult is given.* are its `system`"):
+        nag.solve(nag.solve(system))
 
 
 def test_components_are_asked_by_their_numbers(export: Path) -> None:

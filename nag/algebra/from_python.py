@@ -103,7 +103,8 @@ def system(
 
     Args:
         equations: one or a sequence of them: texts (``"x^2 + y^2 = 1"``; without ``=`` the
-            expression is zero), sympy's expressions, ``Eq`` or ``Poly``, or `Polynomial`.
+            expression is zero), sympy's expressions, ``Eq`` or ``Poly``, or `Polynomial`. A
+            `nag.PolynomialSystem` is given back as it is.
         variables: their names, or sympy's symbols, in order; a text of names will do. By default
             all names that occur and are no parameters, in alphabetical order (x2 before x10). A
             variable that is called ``I``, ``i``, ``J`` or ``j`` in a text has to be given, as it
@@ -127,6 +128,12 @@ def system(
       x^2 + y^2 - 1 = 0
       x - 1/2*y = 0
     """
+    if isinstance(equations, PolynomialSystem):
+        asked = (("variables", variables), ("parameters", parameters), ("nonzero", nonzero))
+        for name, value in (*asked, ("groups", groups), ("imaginary", imaginary)):
+            if value is not None and value != ():
+                raise NagError(f"{name}: a nag.PolynomialSystem is given, which has its own")
+        return equations
     given, apart = _list_equations(equations, "equations"), _list_equations(nonzero, "nonzero")
     advice = "a dict of values by name"
     check_type({} if parameters is None else parameters, Mapping, "parameters", advice)
@@ -196,6 +203,11 @@ def _list_equations(equations: Any, place: str) -> list[Any]:
     if matrix:
         return list(equations)
     answer = is_a(equations, *ANSWERS)
+    if answer and hasattr(equations, "system"):
+        raise ExpressionError(
+            f"{place}: a {type(equations).__name__} is given, which is an answer; "
+            "its equations are its `system`"
+        )
     if answer or not isinstance(equations, Iterable) or isinstance(equations, Mapping):
         raise ExpressionError(
             f"{place}: something of type {type(equations).__name__} is given; give texts like "

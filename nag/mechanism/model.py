@@ -29,7 +29,7 @@ from nag.mechanism.formulations import (
 from nag.mechanism.graph import Joint, Mechanism, check_mechanism
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
-from nag.mechanism.parts import model_parts, parts_in_formulation
+from nag.mechanism.parts import mechanism_in, parts_in_formulation
 from nag.mechanism.path_estimates import Alternative, ModelError, path_bound
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.rods import RodModel
@@ -190,8 +190,8 @@ def model(
     The smallest is the one with the fewest estimated paths.
 
     Args:
-        mechanism: a `nag.Mechanism`, or a `nag.Case` of one; at least one of its joints must belong
-            to a loop. Or parts: a `nag.Linkage`, a `nag.Framework`, a `nag.DHLoop`.
+        mechanism: a `nag.Mechanism`, or a `nag.Case` or a model of one; at least one of its joints
+            must belong to a loop. Or parts: a `nag.Linkage`, a `nag.Framework`, a `nag.DHLoop`.
         formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
             components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
             for half-angles and other joint coordinates, ``"S"`` for rods as distances, ``"auto"``;
@@ -212,7 +212,7 @@ def model(
     >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
     True
     """
-    mechanism = model_parts(mechanism)
+    mechanism = mechanism_in(mechanism)
     if isinstance(mechanism, AssemblyModel):
         for name, given in (("modes", bool(modes)), ("space", space is not None)):
             if given:

@@ -65,7 +65,7 @@ from nag.mechanism.modes_report import (
     Transition,
 )
 from nag.mechanism.motions import motion_of, screw_system, twists_at
-from nag.mechanism.parts import model_parts
+from nag.mechanism.parts import mechanism_in
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
 from nag.mechanism.platform import LegEquations, PlatformModel, platform_model
 from nag.numerics.coincidence import LEAST
@@ -105,8 +105,8 @@ def modes(
     coordinates that stand still in the pose are not seen, as a rod that turns about itself.
 
     Args:
-        mechanism: a `nag.Mechanism`, or a `nag.Case` of one, with coordinates that are rational or
-            sums of square roots.
+        mechanism: a `nag.Mechanism`, or a `nag.Case` or a model of one, with coordinates that are
+            rational or sums of square roots.
         platform: name of the platform; by default the body of the most legs, three at least.
         budget: seconds; where the paths that are estimated take more at the least, none is
             tracked, and the answer has no modes and says why.
@@ -120,7 +120,7 @@ def modes(
     >>> [(mode.dimension, mode.degree, str(mode.motion)) for mode in found.modes]
     [(3, 1, 'translation')]
     """
-    given = model_parts(mechanism)
+    given = mechanism_in(mechanism)
     check_mechanism(given)
     check_size(budget, "budget")
     run.tell("legs", 0, 4)

@@ -67,3 +67,17 @@ def model_parts(given: Any) -> Any:
 
         return dh_model(given) if given.open else assemble_table(given)
     return given
+
+
+def mechanism_in(given: Any) -> Any:
+    """The mechanism that a case, a model or a problem is of; of parts their assemblies' model.
+
+    Anything else is given back as it is.
+
+    Raises:
+        nag.MechanismError: if the parts have no model.
+    """
+    given = model_parts(given)
+    if is_a(given, "nag.mechanism.problem", "Problem") and given.model is not None:
+        given = given.model
+    return given.mechanism if is_a(given, "nag.mechanism.model", "Model") else given
