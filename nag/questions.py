@@ -606,7 +606,7 @@ def _find_in(
     Args:
         check: called with a problem's system and points before it is decomposed.
         real: whether real points are asked for, so that frameworks take coordinates that are real
-            where their realisations are.
+            where their realisations are, and stretched parts the equations of real assemblies.
 
     Raises:
         nag.NagError: if a formulation is asked for of components.
@@ -629,7 +629,10 @@ def _find_in(
     from nag.mechanism.problem import in_real_coordinates, problem_of
 
     asked = problem_of(given, formulation=formulation)
-    asked = in_real_coordinates(asked) if real else asked
+    if real:
+        from nag.mechanism.real_assemblies import of_real_assemblies
+
+        asked = of_real_assemblies(in_real_coordinates(asked))
     points = _points(asked)
     if check is not None:
         check(asked.system, points)

@@ -117,8 +117,9 @@ def read_components(
     case, problem = read_problem(options)
     if real:
         from nag.mechanism.problem import in_real_coordinates
+        from nag.mechanism.real_assemblies import of_real_assemblies
 
-        problem = in_real_coordinates(problem)
+        problem = of_real_assemblies(in_real_coordinates(problem))
     points = {point.name: point.at for point in problem.points}
     if check is not None:
         check(problem.system, points)
