@@ -16,6 +16,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.errors import StartError
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.solving.start.choice import choose
+from nag.solving.start.mixed_cells import mixed_cells
 from nag.solving.start.multihomogeneous import (
     _Choices,
     best_groups,
@@ -140,6 +141,21 @@ def test_a_mixed_volume_below_every_other_count_is_the_least_work() -> None:
     start, reason = choose(far, "auto", (), np.random.default_rng(0), 1)
     assert start.name == "polyhedral" and len(start.points) == 120
     assert "multihomogeneous 130" in reason and "mixed volume 120" in reason
+
+
+@pytest.mark.parametrize("most", [1, 7, 119])
+def test_a_polyhedral_start_is_the_same_however_many_paths_are_made_ready_together(
+    most: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    far = target("x y", "x^40 - 3*x^21*y + 7*y^2 - 1", "y^3 + x^5*y - 2*x + 5")
+    expected, _ = choose(far, "polyhedral", (), np.random.default_rng(0), 1)
+    cells = mixed_cells(far.supports, np.random.default_rng(0))
+    blocks = list(cells.blocks(most))
+    assert np.array_equal(np.concatenate([b.edges for b in blocks]), cells.edges)
+    assert all(b.mixed_volume <= most or len(b.edges) == 1 for b in blocks)
+    monkeypatch.setattr("nag.solving.start.polyhedral.PATHS_AT_ONCE", most)
+    start, _ = choose(far, "polyhedral", (), np.random.default_rng(0), 1)
+    assert np.array_equal(start.points, expected.points)
 
 
 def test_as_many_paths_of_products_of_linear_forms_are_more_work_than_those_of_monomials() -> None:

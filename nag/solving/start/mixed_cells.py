@@ -12,8 +12,8 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import NamedTuple
 
@@ -56,6 +56,16 @@ class MixedCells:
     def mixed_volume(self) -> int:
         """Number of solutions without zero coordinates for generic coefficients."""
         return int(self.volumes.sum())
+
+    def blocks(self, most: int) -> Iterator[MixedCells]:
+        """The cells in their order, some at a time: of so many solutions at most, or one cell."""
+        ends = np.cumsum(self.volumes)
+        first = 0
+        while first < len(self.edges):
+            reached = ends[first] - self.volumes[first] + most
+            last = max(first + 1, int(np.searchsorted(ends, reached, "right")))
+            yield replace(self, edges=self.edges[first:last], volumes=self.volumes[first:last])
+            first = last
 
 
 class Lifted(NamedTuple):

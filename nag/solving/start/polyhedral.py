@@ -22,6 +22,7 @@ from itertools import count
 import numpy as np
 
 from nag.errors import StartError
+from nag.numerics.array_table import join_columns
 from nag.solving.start.coefficient_monodromy import (
     GenericSystem,
     distinct_points,
@@ -39,6 +40,8 @@ from nag.tracking.track import track_regular
 # The homotopies begin where the least power of the degeneration's parameter is exp(-LENGTH);
 # Newton's method leads from the binomials' solutions to the start points.
 LENGTH = 10.0
+# Toric paths that are made ready together.
+PATHS_AT_ONCE = 8192
 # Largest determinant and entry of an adjugate that doubles give exactly.
 LARGEST = 1 << 40
 # Arc of the start system's coefficients round those of the target, in turns.
@@ -192,14 +195,18 @@ def by_degeneration(
     system = GenericSystem(cells.supports, coefficients, empty, np.zeros(0))
     if not len(cells.edges):
         return system, 0
-    angles, owners = binomial_solutions(cells, coefficients)
-    starts = np.exp(1j * np.concatenate([np.zeros((len(angles), 1)), angles], axis=1))
-    weights = cell_weights(cells)[owners]
     degrees = group_degrees(system.rows, groups)
     homotopy = Homotopy(_single_terms(homogenize_rows(system.rows, n, groups, degrees)))
-    found = track_regular(homotopy, starts, find_settings("fast"), threads, LENGTH * weights)
-    distinct = distinct_points(found.points, found.errors, len(starts))
-    return system.holding(distinct.points, distinct.radii), len(starts)
+    ends, paths = [], 0
+    for some in cells.blocks(PATHS_AT_ONCE):
+        angles, owners = binomial_solutions(some, coefficients)
+        starts = np.exp(1j * np.concatenate([np.zeros((len(angles), 1)), angles], axis=1))
+        weights = LENGTH * cell_weights(some)[owners]
+        ends.append(track_regular(homotopy, starts, find_settings("fast"), threads, weights))
+        paths += len(starts)
+    points, errors = join_columns([e.points for e in ends]), join_columns([e.errors for e in ends])
+    distinct = distinct_points(points, errors, paths)
+    return system.holding(distinct.points, distinct.radii), paths
 
 
 def _single_terms(rows: CompiledRows) -> CompiledRows:
