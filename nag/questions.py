@@ -292,10 +292,10 @@ def takes_files(
 
 def takes_components(function: Callable[..., Answer]) -> Callable[..., Answer]:
     """`takes_files` of a function of components: those that a file has are tested first."""
-    return takes_files(function, convert=_tested)
+    return takes_files(function, convert=_test_traces)
 
 
-def _tested(read: Any) -> Any:
+def _test_traces(read: Any) -> Any:
     """What was read, components of it with their traces tested, none for a whole orbit."""
     if not is_a(read, "nag.witness.witness", "Decomposition"):
         return read

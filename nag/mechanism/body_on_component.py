@@ -59,7 +59,7 @@ def find_body_freedoms(made: Model, component: WitnessSet, body: str, run: Run) 
     for point, tangents in cloud.tangents(POINTS):
         directions = tangents / np.linalg.norm(tangents, axis=1, keepdims=True)
         here, twists = _twists(made, point, directions, chain)
-        own = _even(twists)[body]
+        own = _equalise_directions(twists)[body]
         if spin := _spins(made, body, here, chain):
             own = np.vstack([own, *spin])
         rank = len(own) - matrix_corank(own.T, NEARLY_SINGULAR) if len(own) else 0
@@ -97,7 +97,7 @@ def _twists(
     return here, {b: twists_at(here[b], slope, chain.size) for b, slope in slopes.items()}
 
 
-def _even(twists: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+def _equalise_directions(twists: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     """The same along directions in which all bodies together move equally much.
 
     How long a direction is in the model's variables is of no matter.
@@ -136,14 +136,6 @@ def _shift(vector: np.ndarray) -> np.ndarray:
     return np.concatenate([[1, 0, 0, 0, 0], vector / 2])
 
 
-def _turned(pose: np.ndarray, vector: np.ndarray) -> np.ndarray:
-    """A vector that is turned by the rotation of a pose of norm one."""
-    given = np.zeros(8, dtype=complex)
-    given[1:4] = vector
-    turn = np.concatenate([pose[:4], np.zeros(4)])
-    return multiply_poses(multiply_poses(turn, given), conjugate_pose(turn))[1:4]
-
-
 def _spins(
     made: Model, body: str, poses: dict[str, np.ndarray], chain: JointChains
 ) -> list[np.ndarray]:
@@ -156,12 +148,14 @@ def _spins(
         for joint, neighbour in zip(rod.ends, rod.neighbours, strict=True):
             away = np.array([float(x) for x in joint.point]) - chain.centre
             moved = multiply_poses(poses[neighbour], _shift(away))
-            ends.append(2 * multiply_poses(moved, _turned_back(poses[neighbour]))[5:] / chain.size)
+            ends.append(
+                2 * multiply_poses(moved, _invert_rotation(poses[neighbour]))[5:] / chain.size
+            )
         twist = np.concatenate([ends[1] - ends[0], np.cross(ends[0], ends[1] - ends[0])])
         found.append(twist / np.linalg.norm(twist))
     return found
 
 
-def _turned_back(pose: np.ndarray) -> np.ndarray:
+def _invert_rotation(pose: np.ndarray) -> np.ndarray:
     """The inverse of a pose's rotation."""
     return conjugate_pose(np.concatenate([pose[:4], np.zeros(4)]))

@@ -71,7 +71,7 @@ class ProgressLine:
             return
         self._last = now
         bar = draw_bar(self._done, self._total) if self._changes else ""
-        text = f"{bar}{' ' if bar else ''}{self.stage_text()}{self._speed(now)}"
+        text = f"{bar}{' ' if bar else ''}{self.stage_text()}{self._speed_text(now)}"
         with contextlib.suppress(OSError, ValueError):
             if self._changes:
                 self._put(text)
@@ -98,7 +98,7 @@ class ProgressLine:
         except (OSError, ValueError):
             return WIDTH
 
-    def _speed(self, now: float) -> str:
+    def _speed_text(self, now: float) -> str:
         """Seconds since the start; steps a second and the time left of the stage."""
         parts = [f"{_duration(now - self._started)} so far"]
         steps, seconds = self._done - self._stage_first, now - self._stage_started
