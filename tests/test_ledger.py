@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import pickle
 import random
@@ -13,6 +14,7 @@ import time
 from collections.abc import Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +27,8 @@ from nag.cli import main
 from nag.errors import InputError
 from nag.files.export import export_text as decomposition_text
 from nag.files.solutions_export import export_text as solutions_text
+from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.solving import singular_ends
 from nag.solving.certificate import certify_solutions
 from nag.tracking.blocks import in_blocks, open_engine
 from nag.tracking.homotopy import Homotopy
@@ -91,6 +95,43 @@ def test_answers_are_the_same_with_a_ledger_empty_full_or_in_parts(
         lost.unlink()
     assert ask(equations, resume=tmp_path, threads=2) == plain
     assert blocks_in(tmp_path) == made
+
+
+def test_singular_ends_are_found_again_and_each_is_judged_by_itself(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    judged = []
+    judge = singular_ends.analyse
+    monkeypatch.setattr(
+        singular_ends, "analyse", lambda *given: judged.append(given) or judge(*given)
+    )
+    # Two pairs of double zeros that are each other's conjugates, at which paths end.
+    equations = [
+        "x^2 + y^2 + 1 + (x^2 - 2*y^2 - 1/2)^2*x",
+        "(x^2 - 2*y^2 - 1/2)^2*(x + 3) + (x^2 + y^2 + 1)^2*y",
+    ]
+    plain = solved(equations, start="total")
+    alone = sorted(str(end[1]) for end in judged)
+    assert len(alone) == 4
+    judged.clear()
+    assert solved(equations, start="total", resume=tmp_path) == plain
+    assert sorted(str(end[1]) for end in judged) == alone
+    judged.clear()
+    assert solved(equations, start="total", resume=tmp_path) == plain
+    assert not judged
+
+
+@pytest.mark.parametrize("x", [[Fraction(1, 3), 0], [2**0.5, 0.1]])
+def test_what_is_said_of_an_end_is_read_as_it_was_written(x: list[Any]) -> None:
+    # A zero of multiplicity 6, and the cube roots of a small number beside the other.
+    f = nag.system(["(3*x - 1)^3*(x^2 - 2)^3", "(y^2 - y/10)^2"]).polynomials
+    end = analyse(f, np.array(x, dtype=complex), 1e-10, np.random.default_rng(1))
+    again = SingularEnd.from_parts(json.loads(json.dumps(end.parts())))
+    assert again.parts() == end.parts()
+    assert again.place is end.place is Place.ISOLATED
+    assert again.precise is not None and end.precise is not None
+    assert again.precise.log_distance(end.precise) == -np.inf
+    assert again.rational == end.rational
 
 
 @pytest.mark.parametrize("seed", range(20))

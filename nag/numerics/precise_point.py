@@ -80,22 +80,28 @@ class PrecisePoint:
         """The decimal logarithm of the distance of the middles in the largest coordinate."""
         return log_norm(a - b for a, b in zip(self.centre, other.centre, strict=True))
 
+    def parts(self) -> tuple[list[list[tuple[int, int]]], list[float]]:
+        """Mantissas and exponents of two of the real and imaginary parts, and the radii."""
+        return [[_exact(z.real), _exact(z.imag)] for z in self.centre], self.radii.tolist()
+
+    @classmethod
+    def from_parts(
+        cls, centre: Sequence[Sequence[Sequence[int]]], radii: Sequence[float]
+    ) -> PrecisePoint:
+        """What `parts` was made of."""
+        made = []
+        for pair in centre:
+            real, imag = (times_power_of_two(flint.acb(m), e).real for m, e in pair)
+            made.append(flint.acb(real, imag))
+        return cls(tuple(made), np.array(radii, dtype=float))
+
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
-        parts = [[_exact(z.real), _exact(z.imag)] for z in self.centre]
-        return _of_parts, (parts, self.radii)
+        return PrecisePoint.from_parts, self.parts()
 
 
 def _exact(x: flint.arb) -> tuple[int, int]:
     mantissa, exponent = x.man_exp()
     return int(mantissa), int(exponent)
-
-
-def _of_parts(parts: Sequence[Sequence[tuple[int, int]]], radii: np.ndarray) -> PrecisePoint:
-    centre = []
-    for pair in parts:
-        real, imag = (times_power_of_two(flint.acb(m), e).real for m, e in pair)
-        centre.append(flint.acb(real, imag))
-    return PrecisePoint(tuple(centre), radii)
 
 
 def precise_zero(

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
 from enum import Enum
 from fractions import Fraction
+from typing import Any
 
 import flint
 import numpy as np
@@ -54,6 +55,33 @@ class SingularEnd:
     rational: tuple[Fraction, ...] | None = None
     nearby: tuple[SingularEnd, ...] = ()
     beside: PrecisePoint | None = None
+
+    def parts(self) -> dict[str, Any]:
+        """All of it as numbers, texts, lists and maps, exactly."""
+        own = {each.name: getattr(self, each.name) for each in fields(self)}
+        rational = self.rational and [str(c) for c in self.rational]
+        return own | {
+            "point": [[z.real, z.imag] for z in self.point.tolist()],
+            "place": self.place.name,
+            "precise": self.precise and self.precise.parts(),
+            "rational": rational,
+            "nearby": [end.parts() for end in self.nearby],
+            "beside": self.beside and self.beside.parts(),
+        }
+
+    @classmethod
+    def from_parts(cls, parts: Mapping[str, Any]) -> SingularEnd:
+        """What `parts` was made of."""
+        precise, beside, rational = (parts[name] for name in ("precise", "beside", "rational"))
+        own = {
+            "point": np.array([complex(*z) for z in parts["point"]], dtype=np.complex128),
+            "place": Place[parts["place"]],
+            "precise": precise and PrecisePoint.from_parts(*precise),
+            "rational": None if rational is None else tuple(map(Fraction, rational)),
+            "nearby": tuple(map(cls.from_parts, parts["nearby"])),
+            "beside": beside and PrecisePoint.from_parts(*beside),
+        }
+        return cls(**{**parts, **own})
 
 
 def analyse(

@@ -18,7 +18,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.array_table import map_rows, take_rows
 from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.doubles import MULTIPLE
-from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.numerics.singular_point import Place, SingularEnd
 from nag.numerics.zero_values import ON, vanishes_at, vanishes_at_point
 from nag.solving.isolated_zero import (
     IsolatedZero,
@@ -26,10 +26,12 @@ from nag.solving.isolated_zero import (
     affine_point,
     which_are_real,
 )
+from nag.solving.singular_ends import SingularEnds
 from nag.solving.solutions import LargerSets, Solutions
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import StartSystem
 from nag.text.table import count_text
+from nag.tracking import blocks
 from nag.tracking.ends.inclusion import prove_end
 from nag.tracking.ends.terms import Terms
 from nag.tracking.paths import Ball, Paths, PathStatus
@@ -139,7 +141,15 @@ def sort_ends(
     known = _list_regular(begin, zeros, regular[:0] if each else regular, paths)
     isolated: list[IsolatedZero] = []
     groups = [*zeros.regular_indices()[:, None], *zeros.groups()] if each else zeros.groups()
-    judge = partial(_judge_end, problem, begin, zeros, paths, evaluator, rng)
+    limits = np.array([path in paths.branches for path in zeros.path.tolist()], dtype=bool)
+    singular = SingularEnds(
+        problem.equations,
+        *(zeros.points, zeros.accuracy, limits, zeros.path),
+        int(rng.integers(2**62)),
+    )
+    if blocks.in_blocks() and not finite:
+        _judge_in_blocks(problem, zeros, singular, groups)
+    judge = partial(_judge_end, problem, begin, zeros, paths, evaluator, singular)
     whole = begin.complete and not problem.squared
     for group in groups:
         best, found = _judge_group(judge, zeros, group, whole, sets)
@@ -237,13 +247,39 @@ def _list_regular(
     )
 
 
+def _judge_in_blocks(
+    problem: SquareProblem,
+    zeros: _Zeros,
+    singular: SingularEnds,
+    groups: Sequence[np.ndarray],
+) -> None:
+    """Judge the best ends of groups, but those whose conjugates lie on components."""
+    best = [_best_of(zeros, group) for group in groups]
+    if problem.added:
+        best = [i for i in best if problem.may_be_excluded(zeros.points[i])]
+    else:
+        best = [i for i in best if not zeros.regular[i]]
+    first: list[int] = []
+    later: list[tuple[int, int]] = []
+    for i in best:
+        known = zeros.conjugate(i, [zeros.points[k] for k in first])
+        if known is None:
+            first.append(i)
+        else:
+            later.append((i, first[known]))
+    singular.judge_in_blocks(first)
+    singular.judge_in_blocks(
+        [i for i, k in later if singular.judge(k).place is not Place.ON_COMPONENT]
+    )
+
+
 def _judge_end(
     problem: SquareProblem,
     begin: StartSystem,
     zeros: _Zeros,
     paths: Paths,
     evaluator: Evaluator,
-    rng: np.random.Generator,
+    singular: SingularEnds,
     i: int,
 ) -> _EndPlace:
     """Where the zero ``i`` lies."""
@@ -252,7 +288,7 @@ def _judge_end(
     if problem.added:
         if not problem.may_be_excluded(point):
             return _EndPlace(Place.ON_COMPONENT)
-        end = analyse(problem.equations, point, accuracy, rng)
+        end = singular.judge(i)
         return _EndPlace(Place.ON_COMPONENT, excluded=_is_excluded(problem, end))
     if zeros.regular[i]:
         solves = problem.solves(point) if problem.squared else True
@@ -261,10 +297,7 @@ def _judge_end(
         if not solves:
             return _EndPlace(None)
         return _EndPlace(Place.ISOLATED, tuple(_list_regular(begin, zeros, np.array([i]), paths)))
-    end = analyse(problem.equations, point, accuracy, rng)
-    if end.place is Place.UNDECIDED and int(path) in paths.branches:
-        # The coordinates of a limit either vanish or are known each by itself, which says more.
-        end = analyse(problem.equations, point, accuracy * np.abs(point), rng)
+    end = singular.judge(i)
     members = [end]
     if end.place is Place.CLUSTER:
         met = coincident(
@@ -331,7 +364,7 @@ def _judge_group(
         sets: points that lie on components, and whether these are excluded. The conjugates of
             these do so as well, as the equations are real.
     """
-    best = int(group[np.argmin(zeros.accuracy[group])])
+    best = _best_of(zeros, group)
     known = zeros.conjugate(best, [x for x, _ in sets])
     if known is not None:
         return best, _EndPlace(Place.ON_COMPONENT, excluded=sets[known][1])
@@ -346,6 +379,11 @@ def _judge_group(
         if other.place is Place.ISOLATED:
             isolated += [z for z in other.isolated if all(map(z.is_apart_from, isolated))]
     return best, replace(found, isolated=tuple(isolated))
+
+
+def _best_of(zeros: _Zeros, group: np.ndarray) -> int:
+    """The best known one of ends at one place."""
+    return int(group[np.argmin(zeros.accuracy[group])])
 
 
 def _points(ends: Sequence[SingularEnd], n: int) -> np.ndarray:
