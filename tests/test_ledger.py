@@ -28,7 +28,7 @@ from nag.errors import InputError
 from nag.files.export import export_text as decomposition_text
 from nag.files.solutions_export import export_text as solutions_text
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.solving import singular_ends
+from nag.solving import end_judgements
 from nag.solving.certificate import certify_solutions
 from nag.tracking.blocks import in_blocks, open_engine
 from nag.tracking.homotopy import Homotopy
@@ -101,9 +101,9 @@ def test_singular_ends_are_found_again_and_each_is_judged_by_itself(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     judged = []
-    judge = singular_ends.analyse
+    judge = end_judgements.analyse
     monkeypatch.setattr(
-        singular_ends, "analyse", lambda *given: judged.append(given) or judge(*given)
+        end_judgements, "analyse", lambda *given: judged.append(given) or judge(*given)
     )
     # Two pairs of double zeros that are each other's conjugates, at which paths end.
     equations = [

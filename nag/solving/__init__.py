@@ -4,7 +4,7 @@ Read in this order, top-down: `solve` (the methods, the bounds of the number of 
 on `solutions` (the data, with `shown`); `branch_solutions` (what exact factoring decides: each
 branch solved, and their solutions joined without repeats, by `nag.numerics.branch_union`);
 `path_search` (what is asked, and what paths show) on `square_problem` (what is tracked),
-`path_ends` (what became of it), `singular_ends` (judged one by one or in blocks) and
+`path_ends` (what became of it), `end_judgements` (judged one by one or in blocks) and
 `isolated_zero`; `missing_zeros` with `tropical_zeros` (what no
 path reached); `start` (systems that are solved already); `parameter` (families, tracked from one
 member to others) with `parameter_line`, `solution_classes` and `solve_classes`; `family_members` on

@@ -20,13 +20,13 @@ from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.doubles import MULTIPLE
 from nag.numerics.singular_point import Place, SingularEnd
 from nag.numerics.zero_values import ON, vanishes_at, vanishes_at_point
+from nag.solving.end_judgements import EndJudgements
 from nag.solving.isolated_zero import (
     IsolatedZero,
     IsolatedZeros,
     affine_point,
     which_are_real,
 )
-from nag.solving.singular_ends import SingularEnds
 from nag.solving.solutions import LargerSets, Solutions
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import StartSystem
@@ -142,7 +142,7 @@ def sort_ends(
     isolated: list[IsolatedZero] = []
     groups = [*zeros.regular_indices()[:, None], *zeros.groups()] if each else zeros.groups()
     limits = np.array([path in paths.branches for path in zeros.path.tolist()], dtype=bool)
-    singular = SingularEnds(
+    singular = EndJudgements(
         problem.equations,
         *(zeros.points, zeros.accuracy, limits, zeros.path),
         int(rng.integers(2**62)),
@@ -250,7 +250,7 @@ def _list_regular(
 def _judge_in_blocks(
     problem: SquareProblem,
     zeros: _Zeros,
-    singular: SingularEnds,
+    singular: EndJudgements,
     groups: Sequence[np.ndarray],
 ) -> None:
     """Judge the best ends of groups, but those whose conjugates lie on components."""
@@ -279,7 +279,7 @@ def _judge_end(
     zeros: _Zeros,
     paths: Paths,
     evaluator: Evaluator,
-    singular: SingularEnds,
+    singular: EndJudgements,
     i: int,
 ) -> _EndPlace:
     """Where the zero ``i`` lies."""

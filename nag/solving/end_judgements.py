@@ -21,7 +21,7 @@ BLOCK = 16
 
 
 @dataclass(frozen=True, eq=False)
-class SingularEnds:
+class EndJudgements:
     """Ends of paths that may be singular zeros of some equations.
 
     Attributes:
@@ -55,13 +55,13 @@ class SingularEnds:
         parts = [np.array(chosen[k : k + BLOCK]) for k in range(0, len(chosen), BLOCK)]
         columns = (self.points, self.accuracy, self.limits, self.paths)
         calls = [(self.equations, *(a[part] for a in columns), self.key) for part in parts]
-        found = blocks.work_out(block_of_singular_ends, calls, "singular ends")
+        found = blocks.work_out(block_of_judgements, calls, "singular ends")
         for part, (arrays, _) in zip(parts, found, strict=True):
             ends = map(SingularEnd.from_parts, json.loads(arrays["ends"].tobytes()))
             self._judged.update(zip(part.tolist(), ends, strict=True))
 
 
-def block_of_singular_ends(
+def block_of_judgements(
     equations: Sequence[Polynomial],
     points: np.ndarray,
     accuracy: np.ndarray,
@@ -70,7 +70,7 @@ def block_of_singular_ends(
     key: int,
     threads: int = 1,
 ) -> dict[str, np.ndarray]:
-    """What is said of a block of ends, as JSON in an array of bytes; see `SingularEnds`."""
+    """What is said of a block of ends, as JSON in an array of bytes; see `EndJudgements`."""
     ends = [
         _judge(equations, *end, key=key, path=path)
         for *end, path in zip(points, accuracy, limits, paths, strict=True)
