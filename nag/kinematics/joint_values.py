@@ -43,7 +43,8 @@ def joint_values(scene: Scene, poses: Poses) -> np.ndarray:
     An angle is that by which the second body has turned against the first about the axis, a slide
     how far the joint's point on the second is from that on the first, along the axis. They count
     from the reference configuration, where there is one, else from the bodies' own frames. Of a
-    universal joint the first angle is that about the first body's axis.
+    universal joint the first angle is that about the first body's axis; the slides of a planar one
+    are along the directions of `across`, which the first body carries.
     """
     columns = [x for joint in scene.joints for x in _values(joint, poses)]
     return np.stack(columns, axis=-1) if columns else np.zeros((len(poses), 0))
@@ -103,11 +104,16 @@ def _two_angles(joint: SceneJoint, relative: np.ndarray) -> list[np.ndarray]:
 
 
 def across(axis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Two unit vectors orthogonal to a unit vector and to each other."""
-    unit = np.eye(3)[int(np.abs(axis).argmin())]
-    second = np.cross(axis, unit)
-    second /= np.linalg.norm(second)
-    return second, np.cross(axis, second)
+    """Two unit vectors across a unit vector, with which they are right-handed: x and y of a plane.
+
+    Of an axis along z they are x and y of the drawing, along x y and z, along y z and x: the first
+    is the next vector of the drawing after that which the axis is nearest to, across the axis.
+    """
+    nearest = int(np.abs(axis).argmax())
+    first = np.eye(3)[(nearest + 1) % 3]
+    first = first - (first @ axis) * axis
+    first /= np.linalg.norm(first)
+    return first, np.cross(axis, first)
 
 
 def joint_errors(scene: Scene, poses: Poses) -> np.ndarray:

@@ -301,8 +301,6 @@ def _add_joint(
             for side in (-1.0, 1.0):
                 ends = place + side * 0.45 * cross * axis
                 shapes.append(_shape("ring", (ends, axis), (0.8 * ring, 0.45 * length)))
-            other = across(axis)[0]
-            del other
         second.append(_shape("steelball", (at[1],), (1.5 * PIN * link,)))
     elif factors == ("slide",) or factors == ("turn", "slide"):
         axes = [joint.axis_in(k) for k in (0, 1)]
