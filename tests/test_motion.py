@@ -24,6 +24,7 @@ from nag.kinematics.motion import Motion, MotionError, motion_of
 from nag.kinematics.path import Curve
 from nag.kinematics.poses import Poses, pose_steps, turn_product
 from nag.kinematics.scene import Scene, SceneJoint, scene_of
+from nag.kinematics.shown import rigid_text
 from nag.kinematics.walks import walks_of
 from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
@@ -494,6 +495,76 @@ def test_a_motion_to_infinity_is_followed_as_far_as_is_said() -> None:
     b, d = (circuit.values.values[:, names.index(n)] for n in "BD")
     assert np.abs(b + d).max() < 1e-12
     assert joint_errors(motion.scene, circuit.poses).max() < FIT
+
+
+def count_mirrored_plates() -> int:
+    """Real places of a plate that is the mirror image of its base, on three legs as long as
+    the root of 17.
+
+    The ends of the legs are at 0, 3, 1 + 2i and at 0, 3, 1 - 2i on the plate. At each angle of the
+    plate the differences of the legs' equations are linear in its place; they depend on each other,
+    and at the angles at which they do not contradict each other the place is on a line.
+    """
+    angles = np.linspace(-np.pi, np.pi, 100_001) + 1e-5
+    turned = np.exp(1j * angles)
+    first, second = 3 * turned - 3, (1 - 2j) * turned - (1 + 2j)
+    contradiction = abs(first) ** 2 * second - abs(second) ** 2 * first
+    # All of it is along the same direction.
+    size = (contradiction / (1j * np.exp(0.5j * angles))).real
+    roots = np.flatnonzero(size[1:] * size[:-1] < 0)
+    return sum(2 * int(abs(second[k]) / 2 < math.sqrt(17)) for k in roots)
+
+
+def test_real_assemblies_that_cannot_move_are_told_beside_the_circuits() -> None:
+    # Three parallel legs carry a plate like their base, which is only carried along (turned by w,
+    # its place is w times the base's circumcentre: too near for the legs), or its mirror image;
+    # the whole is mirrored as well.
+    motion = nag.motion(CASES / "planar" / "prism-parallel.toml", samples=60)
+    assert motion.complete and len(motion.circuits) == 2 and not motion.not_looked_for
+    assert len(motion.assemblies) == 2 * count_mirrored_plates() == 12
+    for each in motion.assemblies:
+        assert joint_errors(motion.scene, each.poses).max() < FIT and each.circuit is None
+    assert "12 real assemblies besides that cannot move" in " ".join(str(motion).split())
+    assert len(motion.document()["assemblies"]) == len(motion.assembly_table()["A:A-D"]) == 12
+    assert motion.only_circuit(2).assemblies == motion.assemblies
+
+
+def test_an_isolated_real_point_of_a_curve_is_an_assembly_that_cannot_move() -> None:
+    # With the crank turned back the other links reach just as far as they have to.
+    lengths = {"crank": ("A", "B", 2), "rod": ("B", "C", 2), "arm": ("C", "D", 2)}
+    ends = {"base": ("A", "E", 3), "rocker": ("D", "E", 1)}
+    motion = nag.motion(Linkage.of(ends | lengths, "base"), drive={"A": np.pi})
+    assert motion.complete and not motion.circuits and motion.freedoms == 0
+    (only,) = motion.assemblies
+    assert np.abs(np.sin(only.values)).max() < FIT
+    assert joint_errors(motion.scene, only.poses).max() < FIT
+
+
+def test_where_rigid_assemblies_were_not_looked_for_is_said() -> None:
+    motion = nag.motion(CASES / "planar" / "kinematotropic-crank.toml", samples=24)
+    assert motion.not_looked_for == "on 1 component of dimension 2 or more"
+    assert f"were not looked for {motion.not_looked_for}" in rigid_text(motion)
+
+
+def test_slides_of_a_planar_joint_are_along_the_drawings_axes_where_they_can_be() -> None:
+    one, half = np.array([1.0, 0, 0, 0]), np.sqrt(1 / 2)
+    for k in range(3):
+        axis, ahead = np.eye(3)[k], np.roll(np.eye(3), -k - 1, axis=0)
+        joint = SceneJoint("E", "planar", (0, 1), np.zeros((2, 3)), np.array([one, one]), axis)
+        scene = Scene(("a", "b"), 0, (joint,), None, True, {}, (), lambda p: None)
+        place = 2 * ahead[0] - 3 * ahead[1]
+        turns = np.array([[one], [np.array([half, *(half * axis)])]])
+        poses = Poses(turns, np.array([[np.zeros(3)], [place]]))
+        assert joint_values(scene, poses)[0] == pytest.approx([np.pi / 2, 2, -3], abs=1e-14)
+        # The first body carries them along.
+        poses = Poses(turns[::-1], np.array([[np.zeros(3)], [place]]))
+        assert joint_values(scene, poses)[0] == pytest.approx([-np.pi / 2, -3, -2], abs=1e-14)
+
+
+def test_an_open_arm_is_told_how_to_be_held() -> None:
+    joint = nag.Joint("A", "revolute", ("base", "arm"), (0, 0, 0), (0, 0, 1))
+    with pytest.raises(NagError, match=r"no loop.*--pose BODY=X,Y,Z.*--hold LINK"):
+        nag.motion(nag.Mechanism("base", (joint,)))
 
 
 def test_what_does_not_move_with_one_freedom_is_refused() -> None:

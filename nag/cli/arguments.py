@@ -355,20 +355,26 @@ def read_problem(arguments: argparse.Namespace) -> tuple[Case, Problem]:
     return case, problem_of_case(case, arguments.formulation or "auto")
 
 
-def problem_of_case(case: Case, formulation: str = "auto") -> Problem:
+def problem_of_case(case: Case, formulation: str = "auto", no_loop: str = "") -> Problem:
     """The problem that a case describes.
+
+    Args:
+        no_loop: what to do where a mechanism has no loop.
 
     Raises:
         UsageError: if it has no such formulation, or nothing to decompose.
     """
     from nag.errors import MechanismError
     from nag.mechanism.parts import FormulationError
+    from nag.mechanism.path_estimates import NoLoopError
     from nag.mechanism.problem import problem_of
 
     try:
         return problem_of(case, formulation=formulation)
     except FormulationError:
         raise only_assembled(case, "--formulation") from None
+    except NoLoopError as error:
+        raise UsageError(f"{case.path}: {'; '.join(filter(None, [str(error), no_loop]))}") from None
     except MechanismError as error:
         raise UsageError(f"{case.path}: {error}") from None
 

@@ -29,7 +29,7 @@ from nag.cli.running import (
     write_document,
 )
 from nag.errors import NagError
-from nag.kinematics import MOST_VALUES
+from nag.kinematics import CLOSE_A_LOOP, MOST_VALUES
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -90,7 +90,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--csv",
         metavar="FILE",
         help="write a table to FILE: a line for each sample of each circuit, with the joints' "
-        "angles and slides and all bodies' places and unit quaternions",
+        "angles and slides and all bodies' places and unit quaternions; of a joint J with several "
+        "J.angle, J.slide (cylindrical), J.first, J.second (universal), J.angle, J.x, J.y (planar)",
     )
     parser.add_argument(
         "--html",
@@ -157,7 +158,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
             if name in names[:i]:
                 raise UsageError(f"{option}: {name[:40]!r} is given twice; give it once")
     given = tie_placed_bodies(case, (split_place(body)[0] for body, _ in options.pose or ()))
-    problem = problem_of_case(given, options.formulation or "auto")
+    problem = problem_of_case(given, options.formulation or "auto", CLOSE_A_LOOP)
     drives = _with_radians(problem, options.drive or ())
     ranges = [each for each in drives if len(each[1]) > 1]
     if len(ranges) > 1:
@@ -179,6 +180,7 @@ def _run_once(
     options: argparse.Namespace, case: Case, problem: Problem, held: dict[str, Any]
 ) -> CommandAnswer:
     """The motions as they are, or with joints or bodies held."""
+    from nag.kinematics.joint_values import joint_coordinates
     from nag.kinematics.motion import motion
     from nag.kinematics.shown import assembly_rows, drive_text, motion_rows
 
@@ -214,6 +216,8 @@ def _run_once(
             driven.append(("angles", "count from the position in which it is drawn"))
         blocks.append(driven)
         blocks.append(assembly_rows(found) if found.assemblies else [])
+    elif found.assemblies and joint_coordinates(found.scene):
+        blocks.append(assembly_rows(found))
     return answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
 
 

@@ -20,9 +20,10 @@ from nag.algebra.given import is_a
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
+from nag.kinematics import CLOSE_A_LOOP
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values
 from nag.kinematics.path import Path
-from nag.kinematics.poses import Poses, turn_product
+from nag.kinematics.poses import SAME, Poses, pose_distances, turn_product
 from nag.kinematics.scene import Scene, scene_of
 from nag.kinematics.turning_points import STILL, Values
 from nag.mechanism.dh import DHEulerModel, DHModel, hold_rows
@@ -31,20 +32,17 @@ from nag.mechanism.graph import Mechanism
 from nag.mechanism.holding import HeldMechanism, held_model, hold_joint, place_body, tie_bodies
 from nag.mechanism.linkage import Linkage, LinkageModel, hold_pin, linkage_model
 from nag.mechanism.model import Model
-from nag.mechanism.problem import Problem, problem_of
+from nag.mechanism.path_estimates import NoLoopError
+from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.quaternion import conjugate, multiply
 from nag.numerics.double_ranks import NEARLY_SINGULAR
 from nag.numerics.read_only import FixedArrays, RealArray, equal_values
-from nag.real.real_pieces import find_real_points
 from nag.text.table import join_words
-from nag.tracking.run import Run
 from nag.witness.witness import WitnessSet
 
 # Decides: Imaginary parts beside the point of what rounding of 16 digits may have parted from a
 # double real zero: their root, with room.
 BESIDE = 1e-6
-# Decimals of values by which assemblies are put in order.
-DECIMALS = 9
 # Places of bodies, and slides, at most: nothing is that far away.
 LARGEST = 1e12
 # Steps that narrow an interval in which a joint has a value, to nothing.
@@ -195,6 +193,19 @@ def tie_placed_bodies(given: Any, bodies: Iterable[str]) -> Any:
     return given
 
 
+def problem_to_move(mechanism: Any, poses: Sequence[Pose], formulation: str) -> Problem:
+    """The problem of a mechanism whose bodies that are to be placed are held.
+
+    Raises:
+        NagError: as `nag.mechanism.problem.problem_of` does; if there is no loop, with what to do.
+    """
+    given = tie_placed_bodies(mechanism, (each.body for each in poses))
+    try:
+        return in_real_coordinates(problem_of(given, formulation=formulation))
+    except NoLoopError as error:
+        raise NoLoopError(f"{error}; {CLOSE_A_LOOP}") from None
+
+
 def check_drive(scene: Scene, drive: Drive) -> int:
     """The column of the coordinate that is held.
 
@@ -328,34 +339,18 @@ def _displacement(made: Model, pose: Pose) -> GivenFrame:
     return GivenFrame(shortened(multiply(turned, conjugate(drawn))), origin)
 
 
-def isolated_assemblies(
-    scene: Scene, components: Sequence[WitnessSet], run: Run
-) -> tuple[list[DrivenAssembly], list[str]]:
-    """The real assemblies among components of dimension 0, and what is not known of others.
-
-    They are in the order of their values.
-    """
-    found, doubtful = [], 0
-    for component in components:
-        real = find_real_points(component, run=run)
-        doubtful += not real.each_piece
-        points = np.asarray(real.points)
-        poses = scene.lift(points)
-        values = _upper_half_turns(scene, joint_values(scene, poses))
-        for i in range(len(points)):
-            here = poses.at(slice(i, i + 1))
-            found.append(DrivenAssembly(None, None, values[i], here, points[i]))
-    notes = []
-    if doubtful:
-        notes.append(f"assemblies left out as it is not known whether they are real: {doubtful}")
-    return sorted(found, key=lambda each: tuple(np.round(each.values, DECIMALS))), notes
+def is_same_assembly(scene: Scene, one: DrivenAssembly, other: DrivenAssembly) -> bool:
+    """Whether two assemblies are the same configuration, as where circuits cross."""
+    return bool(pose_distances(one.poses, other.poses, scene.centres, scene.size)[0] < SAME)
 
 
-def _upper_half_turns(scene: Scene, values: np.ndarray) -> np.ndarray:
-    """The same values, with half turns backwards, but for rounding, as half turns forwards."""
-    angles = [each.kind == "angle" for each in joint_coordinates(scene)]
-    backwards = np.array(angles, dtype=bool) & (values < STILL - np.pi)
-    return np.where(backwards, values + 2 * np.pi, values)
+def has_value(scene: Scene, assembly: DrivenAssembly, drive: Drive) -> bool:
+    """Whether a joint has a value in an assembly."""
+    column = check_drive(scene, drive)
+    away = float(assembly.values[column] - drive.value)
+    if joint_coordinates(scene)[column].kind == "angle":
+        return abs((away + np.pi) % (2 * np.pi) - np.pi) < SAME
+    return abs(away) < SAME * scene.size
 
 
 def find_doubts_of_held(
@@ -363,13 +358,20 @@ def find_doubts_of_held(
 ) -> list[str]:
     """Why assemblies may not be all that is meant: next to numbers that are rounded, others move.
 
+    On curves they are isolated for the numbers as they are; of rounded ones they would not be.
+
     Args:
         problem: what is left with joints and bodies held.
         assemblies: the real ones that do not move.
         components: of dimension 0, all of them.
     """
+    points = [x for component in components for x in np.asarray(component.points)]
     known = [each.point for each in assemblies if each.point is not None]
-    near = [str(i + 1) for i, x in enumerate(known) if _is_nearly_singular(problem, x)]
+    near = [
+        str(i + 1)
+        for i, x in enumerate(known)
+        if _is_among(x, points) and _is_nearly_singular(problem, x)
+    ]
     notes = []
     if near:
         noun = "assembly" if len(near) == 1 else "assemblies"
@@ -377,7 +379,6 @@ def find_doubts_of_held(
             f"{noun} {join_words(near)}: all but singular: what is held in rounded numbers may "
             "stand for a place at which it moves, or where two meet"
         )
-    points = [x for component in components for x in np.asarray(component.points)]
     aside = [x for x in points if 0 < np.abs(x.imag).max() < BESIDE * (1 + np.abs(x).max())]
     if any(_is_nearly_singular(problem, x) for x in aside if not _is_among(x.real, known)):
         notes.append(

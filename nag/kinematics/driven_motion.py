@@ -20,9 +20,9 @@ from nag.kinematics.driven import (
     Pose,
     check_drive,
     place_frames,
+    problem_to_move,
     read_drives,
     read_poses,
-    tie_placed_bodies,
 )
 from nag.kinematics.joint_values import Coordinate, joint_coordinates
 from nag.kinematics.motion import (
@@ -37,7 +37,7 @@ from nag.kinematics.motion import (
 )
 from nag.kinematics.poses import Poses, pose_distances
 from nag.kinematics.scene import Scene, scene_of
-from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
+from nag.mechanism.problem import Problem
 from nag.mechanism.real_assemblies import of_real_assemblies
 from nag.numerics.read_only import Several, equal_values
 from nag.text.table import data_frame, one_line
@@ -197,8 +197,7 @@ def driven_motion(
     if not 1 <= len(numbers) <= MOST_VALUES:
         raise NagError(f"values: give 1 to {MOST_VALUES}, not {len(numbers)}")
     others, poses = read_drives(drive), read_poses(pose)
-    given = tie_placed_bodies(mechanism, (each.body for each in poses))
-    problem = of_real_assemblies(in_real_coordinates(problem_of(given, formulation=formulation)))
+    problem = of_real_assemblies(problem_to_move(mechanism, poses, formulation))
     poses = place_frames(problem, poses)
     scene = scene_of(problem)
     steps = [Drive(coordinate, value) for value in numbers]

@@ -18,28 +18,35 @@ from nag.kinematics.driven import (
     assemblies_on,
     check_drive,
     find_doubts_of_held,
+    has_value,
     hold,
-    isolated_assemblies,
+    is_same_assembly,
     place_frames,
+    problem_to_move,
     read_drives,
     read_poses,
-    tie_placed_bodies,
 )
 from nag.kinematics.joint_values import joint_coordinates
 from nag.kinematics.path import Curve, Path, sample_path, singular_places
-from nag.kinematics.poses import Poses, pose_distances
+from nag.kinematics.poses import SAME, Poses, pose_distances
+from nag.kinematics.rigid_assemblies import (
+    Configurations,
+    RigidAssemblies,
+    find_components_through,
+    find_rigid_assemblies,
+)
 from nag.kinematics.scene import Scene, scene_of
 from nag.kinematics.turning_points import Values, values_along
 from nag.kinematics.walks import CurveWalk, walks_of
 from nag.mechanism.model import Model
-from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
+from nag.mechanism.problem import Problem
 from nag.mechanism.real_assemblies import obstacle, of_real_assemblies
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.read_only import RealArray, Several, equal_values
 from nag.real.curve import RealCurve
 from nag.text.table import count_text, data_frame, one_line
 from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
-from nag.witness.frame import expand_orbits
+from nag.witness.frame import count_expanded, expand_orbits
 from nag.witness.witness import Decomposition, WitnessSet
 
 if TYPE_CHECKING:
@@ -48,14 +55,9 @@ if TYPE_CHECKING:
 # Samples of each circuit; an even number of steps, so that halves of coverings are whole ones.
 SAMPLES = 360
 LEAST_SAMPLES, MOST_SAMPLES = 12, 100_000
-# Decides: Distance in radians and sizes at which two configurations are one: vertices are known to
-# half the digits, others that are special lay beyond 1e-3.
-SAME = 1e-6
 # Decides: Steps of samples by which two circuits, or the halves of one in Euler parameters, may be
 # apart and be one motion.
 BESIDE = 0.1
-# Decides: Coordinates of vertices near infinity: what else passes through them is not said.
-FAR = 1e6
 # Steps along a curve to a point that may be on it.
 APPROACHES = 6
 # Singular configurations of which it is asked which components pass through them.
@@ -207,9 +209,12 @@ class Motion(Several[Circuit]):
         idle: which parts turn idly, in words; empty where none does or it is not known.
         which: whether only motions through the reference configuration were asked for.
         drive: what was asked to be held; None if nothing was.
-        assemblies: with that at its value, on all the circuits.
+        assemblies: with that at its value, on all the circuits; if nothing was, real ones that do
+            not move, so that they are on none.
         left_out: which components were not looked at as they have more freedoms; empty if none.
         notes: what is not known.
+        not_looked_for: where real assemblies that do not move were not looked for, in words; empty
+            if they were everywhere.
         held: joints that are held at values, if the circuits are those of what is left.
         poses: bodies that are held at places.
     """
@@ -227,6 +232,7 @@ class Motion(Several[Circuit]):
     notes: tuple[str, ...]
     drive: Drive | None = None
     assemblies: tuple[DrivenAssembly, ...] = ()
+    not_looked_for: str = ""
     held: tuple[Drive, ...] = ()
     poses: tuple[Pose, ...] = ()
 
@@ -329,13 +335,14 @@ class Motion(Several[Circuit]):
         return own
 
     def only_circuit(self, number: int) -> Motion:
-        """The same with one circuit, and the assemblies that are on it.
+        """The same with one circuit; of the assemblies at a value those that are on it.
 
         Raises:
             NagError: if there is none of that number.
         """
-        own = tuple(each for each in self.assemblies if each.circuit == number)
-        return replace(self, circuits=(self.circuit(number),), assemblies=own)
+        on_it = tuple(each for each in self.assemblies if each.circuit == number)
+        assemblies = self.assemblies if self.drive is None else on_it
+        return replace(self, circuits=(self.circuit(number),), assemblies=assemblies)
 
     def document(self) -> dict[str, Any]:
         """The motion as a JSON object without its head; angles are in radians."""
@@ -345,6 +352,7 @@ class Motion(Several[Circuit]):
             "mobility": {"freedoms": self.freedoms, "counted": self.counted},
             "idle": self.idle,
             "left_out": self.left_out,
+            "not_looked_for": self.not_looked_for,
             "notes": list(self.notes),
             "bodies": list(scene.bodies),
             "ground": scene.bodies[scene.ground],
@@ -425,8 +433,7 @@ def motion(
         return every.only_circuit(circuit)
     check_choice(circuit, "circuit", get_args(Which))
     drives, poses = read_drives(drive), read_poses(pose)
-    given = tie_placed_bodies(mechanism, (each.body for each in poses))
-    problem = in_real_coordinates(problem_of(given, formulation=formulation))
+    problem = problem_to_move(mechanism, poses, formulation)
     reason = "" if problem.parts is None else obstacle(problem.parts)
     if reason:
         raise MotionError(f"its parts have no real assembly: {reason}")
@@ -540,6 +547,7 @@ def _at_value(
         for each in made
         for assembly in assemblies_on(each.path, each.values, drive, each.circuit.number, each.end)
     ]
+    candidates += [each for each in motion.assemblies if has_value(motion.scene, each, drive)]
     notes = list(motion.notes)
     unbounded = any(each.circuit.unbounded for each in made)
     if unbounded and motion.which == "reference":
@@ -557,14 +565,9 @@ def _at_value(
             notes.append(f"assemblies beyond where circuits to infinity are followed: {error}")
     scene, assemblies = motion.scene, list[DrivenAssembly]()
     for each in candidates:
-        if not any(_is_one(scene, each, other) for other in assemblies):
+        if not any(is_same_assembly(scene, each, other) for other in assemblies):
             assemblies.append(each)
     return replace(motion, drive=drive, assemblies=tuple(assemblies), notes=tuple(notes))
-
-
-def _is_one(scene: Scene, one: DrivenAssembly, other: DrivenAssembly) -> bool:
-    """Whether two assemblies are the same configuration, as where circuits cross."""
-    return pose_distances(one.poses, other.poses, scene.centres, scene.size)[0] < SAME
 
 
 def _motion_on(
@@ -580,7 +583,8 @@ def _motion_on(
     """The circuits in a scene, and what they were made of.
 
     Args:
-        holding: whether isolated assemblies are wanted as well, as joints or bodies are held.
+        holding: whether assemblies that do not move are wanted though nothing else does, as joints
+            or bodies are held.
     """
     if not isinstance(samples, int) or not LEAST_SAMPLES <= samples <= MOST_SAMPLES:
         raise NagError(f"samples: give a whole number from {LEAST_SAMPLES} to {MOST_SAMPLES}")
@@ -589,16 +593,19 @@ def _motion_on(
     inner = run.without_found
     decomposition = problem.decompose(run=inner)
     notes = [] if decomposition.complete else [f"components: {'; '.join(decomposition.notes)}"]
-    found, left_out, others = _choose_components(
-        problem, decomposition, which, inner, notes, holding
+    configurations = _distinct_configurations(problem, decomposition)
+    own, left_out = _choose_components(
+        problem, decomposition, configurations, which, inner, notes, holding
     )
+    found = [configurations.everything.components[i] for i in own]
     curve_of = curve_of or (lambda component: _real_curve(component, inner))
     made, idle = problem.model, _idle(problem, inner)
     curves: list[RealCurve] = []
     walks: list[_FoundCircuit] = []
+    freedoms = 0 if holding else 1
 
     def motion_so_far(
-        circuits: Sequence[Circuit], notes: Sequence[str], isolated: Sequence[DrivenAssembly]
+        circuits: Sequence[Circuit], notes: Sequence[str], rigid: RigidAssemblies | None = None
     ) -> Motion:
         return Motion(
             scene,
@@ -606,13 +613,14 @@ def _motion_on(
             tuple(curves),
             tuple(circuits),
             made.reason,
-            int(bool(found) or not holding) + problem.free,
+            freedoms + problem.free,
             made.gruebler_kutzbach,
             idle,
             which,
             left_out,
             tuple(notes),
-            assemblies=tuple(isolated),
+            assemblies=() if rigid is None else rigid.assemblies,
+            not_looked_for="" if rigid is None else rigid.not_looked_for,
         )
 
     for i, component in enumerate(found):
@@ -620,22 +628,24 @@ def _motion_on(
         real = curve_of(component)
         curves.append(real)
         walks += _circuits_on(problem, scene, i, real, which, samples)
+        if walks or not real.complete:
+            freedoms = 1
         if not real.complete:
             reason = real.reason or "its real points are undecided"
             notes.append(f"component {i + 1}: {reason}")
         if run.found is not None:
             early = [each.circuit for each in _each_once(scene, walks)]
-            run.found(motion_so_far(early, [*notes, ENDED_EARLY], ()))
+            run.found(motion_so_far(early, [*notes, ENDED_EARLY]))
     circuits = _each_once(scene, walks)
-    isolated: list[DrivenAssembly] = []
+    known = dict(zip(own, curves, strict=True))
+    rigid = find_rigid_assemblies(scene, configurations, known, inner)
+    notes += rigid.doubts
     if holding:
-        points = [c for c in others.components if c.dimension == 0]
-        isolated, doubts = isolated_assemblies(scene, points, inner)
-        notes += [*doubts, *find_doubts_of_held(problem, isolated, points)]
+        notes += find_doubts_of_held(problem, rigid.assemblies, configurations.finite)
     if not circuits and not notes and not holding:
-        raise MotionError(_no_motion(curves, left_out))
-    finished = _with_crossings(circuits, others, found, inner)
-    return motion_so_far(finished, notes, isolated), circuits
+        raise MotionError(_no_motion(len(rigid.assemblies), rigid.not_looked_for))
+    finished = _with_crossings(circuits, configurations, own, inner)
+    return motion_so_far(finished, notes, rigid), circuits
 
 
 def _real_curve(component: WitnessSet, run: Run) -> RealCurve:
@@ -644,34 +654,44 @@ def _real_curve(component: WitnessSet, run: Run) -> RealCurve:
     return find_real_curve(component, run=run)
 
 
+def _distinct_configurations(problem: Problem, decomposition: Decomposition) -> Configurations:
+    """All components, those together that are the same configurations."""
+    # Of sign changes of Euler parameters the images are.
+    same = isinstance(problem.model, Model) and problem.model.sign_group > 1
+    classes: list[int] = []
+    for component in decomposition.components:
+        first, count = len(classes), count_expanded(component)
+        classes += [first] * count if same else range(first, first + count)
+    return Configurations(expand_orbits(decomposition), tuple(classes))
+
+
 def _choose_components(
     problem: Problem,
     decomposition: Decomposition,
+    configurations: Configurations,
     which: Which,
     run: Run,
     notes: list[str],
     holding: bool,
-) -> tuple[list[WitnessSet], str, Decomposition]:
-    """The components to look at, what is left out of them, and all that there are.
+) -> tuple[list[int], str]:
+    """Indices of the components to look at, and what is left out of them.
 
     Args:
         holding: whether there need not be any, as assemblies are wanted that do not move.
     """
-    expanded = expand_orbits(decomposition)
+    components = configurations.everything.components
     if which == "reference":
         name = ("the reference configuration", tuple(problem.reference or ()))
         (through,) = through_points(decomposition, [name], run.threads)
         if through.doubt:
             notes.append(through.doubt)
-        own = [expanded.components[i] for i in through.components]
+        own = list(through.components)
         where = "at the reference configuration"
     else:
-        # Of sign changes of Euler parameters the images are the same configurations.
-        same = isinstance(problem.model, Model) and problem.model.sign_group > 1
-        own = list((decomposition if same else expanded).components)
+        own = list(dict.fromkeys(configurations.classes))
         where = ""
-    curves = [c for c in own if c.dimension == 1]
-    largest = max((c.dimension for c in own), default=0)
+    curves = [i for i in own if components[i].dimension == 1]
+    largest = max((components[i].dimension for i in own), default=0)
     if not curves and not notes and not (holding and largest <= 1):
         if largest > 1:
             raise FreedomsError(
@@ -680,18 +700,17 @@ def _choose_components(
             )
         advice = "see nag mobility, with --tolerance 1e-3 if its numbers are rounded"
         raise MotionError(f"it does not move {where}".rstrip() + f"; {advice}")
-    larger = sum(c.dimension > 1 for c in own)
+    larger = sum(components[i].dimension > 1 for i in own)
     left_out = f"{count_text(larger, 'component')} of dimension 2 or more" if larger else ""
-    return curves, left_out, expanded
+    return curves, left_out
 
 
-def _no_motion(curves: Sequence[RealCurve], left_out: str) -> str:
-    rest = f"; not looked at: {left_out}" if left_out else ""
-    isolated = sum(len(curve.pieces) for curve in curves)
-    if isolated:
-        points = count_text(isolated, "real point")
-        return f"it has no real motion: its components have {points}, isolated, and no curve{rest}"
-    return "it has no real motion: its components of dimension 1 have no real points" + rest
+def _no_motion(rigid: int, not_looked_for: str) -> str:
+    rest = f"; not looked at: what is {not_looked_for}" if not_looked_for else ""
+    if rigid:
+        assemblies = count_text(rigid, "real assembly", "real assemblies")
+        return f"it has no real motion, only {assemblies} that cannot move{rest}"
+    return f"it has no real motion: no component of dimension 1 has real points{rest}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -893,7 +912,7 @@ def _passages(made: _FoundCircuit) -> list[_Passage]:
 
 
 def _with_crossings(
-    found: Sequence[_FoundCircuit], everything: Decomposition, own: Sequence[WitnessSet], run: Run
+    found: Sequence[_FoundCircuit], configurations: Configurations, own: Sequence[int], run: Run
 ) -> list[Circuit]:
     """The circuits with the singular configurations on their way."""
     passages = [passage for made in found for passage in _passages(made)]
@@ -909,15 +928,14 @@ def _with_crossings(
         through = next((components for other, components in known if is_here(other)), ())
         if not any(is_here(other) for other, _ in known):
             if len(known) < MOST_PLACES:
-                through = _components_through(here.point, everything, run)
+                through = find_components_through(configurations, here.point, run)
             else:
                 through = None
             known.append((here, through))
         others = None
         if through is not None:
-            others = tuple(
-                i for i in through if everything.components[i] is not own[circuit.component]
-            )
+            itself = configurations.classes[own[circuit.component]]
+            others = tuple(i for i in through if i != itself)
         step = float(circuit.arc[1] - circuit.arc[0])
         crossings[circuit.number].append(
             Crossing(round(here.arc / step), here.arc, tuple(sorted(numbers)), others)
@@ -925,22 +943,6 @@ def _with_crossings(
     return [
         replace(made.circuit, crossings=tuple(crossings[made.circuit.number])) for made in found
     ]
-
-
-def _components_through(
-    point: np.ndarray, everything: Decomposition, run: Run
-) -> tuple[int, ...] | None:
-    """Indices of the components through a singular point; None where that is not decided."""
-    if len(everything.components) == 1:
-        return (0,)
-    if not (np.abs(point) < FAR).all():
-        return None
-    from nag.witness.membership import components_through
-
-    try:
-        return tuple(components_through(everything, point, accuracy=SAME, run=run))
-    except ValueError:
-        return None
 
 
 def _idle(problem: Problem, run: Run) -> str:

@@ -34,6 +34,11 @@ def _parts(a: np.ndarray) -> tuple[np.ndarray, ...]:
     return tuple(np.moveaxis(np.asarray(a, dtype=float), -1, 0))
 
 
+# Decides: Distance in radians and sizes at which two configurations are one: vertices are known to
+# half the digits, others that are special lay beyond 1e-3.
+SAME = 1e-6
+
+
 @dataclass(frozen=True, eq=False)
 class Poses(FixedArrays):
     """Where bodies are, at ``k`` configurations.

@@ -12,8 +12,8 @@ from nag.kinematics.motion import Circuit, Crossing, Motion
 from nag.kinematics.turning_points import STILL, TurningPoint, Values
 from nag.text.table import align, count_text, join_words, lines_of
 
-# Coordinates whose dead points are written out; more are counted.
-MOST_POINTS = 6
+# Coordinates whose dead points are written out, and assemblies besides circuits; more are counted.
+MOST_POINTS, MOST_BESIDES = 6, 20
 
 
 def value_text(coordinate: Coordinate, value: float) -> str:
@@ -118,6 +118,9 @@ def motion_rows(motion: Motion) -> list[tuple[str, str]]:
         rows.append(("component" if len(motion.components) == 1 else f"component {i + 1}", text))
     if motion.left_out:
         rows.append(("left out", f"{motion.left_out}, whose motions have more freedoms"))
+    rigid = rigid_text(motion)
+    if rigid:
+        rows.append(("rigid", rigid))
     if motion.idle:
         rows.append(("idle", motion.idle))
     still = _never_moving(motion)
@@ -126,6 +129,25 @@ def motion_rows(motion: Motion) -> list[tuple[str, str]]:
             ("still", f"{join_words(still)} never {'moves' if len(still) == 1 else 'move'}")
         )
     return rows
+
+
+def rigid_text(motion: Motion) -> str:
+    """How many real assemblies do not move, and where they were not looked for.
+
+    Empty where there is none. With joints or bodies held they are counted with what is held.
+    """
+    alone = motion.drive is None and not motion.held and not motion.poses
+    texts = []
+    if alone and motion.assemblies:
+        count = count_text(len(motion.assemblies), "real assembly", "real assemblies")
+        more = len(motion.assemblies) - MOST_BESIDES
+        texts.append(f"{count} besides that cannot move, on no circuit")
+        if more > 0:
+            texts[-1] += f" (the first {MOST_BESIDES} are shown, --json has all)"
+    if motion.not_looked_for:
+        what = "others" if texts else "real assemblies that cannot move"
+        texts.append(f"{what} were not looked for {motion.not_looked_for}")
+    return "; ".join(texts)
 
 
 def _never_moving(motion: Motion) -> list[str]:
@@ -142,11 +164,12 @@ def _never_moving(motion: Motion) -> list[str]:
 
 
 def assembly_rows(motion: Motion) -> list[str]:
-    """The table of assemblies with joints or bodies held: a line for each."""
+    """The table of assemblies: a line for each; of those besides circuits for the first ones."""
     coordinates = joint_coordinates(motion.scene)
     circuit = ["circuit"] if motion.drive is not None else []
+    besides = motion.circuits and not circuit
     rows = [["assembly", *circuit, *(c.name for c in coordinates)]]
-    for number, each in enumerate(motion.assemblies, start=1):
+    for number, each in enumerate(motion.assemblies[: MOST_BESIDES if besides else None], start=1):
         values = zip(coordinates, each.values, strict=True)
         texts = [value_text(c, value) for c, value in values]
         rows.append([str(number), *(str(each.circuit or "-") for _ in circuit), *texts])

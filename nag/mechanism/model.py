@@ -30,7 +30,7 @@ from nag.mechanism.graph import Joint, Mechanism, check_mechanism
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
 from nag.mechanism.parts import mechanism_in, parts_in_formulation
-from nag.mechanism.path_estimates import Alternative, ModelError, path_bound
+from nag.mechanism.path_estimates import Alternative, ModelError, NoLoopError, path_bound
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.rods import RodModel
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
@@ -283,12 +283,13 @@ def check_loops(mechanism: Mechanism, structure: LoopStructure) -> None:
     """Make sure that a mechanism has loops.
 
     Raises:
-        ModelError: if it has none.
+        NoLoopError: if it has none.
+        ModelError: if all bodies are one.
     """
     if structure.groups.is_one_body:
         raise ModelError("all bodies are tied together by rigid joints: nothing moves")
     if not structure.loops:
-        raise ModelError(
+        raise NoLoopError(
             f"the mechanism has no loop: each of its {len(mechanism.joints)} joints moves freely, "
             f"so its mobility is {structure.cut_freedoms} and there is nothing to decompose"
         )

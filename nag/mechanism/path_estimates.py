@@ -29,6 +29,10 @@ class ModelError(MechanismError):
     """A mechanism that the asked formulation does not cover."""
 
 
+class NoLoopError(ModelError):
+    """A mechanism without loops, whose joints all move freely."""
+
+
 @dataclass(frozen=True)
 class Alternative:
     """Equations that a mechanism, a table or parts may have, or why they have none like that.
