@@ -935,14 +935,15 @@ def list_alike(found: Decomposition, number: int) -> dict[int, WitnessSet]:
 
 
 def place_variables(names: Sequence[str], system: Any) -> tuple[int, ...]:
-    """Indices of variables by their names.
+    """Indices of variables by their names; the imaginary unit, a number, is left out.
 
     Raises:
         nag.NagError: if there is no such variable, or one is named twice.
     """
     from nag.algebra.tokens import nearest, quote
 
-    known = system.variables
+    known = system.own_variables
+    names = [name for name in names if name not in system.variables[len(known) :]]
     for name in names:
         if name not in known:
             raise NagError(f"onto: {quote(name)} is not one of the variables{nearest(name, known)}")

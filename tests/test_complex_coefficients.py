@@ -544,8 +544,8 @@ def test_a_unit_has_the_cases_own_name_in_points(tmp_path: Path) -> None:
         ("local", ["--at", "x = i, y = 1"], "local dimension 1"),
         ("member", ["--at", "q"], "on 1 of 2 components; local dimension 0"),
         ("member", ["--at", "x = i, y = 1"], "on 1 of 2 components; local dimension 1"),
-        ("eliminate", ["--at", "on the line", "--onto", "x,y"], "x^2 + y^2 = 0"),
-        ("eliminate", ["--at", "x = -2, y = 2*i", "--onto", "x,y,i"], "y*i - x = 0"),
+        ("eliminate", ["--at", "on the line", "--onto", "x,y"], "x - y*i = 0"),
+        ("eliminate", ["--at", "x = -2, y = 2*i", "--onto", "x,y,i"], "x - y*i = 0"),
     ],
 )
 def test_commands_take_complex_points(
@@ -648,3 +648,55 @@ def test_a_bound_counts_the_zeros_of_the_system_and_not_those_of_its_conjugate(
     found = nag.solve(nag.system(equations, imaginary="I"), start="total")
     (number,) = re.findall(r"no more than (\d+)", found.reason)
     assert int(number) == len(found) and found.complete
+
+
+@pytest.mark.parametrize(
+    ("equations", "onto", "found"),
+    [
+        (["x - I*y"], "x,y", ["x - I*y"]),
+        (["y - I*x^2", "z - (1 + 2*I)*x^3"], "y,z", ["(3 - 4*I)*y^3 - I*z^2"]),
+        (["y - I*x^2", "z - x^3"], "x,y,z", ["x*z + y^2", "x*y - I*z", "x^2 + I*y"]),
+        (["(x^2 + y^2 - 1)*(x - 2*I*y)*(x + 2*I*y + 3)"], "x,y", None),
+        (["x^2 - 2*I*y^2"], "x,y", ["x - (1 + I)*y"]),
+        (["y - I*sqrt(2)*x^2", "z - x^3"], "y,z", ["y^3 + 2*I*sqrt(2)*z^2"]),
+    ],
+)
+def test_equations_of_a_complex_component_are_its_own_and_not_those_of_its_conjugate(
+    equations: list[str], onto: str, found: list[str] | None
+) -> None:
+    components = nag.decompose(complex_system(*equations))
+    images = [nag.eliminate(components, onto, k) for k in range(1, len(components) + 1)]
+    for image, component in zip(images, components, strict=True):
+        assert image.defines and image.self_conjugate and image.imaginary == "I"
+        assert image.to_sympy() == [sympy.sympify(f) for f in image.equations]
+        for point in component.points:
+            at = dict(zip(components.system.own_variables, point, strict=False))
+            assert all(abs(f.subs(at).evalf()) < 1e-9 for f in image.to_sympy())
+    if found is None:
+        factors = {"x^2 + y^2 - 1", "x - 2*y*I", "x + 2*y*I + 3"}
+        assert {f for image in images for f in image.equations} == factors
+    else:
+        expected = [sympy.sympify(f) for f in found]
+        ratios = [
+            [sympy.simplify(f / g) for f, g in zip(i, expected, strict=True)]
+            for i in (image.to_sympy() for image in images)
+        ]
+        assert any(all(r.is_number for r in own) for own in ratios)
+
+
+def test_maps_of_a_complex_component_have_gaussian_coefficients() -> None:
+    found = nag.eliminate(complex_system("x^2 + y^2 + z^2 - 1", "x - I*y"))
+    assert found.variables == ("x", "y", "z") and found.names == ("x",) and not found.missing
+    assert "y = -x*I" in str(found) and found.defines
+
+
+def test_conjugates_over_the_gaussian_rationals_are_taken_together() -> None:
+    found = nag.eliminate(complex_system("x^2 - I*y^2"), "x,y")
+    assert found.equations == ("x^2 - y^2*I",) and found.together == (1, 2)
+    assert "of components 1 and 2 together" in repr(found)
+
+
+def test_an_image_that_is_not_its_own_conjugate_says_so_at_the_prompt() -> None:
+    found = nag.eliminate(nag.decompose("x^2 + y^2"), "x,y")
+    assert found.self_conjugate is False and not found.defines
+    assert "1 equation of it and its conjugate together" in repr(found)

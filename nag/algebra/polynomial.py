@@ -403,18 +403,28 @@ class Polynomial:
             terms[moved] = terms[moved] + c if moved in terms else c
         return Polynomial(n, terms)
 
-    def text(self, variables: Sequence[str], number: Callable[[Number], str] = number_text) -> str:
+    def text(
+        self,
+        variables: Sequence[str],
+        number: Callable[[Number], str] = number_text,
+        unit: bool = False,
+    ) -> str:
         """The polynomial as text that `nag.algebra.expression.parse_polynomial` reads back.
 
         Args:
             variables: their names.
             number: how a coefficient is written, exactly if not said.
+            unit: whether the last variable is the imaginary unit, a number of degree zero.
         """
         if not self.terms:
             return "0"
         parts = []
-        order = sorted(self.terms, key=lambda e: (-sum(e), tuple(-k for k in e)))
-        for e in order:
+
+        def place(e: Exponents) -> tuple[int, tuple[int, ...], int]:
+            own = e[: len(e) - unit]
+            return -sum(own), tuple(-k for k in own), sum(e)
+
+        for e in sorted(self.terms, key=place):
             c = self.terms[e]
             monomial = "*".join(
                 v if k == 1 else f"{v}^{k}" for v, k in zip(variables, e, strict=True) if k

@@ -114,8 +114,8 @@ def maps(
             if degree == 1:
                 raise
             break
-        standard = [e for e in known.standard if sum(e) <= degree]
-        lower = [] if polynomial else [e for e in standard if sum(e) < degree]
+        standard = known.up_to(degree)
+        lower = [] if polynomial else known.up_to(degree - 1)
         if len(standard) + len(lower) > MOST_MONOMIALS:
             break
         found += _of_degree(cloud, known.coordinates, standard, lower, left)
@@ -228,7 +228,7 @@ def _complexity(cloud: Cloud, chosen: Sequence[int], variable: int, polynomial: 
     if not rest or cloud.image_dimension(rest) < cloud.source.dimension:
         return inf
     try:
-        found = maps(cloud, start(rest), [variable], MOST_DEGREE, polynomial)
+        found = maps(cloud, start(rest, cloud.unit), [variable], MOST_DEGREE, polynomial)
     except InterpolationError:
         return inf
     if not found:
@@ -237,15 +237,21 @@ def _complexity(cloud: Cloud, chosen: Sequence[int], variable: int, polynomial: 
 
 
 def _linearly_independent(cloud: Cloud) -> list[int]:
-    n, digits = cloud.ambient.system.n, DIGITS[0]
-    count = (n + 2) // 2 + MORE_POINTS
+    n, digits = len(cloud.ambient.system.own_variables), DIGITS[0]
+    # Numbers by which columns are multiplied: 1, and the imaginary unit where it is one.
+    units = [flint.acb(1)] if cloud.unit is None else [flint.acb(1), flint.acb(0, 1)]
+    count = (len(units) * (n + 1) + 1) // 2 + MORE_POINTS
     points = cloud.balls(count, digits)
     chosen = []
     echelon = Echelon(2 * count, digits, cloud.roots)
-    echelon.add(real_rows([flint.acb(1)] * count))
+    for u in units:
+        echelon.add(real_rows([u] * count))
     for i in range(n):
         try:
-            dependent = echelon.add(real_rows([p[i] for p in points])) is not None
+            with in_bits(echelon.bits):
+                columns = [real_rows([u * p[i] for p in points]) for u in units]
+            relations = [echelon.add(column) for column in columns]
+            dependent = relations[0] is not None
         except TooFewDigitsError:
             dependent = False
         if not dependent:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nag.algebra.groebner import dimension_and_degree
-from nag.algebra.polynomial import Exponents, Polynomial, divides
+from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.to_sympy import to_sympy_polynomials
 from nag.interpolation.essential import VariableMap, essential_variables, maps
 from nag.interpolation.point_cloud import MORE_POINTS, Cloud, monomial_values
@@ -30,8 +30,6 @@ from nag.interpolation.vanishing import (
     InterpolationError,
     NotRationalError,
     TooManyMonomialsError,
-    leading_monomial,
-    monomials_of_degree,
     next_degree,
     primitive,
     start,
@@ -57,17 +55,20 @@ MORE_DEGREES, ENOUGH_MONOMIALS = 2, 120
 class ImageIdeal(Several[Polynomial]):
     """What is known of the closure of the image of a component.
 
-    Coefficients of polynomials are rational, or sums of the roots in the system's: of a
-    component that is not kept by the conjugation of complex numbers, they are those of the image
-    together with its conjugate, and of components that were taken together, of all their images.
+    Coefficients of polynomials are in the field of the system's: rational numbers, with the roots
+    and the imaginary unit that occur there. If there is no imaginary unit, those of a component
+    that is not kept by the conjugation of complex numbers are the equations of the image together
+    with its conjugate (``self_conjugate``); of components that were taken together (``together``),
+    of all their images. `repr` says so.
 
     Attributes:
-        variables: names of all variables.
+        variables: names of all variables, without the imaginary unit.
         coordinates: indices of those that the image is in.
         dimension: of the image.
         component_dimension: of the component.
         degree: degree up to which all polynomials that vanish were found.
-        generators: polynomials in the ``coordinates`` with coprime whole coefficients.
+        generators: polynomials in the ``coordinates`` with coprime whole coefficients; where these
+            may be complex, one more variable, the last one, is the imaginary unit.
         generator_proofs: for each, ``"substitution"``, ``"reduction"`` (proofs) or ``"points"``.
         maps: for those of the other variables that have one.
         map_proofs: likewise.
@@ -81,9 +82,11 @@ class ImageIdeal(Several[Polynomial]):
         defines_union: whether it is certain that the generators' zeros are the image with its
             conjugate, or all images that were taken together, but for sets of lower dimension;
             defines: whether they are the image alone.
-        self_conjugate: whether the image is its own conjugate; None where that is not known.
+        self_conjugate: whether the equations are not those of a conjugate image as well: the
+            image is its own conjugate, or coefficients are complex; None where that is not known.
         together: numbers of the components that were taken together; empty for one.
         note: why degrees are missing; empty otherwise.
+        imaginary: what the imaginary unit is called, where coefficients may have it; else empty.
     """
 
     variables: tuple[str, ...]
@@ -103,6 +106,7 @@ class ImageIdeal(Several[Polynomial]):
     fresh: tuple[int, float]
     together: tuple[int, ...] = ()
     note: str = ""
+    imaginary: str = ""
 
     __eq__ = equal_values
 
@@ -128,9 +132,18 @@ class ImageIdeal(Several[Polynomial]):
         return tuple(self.variables[i] for i in self.coordinates)
 
     @property
+    def letters(self) -> tuple[str, ...]:
+        """Names of the variables of generators and maps: `names`, and that of the unit."""
+        return (*self.names, self.imaginary) if self.imaginary else self.names
+
+    @property
     def equations(self) -> tuple[str, ...]:
         """The generators as texts in the variables' names."""
-        return tuple(f.text(self.names) for f in self.generators)
+        return tuple(map(self.text, self.generators))
+
+    def text(self, f: Polynomial) -> str:
+        """A polynomial in the variables of the generators as text."""
+        return f.text(self.letters, unit=bool(self.imaginary))
 
     @property
     def entries(self) -> tuple[Polynomial, ...]:
@@ -143,7 +156,7 @@ class ImageIdeal(Several[Polynomial]):
         Raises:
             nag.NagError: if sympy is not installed.
         """
-        return to_sympy_polynomials(self.generators, self.names)
+        return to_sympy_polynomials(self.generators, self.letters, bool(self.imaginary))
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A row for each generator: its text, its degree, and what proves it.
@@ -154,7 +167,7 @@ class ImageIdeal(Several[Polynomial]):
         return data_frame(
             {
                 "equation": list(self.equations),
-                "degree": [f.degree for f in self.generators],
+                "degree": [f.degree_in(range(len(self.names))) for f in self.generators],
                 "proof": list(self.generator_proofs),
             }
         )
@@ -180,7 +193,7 @@ class ImageIdeal(Several[Polynomial]):
         """The equations and maps as a JSON object, without its head."""
         maps = []
         for m, proof in zip(self.maps, self.map_proofs, strict=True):
-            above, below = (f.text(self.names) for f in m.whole_fraction())
+            above, below = map(self.text, m.whole_fraction())
             variable = self.variables[m.variable]
             maps.append(
                 {"variable": variable, "numerator": above, "denominator": below, "proof": proof}
@@ -193,7 +206,7 @@ class ImageIdeal(Several[Polynomial]):
             "component_dimension": self.component_dimension,
             "degree": self.degree,
             "equations": [
-                {"polynomial": f.text(self.names), "proof": proof}
+                {"polynomial": self.text(f), "proof": proof}
                 for f, proof in zip(self.generators, self.generator_proofs, strict=True)
             ],
             "maps": maps,
@@ -209,6 +222,7 @@ class ImageIdeal(Several[Polynomial]):
             if self.generators or self.maps
             else None,
             "note": self.note,
+            "imaginary": self.imaginary or None,
         }
 
 
@@ -289,19 +303,20 @@ def image_ideal(
     tell("interpolating equations", 1, 4)
     known, note = equations_of_image(cloud, coordinates, dimension, degree)
     tell("interpolating maps", 2, 4)
-    others = [i for i in range(cloud.ambient.system.n) if i not in coordinates]
+    variables = cloud.ambient.system.own_variables
+    others = [i for i in range(len(variables)) if i not in coordinates]
     found: tuple[VariableMap, ...] = ()
     if dimension == cloud.source.dimension:
         found = maps(cloud, known, others, polynomial=polynomial_maps)
-    generators = tuple(primitive(f) for f in known.generators)
+    generators = tuple(primitive(f, known.unit) for f in known.generators)
     tell("proving", 3, 4)
     n = cloud.ambient.system.n
-    statements = [f.with_variables(n, coordinates) for f in generators]
-    statements += [cleared_map(m, n, coordinates) for m in found]
+    statements = [f.with_variables(n, known.coordinates) for f in generators]
+    statements += [cleared_map(m, n, known.coordinates) for m in found]
     proofs = _proofs(cloud, known, found, statements)
     worst = largest_value(cloud, statements, 2 * max(known.digits, DIGITS[0]))
     return ImageIdeal(
-        variables=cloud.ambient.system.variables,
+        variables=variables,
         coordinates=coordinates,
         dimension=dimension,
         component_dimension=cloud.source.dimension,
@@ -317,6 +332,7 @@ def image_ideal(
         digits=known.digits,
         fresh=(FRESH_POINTS, worst),
         note=note,
+        imaginary="" if cloud.unit is None else cloud.ambient.system.variables[cloud.unit],
     )
 
 
@@ -324,7 +340,7 @@ def equations_of_image(
     cloud: Cloud, coordinates: tuple[int, ...], dimension: int, degree: int | None = None
 ) -> tuple[Interpolated, str]:
     """All equations up to a degree, and why some are missing."""
-    known, k = start(coordinates), len(coordinates)
+    known, k = start(coordinates, cloud.unit), len(coordinates)
     if dimension == k:
         return known, ""
     last = cut_at = degree or MOST_DEGREE
@@ -349,7 +365,7 @@ def equations_of_image(
 
 def _cuts(cloud: Cloud, known: Interpolated, dimension: int) -> bool:
     """Whether the generators' gradients at a random point leave the image's tangents alone."""
-    k = len(known.coordinates)
+    k = len(known.own)
     if dimension == k or len(known.generators) < k - dimension:
         return dimension == k
     point = cloud.samples(1)[0].x
@@ -365,8 +381,7 @@ def common_zeros(known: Interpolated) -> tuple[int, int]:
     Those of the leading monomials that are known. The zeros lie in no smaller dimension than the
     image; where the dimensions agree, their degree is at most that of these monomials.
     """
-    monomials = [leading_monomial(f) for f in known.basis]
-    return dimension_and_degree(monomials, len(known.coordinates))
+    return dimension_and_degree(known.leading, len(known.own))
 
 
 def is_self_conjugate(cloud: Cloud, known: Interpolated, dimension: int) -> bool | None:
@@ -381,16 +396,14 @@ def is_self_conjugate(cloud: Cloud, known: Interpolated, dimension: int) -> bool
     Returns:
         None where there are too many monomials, or the degree of the zeros is not known.
     """
-    if cloud.source.exact is not None or dimension == len(known.coordinates):
+    if cloud.source.exact is not None or dimension == len(known.own) or known.unit:
         return True
     zeros = common_zeros(known)
     half = zeros[1] // 2 if zeros[0] == dimension else known.degree
     monomials, degree = list(known.standard), known.degree
-    leading = [leading_monomial(f) for f in known.basis]
     while degree < half and len(monomials) <= MOST_MONOMIALS:
         degree += 1
-        more = monomials_of_degree(len(known.coordinates), degree)
-        monomials += [e for e in more if not any(divides(m, e) for m in leading)]
+        monomials += known.candidates(degree)
     monomials = [e for e in monomials if sum(e) <= half]
     enough = zeros[0] == dimension and len(monomials) <= MOST_MONOMIALS
     if len(monomials) > MOST_MONOMIALS:
@@ -421,7 +434,7 @@ def _defines(known: Interpolated, dimension: int) -> bool:
     least degree has no other factors. The degree of a curve is at least the number of functions
     that one degree more adds (its hyperplane section has no fewer conditions).
     """
-    k, zeros = len(known.coordinates), common_zeros(known)
+    k, zeros = len(known.own), common_zeros(known)
     if zeros[0] != dimension:
         return False
     if dimension >= k - 1 or zeros[1] == 1:

@@ -98,6 +98,11 @@ class Cloud:
         """Members of the basis of sums of roots, 1 first, that span the coefficients' field."""
         return roots_of(f.terms.values() for f in self.ambient.system.polynomials)
 
+    @property
+    def unit(self) -> int | None:
+        """The index of the imaginary unit, where coefficients may have it."""
+        return self.ambient.system.n - 1 if self.ambient.system.imaginary else None
+
     def with_further(self, further: Sequence[Source]) -> Cloud:
         """A cloud of the same source and further ones, without points yet."""
         return Cloud(self.source, self.ambient, self._rng, self._tracker, further)

@@ -32,7 +32,18 @@ def ideal_line(found: ImageIdeal) -> str:
     onto = ", ".join(found.names)
     count = count_text(len(found.generators), "equation")
     maps = count_text(len(found.maps), "map")
-    return named_line(found, f" onto {onto}: dimension {found.dimension}, {count}, {maps}")
+    whose = whose_equations(found) if found.generators or found.maps else ""
+    said = f" onto {onto}: dimension {found.dimension}, {count}{whose}, {maps}"
+    return named_line(found, said)
+
+
+def whose_equations(found: ImageIdeal) -> str:
+    """Of which images the equations are, if not of the component's alone."""
+    if found.together:
+        return f" of components {join_words([str(number) for number in found.together])} together"
+    if found.self_conjugate is False:
+        return " of it and its conjugate together"
+    return "" if found.self_conjugate else " of it and perhaps its conjugate together"
 
 
 def head_rows(found: ImageIdeal) -> list[tuple[str, str]]:
@@ -54,7 +65,7 @@ def checked_row(found: ImageIdeal) -> tuple[str, str]:
 def elimination_lines(found: ImageIdeal) -> list[str]:
     """Equations, what they rest on, the maps and the variables without one."""
     lines = ["equations"]
-    texts = [f"{f.text(found.names)} = 0" for f in found.generators]
+    texts = [f"{found.text(f)} = 0" for f in found.generators]
     lines += _with_proofs(texts, found.generator_proofs) or ["  none"]
     if found.maps:
         lines += ["", "maps"]
@@ -76,9 +87,9 @@ def map_text(found: ImageIdeal, m: VariableMap) -> str:
     name = found.variables[m.variable]
     if m.polynomial:
         (below,) = m.denominator.terms.values()
-        return f"{name} = {(m.numerator / below).text(found.names)}"
+        return f"{name} = {found.text(m.numerator / below)}"
     above, below = m.whole_fraction()
-    texts = [f.text(found.names) for f in (above, below)]
+    texts = [found.text(f) for f in (above, below)]
     shown = [
         f"({t})" if len(f.terms) > 1 or "*" in t else t
         for f, t in zip((above, below), texts, strict=True)

@@ -1,6 +1,9 @@
 """Polynomials that vanish on the image of a component, by interpolation.
 
-Their coefficients are rational, or in the field of the system's.
+Their coefficients are rational, or in the field of the system's. Where that has the imaginary unit,
+this is one more variable, the last one, of degree zero: beside each monomial stands the same one
+times the unit, as one more column, so that relations over the rational numbers are those over the
+Gaussian ones.
 
 Monomials are taken in ascending order, that of degrees and then the reverse lexicographic one. One
 whose values at random points are a combination of those before it is the leading monomial of an
@@ -10,7 +13,7 @@ element of the reduced Groebner basis, and its multiples need not be looked at (
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import comb, gcd, lcm
@@ -20,6 +23,7 @@ import numpy as np
 
 from nag.algebra.exact_ranks import coefficient_rows, first_independent_rows
 from nag.algebra.flint_numbers import to_fraction
+from nag.algebra.imaginary_unit import reduce_unit
 from nag.algebra.multipliers import order
 from nag.algebra.number import Exact
 from nag.algebra.polynomial import Polynomial, divides
@@ -81,6 +85,7 @@ class Interpolated:
             are polynomials of at most this degree.
         standard: monomials up to ``degree`` that no leading monomial divides, ascending.
         digits: in which the coefficients were recognised.
+        unit: whether the last of the coordinates is the imaginary unit, which is a number.
     """
 
     coordinates: tuple[int, ...]
@@ -90,6 +95,30 @@ class Interpolated:
     counts: tuple[int, ...]
     standard: tuple[Exponents, ...]
     digits: int
+    unit: bool = False
+
+    @property
+    def own(self) -> tuple[int, ...]:
+        """The coordinates without the imaginary unit."""
+        return self.coordinates[: len(self.coordinates) - self.unit]
+
+    @property
+    def leading(self) -> list[Exponents]:
+        """The leading monomials of the basis, in the coordinates without the imaginary unit."""
+        leading = (leading_monomial(f, self.unit) for f in self.basis)
+        return [e[: len(self.own)] for e in leading]
+
+    def up_to(self, degree: int) -> list[Exponents]:
+        """The standard monomials up to a degree."""
+        return [e for e in self.standard if sum(e[: len(self.own)]) <= degree]
+
+    def candidates(self, degree: int) -> list[Exponents]:
+        """The monomials of a degree that no leading one divides."""
+        leading, k = self.leading, len(self.own)
+        found = [
+            e for e in monomials_of_degree(k, degree) if not any(divides(m, e) for m in leading)
+        ]
+        return with_unit(found) if self.unit else found
 
 
 def monomials_of_degree(n: int, degree: int) -> list[Exponents]:
@@ -104,10 +133,22 @@ def monomials_of_degree(n: int, degree: int) -> list[Exponents]:
     return found
 
 
-def start(coordinates: Sequence[int]) -> Interpolated:
-    """What is known of degree 0: no constant vanishes."""
+def with_unit(monomials: Iterable[Exponents]) -> list[Exponents]:
+    """Monomials, each followed by the same one times the imaginary unit, one more variable."""
+    return [(*e, power) for e in monomials for power in range(2)]
+
+
+def start(coordinates: Sequence[int], unit: int | None = None) -> Interpolated:
+    """What is known of degree 0: no constant vanishes.
+
+    Args:
+        unit: the index of the imaginary unit, if coefficients may have it.
+    """
     one = (0,) * len(coordinates)
-    return Interpolated(tuple(coordinates), 0, (), (), (1,), (one,), 0)
+    if unit is None:
+        return Interpolated(tuple(coordinates), 0, (), (), (1,), (one,), 0)
+    both = tuple(with_unit([one]))
+    return Interpolated((*coordinates, unit), 0, (), (), (1,), both, 0, True)
 
 
 def columns_at(
@@ -134,14 +175,11 @@ def next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
 
 
 def _next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
-    k, degree = len(known.coordinates), known.degree + 1
-    leading = [leading_monomial(f) for f in known.basis]
+    k, degree = len(known.own), known.degree + 1
     total = len(known.standard) + comb(k + degree - 1, degree)
     if comb(k + degree - 1, degree) > 100 * MOST_MONOMIALS:
         raise _too_many(total, degree, k, MOST_MONOMIALS)
-    candidates = [
-        e for e in monomials_of_degree(k, degree) if not any(divides(m, e) for m in leading)
-    ]
+    candidates = known.candidates(degree)
     if len(known.standard) + len(candidates) > MOST_MONOMIALS:
         raise _too_many(len(known.standard) + len(candidates), degree, k, MOST_MONOMIALS)
     for digits in DIGITS:
@@ -153,21 +191,25 @@ def _next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
         except TooFewDigitsError:
             continue
     else:
-        raise _not_rational(degree, cloud.roots)
+        raise _not_rational(degree, cloud.roots, known.unit)
     generators = list(known.generators)
     new = []
     for lead, coefficients in relations:
         terms = {e: -c for e, c in zip(standard, coefficients, strict=False) if c}
-        new.append(Polynomial(k, {lead: Fraction(1), **terms}))
-    generators += _new_generators(generators, new, degree)
+        new.append(Polynomial(len(known.coordinates), {lead: Fraction(1), **terms}))
+    if known.unit:
+        # Twice each: the other one is its product with the unit.
+        new = [f for f in new if not leading_monomial(f, True)[-1]]
+    generators += _new_generators(generators, new, degree, known.unit)
     return Interpolated(
         known.coordinates,
         degree,
         (*known.basis, *new),
         tuple(generators),
-        (*known.counts, len(standard)),
+        (*known.counts, len(standard) // (1 + known.unit)),
         tuple(standard),
         digits,
+        known.unit,
     )
 
 
@@ -178,8 +220,10 @@ def _too_many(count: int, degree: int, variables: int, most: int) -> TooManyMono
     )
 
 
-def _not_rational(degree: int, roots: Sequence[Root] = (1,)) -> NotRationalError:
-    numbers = "rational numbers"
+def _not_rational(
+    degree: int, roots: Sequence[Root] = (1,), unit: bool = False
+) -> NotRationalError:
+    numbers = "Gaussian rational numbers" if unit else "rational numbers"
     if len(roots) > 1:
         numbers += f" with {join_words([root_text(r) for r in roots[1:]])}"
     return NotRationalError(
@@ -211,19 +255,26 @@ def _split(
     return standard, relations
 
 
-def leading_monomial(f: Polynomial) -> Exponents:
-    """The largest monomial in the graded reverse lexicographic order."""
+def leading_monomial(f: Polynomial, unit: bool = False) -> Exponents:
+    """The largest monomial in the graded reverse lexicographic order.
+
+    Args:
+        unit: whether the last variable is the imaginary unit, which is a number.
+    """
+    if unit:
+        return max(f.terms, key=lambda e: (order(e[:-1]), -e[-1]))
     return max(f.terms, key=order)
 
 
-def primitive(f: Polynomial) -> Polynomial:
+def primitive(f: Polynomial, unit: bool = False) -> Polynomial:
     """The multiple with coprime whole coefficients, the leading one positive.
 
     Of sums of roots the rational parts are whole numbers, and coprime together. With other
     numbers in it the leading coefficient is made positive.
     """
+    lead = f.terms[leading_monomial(f, unit)]
     if not f.algebraic:
-        return f if f.terms[leading_monomial(f)] > 0 else -f
+        return f if lead > 0 else -f
     parts = [
         part
         for c in f.terms.values()
@@ -231,37 +282,48 @@ def primitive(f: Polynomial) -> Polynomial:
     ]
     factor = Fraction(lcm(*(c.denominator for c in parts)))
     common = gcd(*(int(c * factor) for c in parts))
-    sign = 1 if f.terms[leading_monomial(f)] > 0 else -1
+    sign = 1 if lead > 0 else -1
     return f * (sign * factor / common)
 
 
 def _new_generators(
-    known: Sequence[Polynomial], new: Sequence[Polynomial], degree: int
+    known: Sequence[Polynomial], new: Sequence[Polynomial], degree: int, unit: bool
 ) -> list[Polynomial]:
     """Those of ``new``, all of one degree, that do not lie in the span of multiples of the others.
 
-    Multiples of ``known`` by monomials count up to ``degree``; ranks are exact.
+    Multiples of ``known`` by monomials count up to ``degree``; ranks are exact. With the imaginary
+    unit among the coefficients, as the last variable, all count times the unit as well.
 
     Raises:
         TooManyMonomialsError: if there are too many multiples.
     """
     if not known or not new:
         return list(new)
-    k = known[0].n
+    k = known[0].n - unit
     columns = comb(k + degree, degree)
-    count = sum(comb(k + degree - f.degree, k) for f in known) + len(new)
-    if count * columns > MOST_ENTRIES:
+    degrees = [f.degree_in(range(k)) for f in known]
+    count = sum(comb(k + degree - d, k) for d in degrees) + len(new)
+    if count * columns * (1 + unit) ** 2 > MOST_ENTRIES:
         raise TooManyMonomialsError(
             f"{columns} monomials of degree up to {degree} in {k} variables are too many to tell "
             "which equations are multiples of others; project to fewer variables or take a lower "
             "degree"
         )
+
+    def multiples(f: Polynomial, monomials: Iterable[Exponents]) -> list[Polynomial]:
+        every = with_unit(monomials) if unit else monomials
+        found = [f * Polynomial(f.n, {e: Fraction(1)}) for e in every]
+        return [reduce_unit(g) for g in found] if unit else found
+
     rows = []
-    for f in known:
-        for e in (e for d in range(degree - f.degree + 1) for e in monomials_of_degree(k, d)):
-            rows.append(f * Polynomial(k, {e: Fraction(1)}))
-    independent = first_independent_rows(coefficient_rows([f.terms for f in (*rows, *new)]))
-    return [new[i - len(rows)] for i in independent if i >= len(rows)]
+    for f, own in zip(known, degrees, strict=True):
+        below = (e for d in range(degree - own + 1) for e in monomials_of_degree(k, d))
+        rows += multiples(f, below)
+    first = len(rows)
+    for f in new:
+        rows += multiples(f, [(0,) * k])
+    independent = first_independent_rows(coefficient_rows([f.terms for f in rows]))
+    return [rows[i] for i in independent if i >= first and not (i - first) % (1 + unit)]
 
 
 def forms_of_degree(

@@ -187,8 +187,13 @@ def _plot_surfaces(
         found = eliminate_component(cloud, {}, tuple(onto), None, False, run.tell)
         if found.dimension != component.dimension or len(found.generators) != 1:
             raise ComponentError(f"component {number}: its image is no surface there")
-        equations.append((f"component {number}", found.generators[0]))
-        degree = found.generators[0].degree
+        (equation,) = found.generators
+        if found.imaginary:
+            if len(found.names) in equation.support:
+                raise ComponentError(f"component {number}: its equation there is not real")
+            equation = equation.with_variables(len(onto), [*range(len(onto)), 0])
+        equations.append((f"component {number}", equation))
+        degree = equation.degree
         rows.append((f"component {number}", f"dimension 2; a surface of degree {degree}"))
     sizes = np.vstack([np.array(c.points)[:, list(onto)] for c in chosen.values()])
     names = [answer.system.variables[i] for i in onto]
