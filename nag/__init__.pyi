@@ -170,10 +170,22 @@ def eliminate(
     formulation: Formulation = "auto",
     **options: Unpack[Options],
 ) -> ImageIdeal: ...
-def find_real_curve(component: WitnessSet, **running: Unpack[RunOptions]) -> RealCurve: ...
-def find_real_points(component: WitnessSet, **running: Unpack[RunOptions]) -> RealPieces: ...
+def find_real_curve(
+    given: Decomposed,
+    component: int | None = None,
+    *,
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
+) -> RealCurve: ...
+def find_real_points(
+    given: Decomposed,
+    component: int | None = None,
+    *,
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
+) -> RealPieces: ...
 def framework_of_graph(graph: networkx.Graph, dimension: int = 2) -> Framework: ...
-def gruebler_kutzbach(mechanism: Mechanism) -> int: ...
+def gruebler_kutzbach(mechanism: Moving, **options: Unpack[FileOptions]) -> int: ...
 def intersect(
     given: Decomposed,
     first: int,
@@ -228,12 +240,18 @@ def model(
 ) -> AssemblyModel: ...
 @overload
 def model(
-    mechanism: File | Case | Problem,
+    mechanism: PolynomialSystem,
+    formulation: Formulation = "auto",
+    **options: Unpack[FileOptions],
+) -> Problem: ...
+@overload
+def model(
+    mechanism: File | Case | Problem | Equations,
     formulation: Formulation = "auto",
     modes: Iterable[tuple[str, int]] = (),
     space: Literal["planar", "spherical", "spatial"] | None = None,
     **options: Unpack[FileOptions],
-) -> Model | AssemblyModel: ...
+) -> Model | AssemblyModel | Problem: ...
 def modes(
     mechanism: File | Case | Mechanism | Model | Problem,
     platform: str | None = None,
@@ -352,7 +370,9 @@ def write(
     | Model
     | Parts
     | Problem
-    | PolynomialSystem,
+    | PolynomialSystem
+    | Equations
+    | File,
     path: File,
     *,
     format: str = "auto",

@@ -6,14 +6,25 @@ All are `NagError`, which is a ``ValueError``; the six below it say what the lin
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Self
 
 
 class NagError(ValueError):
     """An argument makes no sense, or a question has no answer that could be given.
 
     Those of all kinds can be pickled and copied, whatever they are made of.
+
+    Attributes:
+        keyword: the argument that would mend it, where that is another one than what is wrong;
+            empty otherwise. Texts say what to do, and a command adds what its option is called.
     """
+
+    keyword: str = ""
+
+    def mended_by(self, keyword: str) -> Self:
+        """The same error, which an argument of this name mends."""
+        self.keyword = keyword
+        return self
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restore, (type(self), self.args, vars(self))

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 from nag.algebra.given import check_choice, check_whole, is_a, value_text
 from nag.errors import ComponentError, InputError, NagError
 from nag.numerics.read_only import equal_values
+from nag.text.table import join_words
 from nag.tracking.run import DEFAULT_RUN, Run, answers_early, takes_run
 
 if TYPE_CHECKING:
@@ -30,10 +31,15 @@ if TYPE_CHECKING:
     from nag.decomposition.singular_points import SingularLocus
     from nag.files.cases import Case
     from nag.interpolation.image_ideal import ImageIdeal
+    from nag.mechanism.assembly import AssemblyModel
+    from nag.mechanism.axes import Space
+    from nag.mechanism.model import Model
     from nag.mechanism.problem import Problem
     from nag.numerics.claims import Claim
     from nag.numerics.local_dimension import LocalDimension
     from nag.pictures.plot import Picture
+    from nag.real.curve import RealCurve
+    from nag.real.real_pieces import RealPieces
     from nag.solving.certificate import SolutionsCertificate
     from nag.solving.certified_paths import ProvedPaths
     from nag.solving.family_members import FamilySolutions
@@ -75,6 +81,8 @@ ENDINGS = {
     ".txt": "text",
     ".tex": "latex",
 }
+# Endings of what is read, and is neither a case nor equations when it is written.
+NOT_WRITTEN = (".json", ".urdf", ".xml")
 # What is said of a component of an export on which paths fail.
 UNTESTED = "the trace of its points could not be tested"
 
@@ -150,7 +158,7 @@ def _read_export(
         versions = published_versions(name) if isinstance(name, str) else ()
         if versions:
             return checked_document(value, name, *versions)
-        raise ExportError("format: is none that nag writes with --json")
+        raise ExportError("format: is none that nag writes")
 
     return read_file(path, convert)
 
@@ -167,17 +175,20 @@ def write(
 
     Args:
         result: what `nag.decompose`, `nag.intersect` or `nag.solve` returns; or a `nag.Case`, a
-            `nag.Mechanism`, a model, parts, a `nag.Problem` or a `nag.PolynomialSystem`.
+            `nag.Mechanism`, a model, parts, a `nag.Problem`, a `nag.PolynomialSystem`, or equations
+            as `nag.system` takes them; or the name of a file that `nag.read` reads one of them
+            from.
         path: the file; whatever was there is replaced.
         format: of equations, ``"toml"``, or of another program: ``"bertini"``, ``"phc"``,
             ``"m2"``, ``"singular"``, ``"hc"``, ``"text"``, ``"sympy"`` or ``"latex"``; by default
-            told by the ending (``.m2``, ``.sing``, ``.phc``, ``.bertini``, ``.jl``, ``.txt``), else
-            TOML.
+            told by the ending (``.m2``, ``.sing``, ``.phc``, ``.bertini``, ``.jl``, ``.txt``,
+            ``.tex``), else TOML.
         title: of a case.
 
     Raises:
         nag.InputError: if the file cannot be written.
-        nag.NagError: if ``result`` is nothing of that kind, or the format cannot say it.
+        nag.NagError: if ``result`` is nothing of that kind, the format cannot say it, or the ending
+            is one of files that say something else, as ``.m2`` of an export.
 
     >>> import nag, tempfile
     >>> circle = nag.decompose("x^2 + y^2 = 1")
@@ -194,11 +205,23 @@ def write(
     from nag.algebra.given import check_path
 
     check_path(path)
+    if names_file(result):
+        result = read(result)
+    elif _is_equations(result):
+        from nag.algebra.from_python import system
+
+        result = system(result)
+    ending = os.path.splitext(path)[1]
     found = is_a(result, "nag.witness.witness", "Decomposition")
     if found or is_a(result, "nag.solving.solutions", "SolveResult"):
         for name, given in (("format", format != "auto"), ("title", bool(title))):
             if given:
                 raise NagError(f"{name}: is for cases and equations; an export has its own")
+        if ending in SUFFIXES and ending != ".json":
+            raise NagError(
+                f"path: a file that ends in {ending} holds no export, which is JSON; name it "
+                ".json, or write the equations alone: nag.write(result.system, path)"
+            )
         if found:
             from nag.files.export import write_decomposition
 
@@ -211,13 +234,18 @@ def write(
     if not any(is_a(result, *kind) for kind in DESCRIPTIONS):
         raise NagError(
             f"result: {value_text(result)} is given; give what nag.decompose, nag.intersect or "
-            "nag.solve returns, a case, a mechanism, a model, parts or a nag.system: other results "
-            "are kept by pickle, or by their command's --json"
+            "nag.solve returns, a case, a mechanism, a model, parts or equations: other results "
+            "are kept by pickle"
+        )
+    if format == "auto" and ending in NOT_WRITTEN:
+        raise NagError(
+            f"path: no case and no equations are written to a file that ends in {ending}; name it "
+            f".toml or {', '.join(ENDINGS)}"
         )
     from nag.files.case_writing import case_text
     from nag.files.written_file import write_target
 
-    chosen = ENDINGS.get(os.path.splitext(path)[1], "toml") if format == "auto" else format
+    chosen = ENDINGS.get(ending, "toml") if format == "auto" else format
     if chosen == "toml":
         text = case_text(result, title)
     else:
@@ -227,6 +255,12 @@ def write(
         title = title or getattr(result, "title", "")
         text = write_system(problem_of(result).system, chosen, title)
     write_target(path, text)
+
+
+def _is_equations(given: Any) -> bool:
+    """Whether texts, polynomials or sympy's expressions are given, one or several."""
+    one = isinstance(given, str | list | tuple) or hasattr(given, "free_symbols")
+    return one or is_a(given, "nag.algebra.polynomial", "Polynomial")
 
 
 def open_file(given: Any, **how: Any) -> Any:
@@ -553,6 +587,89 @@ def _point(
 
 
 @takes_files
+def gruebler_kutzbach(mechanism: Any) -> int:
+    """Freedoms of all moving bodies minus the conditions of all joints.
+
+    A body has 6 freedoms in space and 3 in planar and spherical mechanisms; of a framework the
+    points have freedoms, and bars are conditions. The count is wrong for overconstrained
+    mechanisms: it knows nothing of the geometry (T25, section 7).
+
+    Args:
+        mechanism: a mechanism, parts (a linkage, a framework, a table), or a case, a model or a
+            problem of one of them, or the name of a file.
+
+    Raises:
+        nag.MechanismError: if something else is given.
+
+    >>> import nag
+    >>> nag.gruebler_kutzbach("cases/bennett.toml")  # and yet it moves
+    -2
+    """
+    from nag.mechanism.graph import check_mechanism
+    from nag.mechanism.loops import gruebler_kutzbach as count_freedoms
+    from nag.mechanism.parts import PARTS, mechanism_in
+
+    made = mechanism_in(mechanism)
+    if is_a(made, "nag.mechanism.assembly", "AssemblyModel"):
+        return int(made.gruebler_kutzbach)
+    check_mechanism(made, PARTS)
+    return count_freedoms(made)
+
+
+@takes_files
+def model(
+    mechanism: Any,
+    formulation: str = "auto",
+    modes: Sequence[tuple[str, int]] = (),
+    space: Space | None = None,
+) -> Model | AssemblyModel | Problem:
+    """The smallest faithful model of a mechanism, or the one that is asked for.
+
+    Parts that may be assembled in any way have one as well, a `nag.mechanism.assembly.
+    AssemblyModel`; of equations it is these themselves, a `nag.Problem`. All have a ``system``.
+
+    The smallest is the one with the fewest estimated paths.
+
+    Args:
+        mechanism: a `nag.Mechanism`, a `nag.Case` or a model of one, the name of a file; at least
+            one of its joints must belong to a loop. Or parts: a `nag.Linkage`, a `nag.Framework`, a
+            `nag.DHLoop`. Or equations, as for `nag.problem`.
+        formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
+            components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
+            for half-angles and other joint coordinates, ``"S"`` for rods as distances, ``"auto"``;
+            ``"P"`` for the poses of a robot's platform, which are never taken by themselves: their
+            components need not be those of the joints.
+        modes: assembly modes (`nag.mechanism.assembly_modes`), of the mechanism in space.
+        space: ``"spatial"`` to take a planar or spherical mechanism as one in space.
+
+    Raises:
+        nag.MechanismError: if the mechanism has no loop, or ``formulation`` does not cover it.
+        nag.NagError: if parts have no model, or not in that formulation, or another argument makes
+            no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> model = nag.model("cases/bennett.toml")
+    >>> model.formulation, model.system.n, model.system.degrees
+    ('H', 2, (2,))
+    >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
+    True
+    >>> nag.model("cases/rhombus.toml").system.n
+    6
+    """
+    from nag.mechanism.graph import is_equations
+    from nag.mechanism.model import model as model_of_mechanism
+    from nag.mechanism.problem import problem_of
+
+    plain = is_a(mechanism, "nag.mechanism.problem", "Problem") and mechanism.model is None
+    if not (plain or is_equations(mechanism)):
+        return model_of_mechanism(mechanism, formulation, modes, space)
+    for name, wanted in (("modes", bool(modes)), ("space", space is not None)):
+        if wanted:
+            raise NagError(f"{name}: is for a nag.Mechanism, not for equations; leave it out")
+    return problem_of(mechanism, formulation=formulation)
+
+
+@takes_files
 @takes_run
 def local(
     given: Any,
@@ -777,6 +894,98 @@ def sample(
     from nag.witness.sampling import sample as sample_component
 
     return sample_component(found.system, chosen, count, run=run)
+
+
+@takes_components
+@takes_run
+def find_real_points(
+    given: Any, component: int | None = None, *, formulation: str = "auto", run: Run = DEFAULT_RUN
+) -> RealPieces:
+    """Real points of a component of any dimension, on each connected piece where they are had.
+
+    Of finite sets and curves they are one on each piece, of larger sets at least one.
+
+    Args:
+        given: one of the components of a `nag.Decomposition`; all of them, a file of them, or what
+            is decomposed now.
+        component: the number of the one that is asked about, from 1; by default the only one.
+        formulation: of a mechanism's model, as for `nag.model`.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
+
+    Returns:
+        The points, whether there are any, and what that rests on. Where coefficients are complex,
+        they have no coordinate for the imaginary unit.
+
+    Raises:
+        nag.ComponentError: if the witness points are no regular zeros of equations that cut it.
+        nag.NagError: if there are several components, or an argument makes no sense.
+
+    >>> import nag
+    >>> found = nag.find_real_points("x^2 + y^2 + z^2 = 1")
+    >>> str(found.reality), bool(abs((found.points**2).sum(axis=1) - 1).max() < 1e-12)
+    ('found', True)
+    >>> [len(nag.find_real_points(c)) for c in nag.decompose("x^4 = 4").components]
+    [1, 1, 0, 0]
+    """
+    from nag.real.real_pieces import find_real_points as find_points_on
+
+    found, _ = _find_in(given, run, formulation, real=True)
+    return find_points_on(_one_component(found, component, None), run=run)
+
+
+@takes_components
+@takes_run
+def find_real_curve(
+    given: Any, component: int | None = None, *, formulation: str = "auto", run: Run = DEFAULT_RUN
+) -> RealCurve:
+    """The complete real part of a one-dimensional component.
+
+    Args:
+        given: one of the components of a `nag.Decomposition`; all of them, a file of them, or what
+            is decomposed now. Where coefficients are complex, the curve is one in the variables
+            without the imaginary unit.
+        component: the number of the one that is asked about, from 1; by default the only one of
+            dimension 1.
+        formulation: of a mechanism's model, as for `nag.model`.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
+
+    Returns:
+        Vertices, edges and pieces; undecided, with the reason, where a check failed.
+
+    Raises:
+        nag.ComponentError: if the component's equations stay singular along it, or its degree is
+            too large.
+        nag.NagError: if the component is no curve, there are several, or an argument makes no
+            sense.
+
+    >>> import nag
+    >>> curve = nag.find_real_curve("(x^2 + y^2)^2 = 2*(x^2 - y^2)")
+    >>> str(curve.verdict), len(curve.edges), [str(vertex.kind) for vertex in curve.vertices]
+    ('complete', 2, ['singular'])
+    """
+    from nag.real.find_curve import find_real_curve as find_curve_on
+
+    found, _ = _find_in(given, run, formulation, real=True)
+    return find_curve_on(_one_component(found, component, 1), run=run)
+
+
+def _one_component(found: Decomposition, number: int | None, dimension: int | None) -> WitnessSet:
+    """The component with a number, or the only one there is, of a dimension if one is given.
+
+    Raises:
+        nag.NagError: if there is none, or it is not said which of several.
+    """
+    if number is not None:
+        return component_numbered(found, number)
+    parts = enumerate(found.components, 1)
+    fitting = [k for k, c in parts if dimension in (None, c.dimension)]
+    if len(fitting) == 1 or (not fitting and len(found) == 1):
+        return found.components[(fitting or [1])[0] - 1]
+    have = "" if dimension is None else f" have dimension {dimension}"
+    if not fitting:
+        raise NagError(f"component: none{have.replace('have', 'has') or ' is there'}")
+    named = join_words([str(k) for k in fitting])
+    raise NagError(f"component: which one? {named}{have or ' are there'}; give the number of one")
 
 
 @takes_components
@@ -1081,7 +1290,7 @@ def _family_in(
             subset = by_name and {*names} <= {*family.parameters}
             if not names or tuple(names) == family.parameters or subset:
                 return family, [complex(v) for v in member.values], member.solutions
-        if names and given.system is not None and {*names} <= given.parameters.keys():
+        if names and {*names} <= given.parameters.keys():
             from nag.files.cases import freed_system
 
             return family_of(freed_system(given, names), names), None, None

@@ -208,7 +208,11 @@ def test_a_superscript_is_no_part_of_a_name() -> None:
         ("R = QQ[x]\nI = ideal(x)\nJ = ideal(x^2)\n", "line 3, column 1", "a second ideal"),
         ("R = QQ[x, x]\nI = ideal(x)\n", "line 1, column 11", "is there twice"),
         ("ring r = 32003, (x), dp;\nideal i = x;\n", "line 1, column 10", "a ring over '32003'"),
-        ("ring r = 0, (x), dp;\nideal i = x;\ni = i + 1;\n", "line 3, column 1", "is not read"),
+        (
+            "ring r = 0, (x), dp;\nideal i = x;\ni = i + 1;\n",
+            "line 3, column 5",
+            "'i + 1' is not worked out",
+        ),
         ("ring r = 0, (x(1..999999)), dp;\n", "line 1, column 14", "more than 500"),
     ],
 )
@@ -663,6 +667,53 @@ def test_names_that_are_defined_come_before_short_monomials(tmp_path: Path) -> N
     file = tmp_path / "named.sing"
     file.write_text("ring r = 0, (x, y), dp;\npoly x1 = x2;\nideal i = x1 - 1, y;")
     assert read_case(file).system.text() == ["x^2 - 1", "y"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "ideal I;\nI[1] = x2-y;\nI[2] = xy-1;",
+        "ideal I = x2-y;\nI[3] = xy-1;",
+        "poly p(1) = x2-y; poly p(2) = xy-1;\nideal i = p(1), p(2);",
+        "poly p(1..2);\np(1) = x2-y;\np(2) = xy-1;\nideal i = p(1..2);",
+        "ideal i = x2-y, xy-1;\nideal j = std(i);\nvdim(j);",
+        "ideal i = x2-y;\ni = i, xy-1;\ni = groebner(i);\ni;",
+        "ideal i(1) = x2-y;\nideal i(2) = xy-1;\nideal j = i(1) + i(2);",
+        "short = 0;\nideal i = x2-y, xy-1;\npoly f = i[1];\nideal j = f, i[2];",
+        "ideal i = slimgb(ideal(x2-y, xy-1));",
+    ],
+)
+def test_what_is_plainly_an_ideal_in_singular_is_read(tmp_path: Path, text: str) -> None:
+    file = tmp_path / "ideal.sing"
+    file.write_text(f"ring r = 0, (x, y), dp;\n{text}\n")
+    assert read_case(file).system.text() == ["x^2 - y", "x*y - 1"]
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "said"),
+    [
+        ("ideal i = x;\nideal j = radical(i);", "line 3, column 11", "'radical' is not worked out"),
+        ("ideal i = x;\nideal j = y;\nideal k = i*j;", "line 4, column 11", "'i*j' is not worked"),
+        ("ideal i = x;\nideal j = y;", "line 3, column 1", "a second ideal"),
+        ("ideal i = x;\nideal i = y;", "line 3, column 1", "a second ideal 'i'"),
+        ("ideal i = x;\nideal j = i, i + y;", "line 3, column 14", "'i + y' is not worked out"),
+        ("I[1] = x;", "line 2, column 1", "'I' is no ideal; write ideal I; before"),
+        ("ideal I;\nI[0] = x;", "line 3, column 1", "entries are counted from 1"),
+        ("poly p(1) = x, y;", "line 2, column 13", "'p[1]' is 2 polynomials; write one"),
+        ("ideal i = ;", "line 2, column 10", "'i' is nothing; write what it is"),
+        ("ideal i = " + "std(" * 9 + "x" + ")" * 9 + ";", "line 2", "lists in lists"),
+        ("ideal i = minor(m, 2);", "line 2, column 11", "'minor' is not worked out here"),
+        ("list l = minAss(x);", "line 2, column 1", "'list l = minAss(x)' is not read"),
+    ],
+)
+def test_what_singular_would_work_out_is_refused_by_name_and_place(
+    tmp_path: Path, text: str, place: str, said: str
+) -> None:
+    file = tmp_path / "ideal.sing"
+    file.write_text(f"ring r = 0, (x, y), dp;\n{text}\n")
+    with pytest.raises(CaseError, match=re.escape(said)) as error:
+        read_case(file)
+    assert place in str(error.value)
 
 
 def test_i_is_the_unit_of_singulars_complex_rings(tmp_path: Path) -> None:

@@ -409,7 +409,7 @@ def test_a_configuration_that_is_more_singular_than_others_is_told_to_be(name: s
     made = mechanism(name)
     report = nag.mobility(made, detail="local")
     assert report.moving is None and not report.never_reduced
-    assert report.unclear == "the configuration is singular; give one near by with --at"
+    assert report.unclear == "the configuration is singular; give a point near by"
 
 
 @pytest.mark.parametrize(
@@ -441,7 +441,7 @@ def test_a_link_moves_as_its_component_does() -> None:
     assert report.moving is not None and report.moving.body is not None
     assert (report.moving.body.motion.rank, report.moving.body.motion.turning) == (1, 0)
     report = nag.mobility(made, crossed, of="top", detail="local")
-    assert report.unclear == "the configuration is singular; give one near by with --at"
+    assert report.unclear == "the configuration is singular; give a point near by"
 
 
 def test_a_table_moves_alike_in_both_formulations() -> None:

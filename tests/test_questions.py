@@ -8,6 +8,7 @@ import inspect
 import json
 import pickle
 import pkgutil
+import re
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,9 @@ import pytest
 from linkages import CASES
 
 import nag
+from nag.cli import main
 from nag.questions import FILE_OPTIONS
+from nag.real.curve import PictureVerdict
 
 CIRCLE_AND_LINE = "(x^2 + y^2 - 1)*(x - y)"
 NAG = Path(nag.__file__).parent
@@ -110,7 +113,10 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
         (lambda: nag.solve("x^2 - 1", set={"a": 1}), "set: says how a file is read"),
         (lambda: nag.certify(3), "system: something of type int is given"),
         (lambda: nag.write(nag.sample("x*y"), "file"), "Samples is given; give what nag.decompose"),
-        (lambda: nag.write("x", "file"), "give what nag.decompose, nag.intersect or nag.solve"),
+        (
+            lambda: nag.write(3, "file"),
+            "3 is given; give what nag.decompose, nag.intersect or nag.solve",
+        ),
         (lambda: nag.eliminate("x - y", onto="z"), "'z' is not one of the variables"),
         (lambda: nag.eliminate(["x", "y"]), "nothing to eliminate from"),
         (lambda: nag.eliminate("x*y", point=(0, 0)), "point: it lies on components 1, 2; give"),
@@ -227,7 +233,7 @@ def test_families_are_solved_of_whatever_describes_one(tmp_path: Path) -> None:
     angle = four_bar.system.variables[0]
     assert len(nag.solve_family(four_bar, [angle], [[0.5], [0.25]])) == 2
     for given, message in (
-        (CASES / "bennett.toml", "some polynomials must not vanish"),
+        (CASES / "bennett.toml", "parameters: 'a' does not occur; the names are x_J1, x_J2"),
         (CASES / "rhombus.toml", "5 equations for 6 unknowns"),
     ):
         with pytest.raises(nag.NagError, match=message):
@@ -322,3 +328,113 @@ def _taken(function: Any) -> list[tuple[str, object]]:
     """The arguments that a function takes; the run is the last."""
     taken = inspect.signature(function).parameters.values()
     return [(p.name, p.default) for p in sorted(taken, key=lambda p: p.name == "run")]
+
+
+BARS = {"base": "AD2", "left": "AB1", "top": "BC2", "right": "CD1"}
+
+
+def test_freedoms_are_counted_of_whatever_describes_a_mechanism() -> None:
+    path = CASES / "bennett.toml"
+    case = nag.read(path)
+    every = (path, str(path), case, case.mechanism, nag.model(path), nag.problem(path))
+    assert {nag.gruebler_kutzbach(given) for given in every} == {-2}
+    linkage = nag.Linkage.of(BARS, "base")
+    assert nag.gruebler_kutzbach(linkage) == nag.gruebler_kutzbach(nag.model(linkage)) == 1
+    with pytest.raises(nag.MechanismError, match="equations are given, which have no bodies"):
+        nag.gruebler_kutzbach("x^2 + y^2 = 1")
+
+
+def test_the_model_of_equations_is_these(tmp_path: Path) -> None:
+    system = nag.system("x^2 + y^2 = 1")
+    file = tmp_path / "circle.m2"
+    nag.write(system, file)
+    for given in (system, "x^2 + y^2 = 1", file, nag.problem(system), nag.read(file)):
+        assert nag.model(given).system == system
+    with pytest.raises(nag.NagError, match=r"space: is for a nag\.Mechanism"):
+        nag.model(system, space="spatial")
+
+
+def test_equations_and_files_of_other_programs_are_written(tmp_path: Path) -> None:
+    nag.write(["x^2 + y^2 - 1", "x - y"], tmp_path / "a.phc")
+    nag.write(tmp_path / "a.phc", tmp_path / "a.m2")
+    nag.write(tmp_path / "a.m2", tmp_path / "a.toml")
+    system = nag.system(["x^2 + y^2 - 1", "x - y"])
+    assert all(nag.read(tmp_path / f"a.{end}").system == system for end in ("phc", "m2", "toml"))
+
+
+@pytest.mark.parametrize("ending", [".m2", ".toml", ".phc", ".txt", ".sing", ".bertini"])
+def test_exports_are_not_written_to_what_is_called_otherwise(ending: str, tmp_path: Path) -> None:
+    for found in (nag.decompose("x^2 - 1"), nag.solve("x^2 - 1")):
+        with pytest.raises(nag.NagError, match=rf"ends in \{ending} holds no export"):
+            nag.write(found, tmp_path / f"found{ending}")
+        nag.write(found.system, tmp_path / f"found{ending}")
+    assert nag.read(tmp_path / f"found{ending}").system == found.system
+    with pytest.raises(nag.NagError, match=r"path: no case .* ends in \.json; name it \.toml"):
+        nag.write(found.system, tmp_path / "found.json")
+
+
+def test_real_points_are_asked_of_whatever_has_one_component(export: Path, tmp_path: Path) -> None:
+    circle = nag.decompose("x^2 + y^2 = 1")
+    nag.write(circle, tmp_path / "circle.json")
+    for given in (circle[0], circle, tmp_path / "circle.json", "x^2 + y^2 = 1"):
+        assert nag.find_real_curve(given) == nag.find_real_curve(circle[0])
+        assert nag.find_real_points(given) == nag.find_real_points(circle[0])
+    both = nag.decompose(CIRCLE_AND_LINE)
+    for question in (nag.find_real_curve, nag.find_real_points):
+        assert question(export, 2) == question(both[1])
+        with pytest.raises(nag.NagError, match=r"component: which one. 1 and 2 .*give the number"):
+            question(export)
+        with pytest.raises(nag.NagError, match="component: 3: there are components 1 to 2"):
+            question(both, 3)
+    # Of components of several dimensions there is one curve.
+    beside = nag.decompose(["(x^2 + y^2 - 1)*(x - 2)", "(x^2 + y^2 - 1)*(y - 3)"])
+    assert len(beside) == 2 and nag.find_real_curve(beside).verdict is PictureVerdict.COMPLETE
+    with pytest.raises(nag.NagError, match="component: it has dimension 2; a curve has 1"):
+        nag.find_real_curve("x^2 + y^2 + z^2 = 1")
+
+
+def test_parameters_of_mechanisms_make_no_family() -> None:
+    with pytest.raises(nag.NagError, match="is a mechanism, and parameters are freed in polynom"):
+        nag.solve_family(CASES / "bennett.toml", ["m0"], [[1], [2]])
+    with pytest.raises(nag.NagError, match="parameters: 'm9' does not occur; the names are x_J1"):
+        nag.solve_family(CASES / "bennett.toml", ["m9"], [[1], [2]])
+
+
+def test_modes_of_parts_are_refused_in_words() -> None:
+    with pytest.raises(nag.MechanismError, match=r"^mechanism: parts are given that may be assem"):
+        nag.modes(nag.Linkage.of(BARS, "base"))
+
+
+def texts_in(tree: ast.AST) -> list[str]:
+    """Texts that a program may say, which its docstrings are not."""
+    silent = set()
+    for node in ast.walk(tree):
+        body = getattr(node, "body", None)
+        first = body[0] if isinstance(body, list) and body else None
+        if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant):
+            silent.add(first.value)
+    constants = (n for n in ast.walk(tree) if isinstance(n, ast.Constant) and n not in silent)
+    return [n.value for n in constants if isinstance(n.value, str)]
+
+
+def test_options_are_named_by_commands_alone() -> None:
+    """Who asks in Python reads what to do, and a command adds what its option is called."""
+    # What reports print is read on the command line.
+    commands = {"cli", "bench", "report"}
+    files = [f for f in NAG.rglob("*.py") if f.relative_to(NAG).parts[0] not in commands]
+    said = {
+        f"{file.relative_to(NAG)}: {text}"
+        for file in files
+        for text in texts_in(ast.parse(file.read_text("utf-8")))
+        if re.search(r"--[a-z]", text)
+    }
+    assert not said
+
+
+def test_a_command_adds_the_option_that_mends_an_error(capsys: pytest.CaptureFixture[str]) -> None:
+    case = str(CASES / "planar" / "five-bar.toml")
+    with pytest.raises(nag.NagError, match=r"drive joints to values$") as error:
+        nag.motion(case)
+    assert error.value.keyword == "drive" and pickle.loads(pickle.dumps(error.value)).keyword
+    assert main(["motion", case, "--quiet"]) == 2
+    assert capsys.readouterr().err.endswith("drive joints to values (--drive)\n")

@@ -379,7 +379,11 @@ def _times_pi(factor: Fraction) -> Number:
 def number_text(value: Number | complex) -> str:
     """``value`` as text in the grammar of `nag.algebra.expression`; ``I`` is the imaginary unit."""
     if isinstance(value, complex):
-        return f"{value.real:.17g} {'-' if value.imag < 0 else '+'} {abs(value.imag):.17g}*I"
+        size = f"{abs(value.imag):.17g}"
+        unit = "I" if size == "1" else f"{size}*I"
+        if not value.real:
+            return f"-{unit}" if value.imag < 0 else unit
+        return f"{value.real:.17g} {'-' if value.imag < 0 else '+'} {unit}"
     if not isinstance(value, Irrational):
         return str(value)
     if value.operation == "pi":

@@ -24,6 +24,11 @@ class UsageError(NagError):
     """Bad input; the message is one line for the user."""
 
 
+def error_in_file(file: str, error: Exception) -> UsageError:
+    """The error of what a file says, which the same argument mends."""
+    return UsageError(f"{file}: {error}").mended_by(getattr(error, "keyword", ""))
+
+
 class Parser(argparse.ArgumentParser):
     """A parser whose errors are bad input like any other."""
 

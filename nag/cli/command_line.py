@@ -310,15 +310,25 @@ def main(argv: Sequence[str] | None = None) -> int:
             signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
+# What options for arguments of functions are called that have another name.
+OPTIONS = {"point": "at"}
+
+
+def _with_option(error: NagError, arguments: argparse.Namespace) -> str:
+    """What an error says, and the command's option that mends it."""
+    option = OPTIONS.get(error.keyword, error.keyword)
+    return f"{error} (--{option})" if option and option in arguments else str(error)
+
+
 def _run(arguments: argparse.Namespace) -> int:
     """Run the command that was parsed; returns the exit status."""
     try:
         return COMPLETE if run_command(arguments, _print) else INCOMPLETE
     except ComponentError as error:
-        _complain(str(error))
+        _complain(_with_option(error, arguments))
         return INCOMPLETE
     except NagError as error:
-        _complain(str(error))
+        _complain(_with_option(error, arguments))
         return BAD_INPUT
     except MemoryError:
         _complain("not enough memory for this case")

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, read_case_file, read_problem, whole
+from nag.cli.arguments import UsageError, error_in_file, read_case_file, read_problem, whole
 from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
 from nag.cli.witness_input import (
     ReadComponents,
@@ -86,7 +86,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         how = options.degree, options.polynomial, options.progress
         found = eliminate_component(cloud, alike, onto, *how)
     except (SourceError, InterpolationError) as error:
-        raise UsageError(f"{options.case}: {error}") from None
+        raise error_in_file(options.case, error) from None
     complete = not found.note and not tail
     tail = [*([("open", found.note)] if found.note else []), *tail, checked_row(found)]
     if options.onto is None and not found.generators:

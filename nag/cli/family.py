@@ -13,6 +13,7 @@ from nag.cli.arguments import (
     add_parameters,
     add_running,
     add_start,
+    error_in_file,
     read_case_file,
 )
 from nag.cli.running import (
@@ -86,7 +87,7 @@ def _family_by_columns(options: argparse.Namespace, case: Case) -> Family:
     try:
         return family_of(texts, names, unknowns, unit)
     except NagError as error:
-        raise UsageError(f"{options.case}: {error}") from None
+        raise error_in_file(options.case, error) from None
 
 
 def run(options: argparse.Namespace) -> CommandAnswer:
@@ -118,7 +119,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     try:
         solved = solve_generic(family, start=start, count=count, run=how.without_found)
     except StartError as error:
-        raise UsageError(f"{options.case}: {error}") from None
+        raise error_in_file(options.case, error) from None
     found = solve_members(solved, values, run=how)
     if options.points is not None:
         write_arrays(_arrays(found, family.parameters), options.points, "points")

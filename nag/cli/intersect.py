@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import asdict
 
-from nag.cli.arguments import UsageError
+from nag.cli.arguments import error_in_file
 from nag.cli.running import CommandAnswer, answer_of, chosen_run
 from nag.cli.witness_input import (
     add_input,
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     try:
         result = intersect_components(system, *pair, run=chosen_run(options))
     except IntersectionError as error:
-        raise UsageError(f"{options.case}: {error}") from None
+        raise error_in_file(options.case, error) from None
     complete = result.complete and not any(component.note for component in pair)
     numbered = list(zip(numbers, pair, strict=True))
     variables = result.system.variables

@@ -12,6 +12,7 @@ from nag.cli.arguments import (
     add_robot,
     add_running,
     budget_seconds,
+    error_in_file,
     problem_of_case,
     read_case_file,
     read_given_case,
@@ -322,7 +323,7 @@ def _reports(
             run=how,
         )
     except NoAssembly as reason:
-        raise UsageError(f"{options.case}: {reason}") from None
+        raise error_in_file(options.case, reason) from None
     except NoSolution as reason:
         raise UsageError(f"--at: {reason}; it is no configuration of the mechanism") from None
 

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
     StoreOnce,
-    UsageError,
     add_parameters,
     add_robot,
     add_running,
     budget_seconds,
+    error_in_file,
     only_assembled,
     read_given_case,
 )
@@ -68,7 +68,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     try:
         found = modes(case.mechanism, options.platform, budget=options.budget, run=how)
     except (MechanismError, InterpolationError) as error:
-        raise UsageError(f"{options.case}: {error}") from None
+        raise error_in_file(options.case, error) from None
     decomposition = found.decomposition
     blocks = found.rows(), found.table(), found.mode_rows()
     tail = [*case.note_rows, *found.tail()]

@@ -15,6 +15,7 @@ from nag.cli.arguments import (
     add_case,
     add_robot,
     add_running,
+    error_in_file,
     parse_circuit,
     problem_of_case,
     read_given_case,
@@ -173,7 +174,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
             return _run_through(options, case, problem, ranges[0], held)
         return _run_once(options, case, problem, held)
     except NagError as error:
-        raise UsageError(f"{options.case}: {error}") from None
+        raise error_in_file(options.case, error) from None
 
 
 def _run_once(

@@ -6,13 +6,13 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
-    UsageError,
     add_case,
     add_certify,
     add_format,
     add_robot,
     add_running,
     add_start,
+    error_in_file,
     read_problem,
 )
 from nag.cli.certify import proof_asked_for
@@ -67,7 +67,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     try:
         result = problem.solve(start=options.start, run=chosen_run(options, document_of))
     except StartError as error:
-        raise UsageError(f"{options.case}: {error}") from None
+        raise error_in_file(options.case, error) from None
     if options.points is not None:
         write = write_table if as_table else write_arrays
         write(_columns(result, as_table), options.points, "points")

@@ -416,7 +416,10 @@ def freed_system(case: Case, names: Sequence[str]) -> PolynomialSystem:
     """
     path, text, values = case.path, case.text, dict(case.set)
     if case.system is None or case.assembly is not None:
-        raise CaseError(f"{path}: is a mechanism; parameters are freed in polynomial systems")
+        raise CaseError(
+            f"{path}: is a mechanism, and parameters are freed in polynomial systems only; "
+            "ask about one value after the other"
+        ).mended_by("set")
     for name in names:
         if name not in case.parameters:
             raise CaseError(

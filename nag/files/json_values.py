@@ -219,8 +219,7 @@ def read_file(path: str | os.PathLike[str], convert: Callable[[Any], T]) -> T:
         raise ExportError(f"{file}: is not an export: lists are nested too deep") from None
     except ValueError as error:
         raise ExportError(
-            f"{file}: is not JSON: {error}; give what `nag decompose --json FILE` or `nag solve "
-            "--json FILE` writes"
+            f"{file}: is not JSON: {error}; give an export of components or of solutions"
         ) from None
 
 

@@ -696,9 +696,9 @@ def _choose_components(
         if largest > 1:
             raise FreedomsError(
                 f"it moves with {count_text(largest + problem.free, 'freedom')} {where}".rstrip()
-                + "; a motion is that of a mechanism with one: hold joints (--drive JOINT=VALUE)"
-            )
-        advice = "see nag mobility, with --tolerance 1e-3 if its numbers are rounded"
+                + "; a motion is that of a mechanism with one: drive joints to values"
+            ).mended_by("drive")
+        advice = "see nag mobility, with tolerance 1e-3 if its numbers are rounded"
         raise MotionError(f"it does not move {where}".rstrip() + f"; {advice}")
     larger = sum(components[i].dimension > 1 for i in own)
     left_out = f"{count_text(larger, 'component')} of dimension 2 or more" if larger else ""

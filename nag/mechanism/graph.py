@@ -474,6 +474,9 @@ def check_mechanism(given: Any, others: str = "") -> None:
         what = (
             f"a nag.Case is given; give its mechanism, case.mechanism{others and ', or '}{others}"
         )
+    elif is_a(given, "nag.mechanism.assembly", "AssemblyModel"):
+        what = "parts are given that may be assembled in several ways, which have no reference "
+        what += f"configuration; give a nag.Mechanism{others and ', or '}{others}"
     elif is_equations(given):
         what = (
             "equations are given, which have no bodies; ask nag.local (the dimension at a point) "

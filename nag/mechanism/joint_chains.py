@@ -260,11 +260,11 @@ class JointChains:
             raise NotClear("the joints' rates are fewer than the freedoms in doubles")
         deflated = self._corank(q, found)
         if deflated < dimension:
-            raise NotClear("the configuration is singular; give one near by with --at")
+            raise NotClear("the configuration is singular; give a point near by")
         if deflated > dimension:
             raise NotClear(
                 "the configuration is singular, and terms of second order do not tell whether all "
-                "near by are; give one of these with --at"
+                "near by are; give the point of one of these"
             )
         return found
 

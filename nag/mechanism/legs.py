@@ -19,7 +19,7 @@ from nag.text.table import join_words
 
 # Legs of a body that is taken for the platform without being named.
 LEGS_OF_A_PLATFORM = 3
-NAMED_PLATFORM = "name the platform (--platform NAME)"
+NAMED_PLATFORM = "name the platform"
 
 
 @dataclass(frozen=True)
@@ -134,9 +134,10 @@ def _platform_of(mechanism: Mechanism) -> str:
         raise MechanismError(
             f"no body has {LEGS_OF_A_PLATFORM} legs or more between itself and the ground; "
             f"{NAMED_PLATFORM}"
-        )
+        ).mended_by("platform")
     if len(best) > 1:
-        raise MechanismError(f"bodies {join_words(best)} have {most} legs each; {NAMED_PLATFORM}")
+        said = f"bodies {join_words(best)} have {most} legs each; {NAMED_PLATFORM}"
+        raise MechanismError(said).mended_by("platform")
     return best[0]
 
 

@@ -33,7 +33,7 @@ from nag.mechanism.mobility_report import ALL_POSES, CurveOfMotion, MobilityRepo
 from nag.mechanism.model import Model
 from nag.mechanism.moving_parts import find_moving_parts
 from nag.mechanism.nearly_mobile import check_tolerance, find_near_motion, find_spoiled_motion
-from nag.mechanism.parts import model_parts
+from nag.mechanism.parts import PARTS, model_parts
 from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.quaternion import R
@@ -175,7 +175,7 @@ def mobility_in_steps(
         problem = product_of_loops(mechanism, detail, run)
     problem = problem or problem_of(mechanism, formulation=formulation)
     if problem.model is None:
-        check_mechanism(problem.system, "parts (a nag.Linkage, a nag.Framework, a nag.DHLoop)")
+        check_mechanism(problem.system, PARTS)
     made = problem.mechanism
     check_body(of, problem.parts if made is None else made.mechanism)
     at = problem.reference
@@ -233,7 +233,7 @@ def tree_of(given: Any) -> Mechanism | None:
     """
     mechanism = model_parts(given)
     if not isinstance(mechanism, Problem | Model | AssemblyModel | PolynomialSystem):
-        check_mechanism(mechanism, "parts (a nag.Linkage, a nag.Framework, a nag.DHLoop)")
+        check_mechanism(mechanism, PARTS)
         return None if has_loops(mechanism) else mechanism
     return None
 
@@ -691,7 +691,7 @@ def _with_general_motion(
         return replace(
             report,
             unclear=f"{motions} components have {count_text(report.lower, 'freedom')}, and it may "
-            "move in another way on each; give a configuration with --at",
+            "move in another way on each; give the point of one",
         )
     parts = in_real_coordinates(problem).parts
     assert parts is not None

@@ -29,7 +29,7 @@ from nag.mechanism.formulations import (
 from nag.mechanism.graph import Joint, Mechanism, check_mechanism
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
-from nag.mechanism.parts import mechanism_in, parts_in_formulation
+from nag.mechanism.parts import PARTS, mechanism_in, parts_in_formulation
 from nag.mechanism.path_estimates import Alternative, ModelError, NoLoopError, path_bound
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.rods import RodModel
@@ -218,7 +218,7 @@ def model(
             if given:
                 raise NagError(f"{name}: is for a nag.Mechanism, not for parts; leave it out")
         return parts_in_formulation(mechanism, formulation)
-    check_mechanism(mechanism, "parts (a nag.Linkage, a nag.Framework, a nag.DHLoop)")
+    check_mechanism(mechanism, PARTS)
     check_listed(modes, "modes", "pairs of a joint's name and its mode")
     if space is not None:
         check_choice(space, "space", get_args(Space))

@@ -13,6 +13,9 @@ from nag.errors import NagError
 if TYPE_CHECKING:
     from nag.mechanism.assembly import AssemblyModel
 
+# What may be given in place of a mechanism, for messages.
+PARTS = "parts (a nag.Linkage, a nag.Framework, a nag.DHLoop)"
+
 
 class FormulationError(NagError):
     """A formulation is asked for of what has none."""

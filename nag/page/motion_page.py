@@ -270,12 +270,11 @@ def _frame_count(motion: Motion, most: int, held: _Held | None) -> int:
     # Four bytes each, in base64 a third more.
     frames = int(most * 3 / 16 / numbers / len(motion.circuits))
     if frames < LEAST_FRAMES:
-        alone = "show one of them (--circuit NUMBER)"
-        less = alone if held is None else "drive through fewer values (--drive)"
+        less = "show one circuit" if held is None else "drive through fewer values"
         raise NagError(
             f"html: {len(motion.circuits)} circuits of {len(motion.scene.bodies)} bodies do not "
             f"fit in one page; {less}"
-        )
+        ).mended_by("circuit" if held is None else "drive")
     return min(frames, max(len(c) for c in motion.circuits))
 
 

@@ -221,12 +221,12 @@ def family_of(
         if variables is not None or imaginary is not None:
             name = "imaginary" if variables is None else "variables"
             raise NagError(f"{name}: is for equations; a system has its own, leave it out")
-        if given.nonzero:
-            raise NagError("system: some polynomials must not vanish there; give equations alone")
         for name in names:
             if name not in given.own_variables:
                 known = ", ".join(given.own_variables)
                 raise NagError(f"parameters: {name!r} does not occur; the names are {known}")
+        if given.nonzero:
+            raise NagError("system: some polynomials must not vanish there; give equations alone")
         # The unit's own equation is made anew.
         equations = given.text()[: len(given.polynomials) - given.imaginary]
         variables = [name for name in given.own_variables if name not in names]

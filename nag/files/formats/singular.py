@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Container
+from typing import NoReturn
 
 from nag.algebra.tokens import quote
 from nag.files.case_table import MAX_ENTRIES
@@ -13,8 +14,20 @@ from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_nam
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
 _RING = re.compile(r"\s*ring\s+\w+\s*=\s*")
 _RECOGNISED = re.compile(r"^[ \t]*ring\s+\w+\s*=", re.MULTILINE)
-_DEFINED = re.compile(r"\s*(poly|number|ideal)\s+(\w+)\s*=\s*")
+_DECLARED = re.compile(r"\s*(poly|number|ideal)\s+(.+)", re.DOTALL)
+# p = ..., p(1) = ..., and I[1] = ..., an entry of an ideal.
+_ASSIGNED = re.compile(r"\s*([A-Za-z]\w*(?:\([0-9]{1,6}\))*)(?:\[([0-9]{1,6})\])?\s*=(?!=)\s*")
 _ASSIGNMENT = re.compile(r"[^=<>!]=[^=]")
+# What Singular's answers look like, not what they are.
+_SHOWN = re.compile(r"\s*(?:short|printlevel|echo|timer|rtimer|TRACE)\s*=")
+_CALL = re.compile(r"([A-Za-z]\w*)\s*\(")
+# Names, and those of which entries are named; not an entry itself.
+_NAME = re.compile(r"(?<!\w)([A-Za-z]\w*(?:\([0-9]{1,6}\))*)(?![\w\[])")
+_ENTRY = re.compile(r"([A-Za-z]\w*(?:\([0-9]{1,6}\))*)\[")
+# Calls in calls.
+MOST_NESTED = 8
+# What makes other generators of the same ideal.
+_SAME_IDEAL = ("std", "slimgb", "groebner", "interred", "ideal")
 _PARAMETER = re.compile(r"\(\s*0\s*,\s*([A-Za-z]\w*)\s*\)")
 _MINPOLY = re.compile(r"minpoly\s*=\s*(.*)", re.DOTALL)
 _INDEXED = re.compile(r"\b(\w+)((?:\([0-9]{1,6}(?:\.\.[0-9]{1,6})?\))+)")
@@ -32,6 +45,9 @@ def recognise(text: str) -> bool:
 def read(source: SourceFile) -> GivenSystem:
     """The system of the ring and the one ideal in a text for Singular.
 
+    An ideal may be written entry by entry (``I[1] = ...;``), be another one's standard basis, or
+    the sum of others; where several are there, it is the one that no other is made of.
+
     Raises:
         CaseError: if the ring is not of characteristic 0, or there is not one ideal.
     """
@@ -47,32 +63,202 @@ def read(source: SourceFile) -> GivenSystem:
     names, bases, units = _read_ring(
         source, rings[0][0].part(rings[0][1].end(), len(rings[0][0].text)), minpolys
     )
-    definitions, ideals = {}, []
-    single = (*names, *units)
-    letters = all(len(name) == 1 for name in single)
+    read = _Definitions(source, names, bases, units)
     for statement in statements:
-        defined = _DEFINED.match(statement.text)
-        if defined is None:
-            known = _RING.match(statement.text) or statement in minpolys
-            if _ASSIGNMENT.search(statement.text) and not known:
-                message = f"{quote(statement.text)} is not read; write 'ideal i = ..., ...;'"
-                source.fail(statement.offset, message)
-            continue
-        right = statement.part(defined.end(), len(statement.text))
-        texts = [_names_indexed(t, bases) for t in source.statements(right, ",")]
-        texts = [_write_out(t, single, definitions) for t in texts] if letters else texts
-        if defined[1] == "ideal":
-            ideals.append((statement, tuple(texts)))
-        elif len(texts) == 1:
-            definitions[defined[2]] = texts[0]
-        else:
-            message = f"{quote(defined[2])} is {len(texts)} polynomials; write one"
-            source.fail(right.offset, message)
-    if not ideals:
+        known = _RING.match(statement.text) or _SHOWN.match(statement.text) or statement in minpolys
+        if not known:
+            read.statement(statement)
+    if not read.ideals:
         source.fail(len(source.text.rstrip()), "there is no ideal; write ideal i = ..., ...;")
-    if len(ideals) > 1:
-        source.fail(ideals[1][0].offset, "a second ideal; leave one in the file")
-    return GivenSystem(names, ideals[0][1], {}, definitions, imaginary=units)
+    last = [name for name in read.ideals if name not in read.used]
+    if len(last) > 1:
+        source.fail(read.places[last[1]], "a second ideal; leave one in the file")
+    chosen = last[0] if last else list(read.ideals)[-1]
+    entries = read.ideals[chosen]
+    equations = tuple(entries[k] for k in sorted(entries))
+    return GivenSystem(names, equations, {}, read.definitions, imaginary=units)
+
+
+class _Definitions:
+    """What has a name so far, statement by statement.
+
+    Attributes:
+        definitions: polynomials and numbers by their names.
+        ideals: entries of ideals by their numbers, from 1.
+        places: where the ideals begin.
+        used: names of the ideals that others are made of.
+    """
+
+    def __init__(
+        self,
+        source: SourceFile,
+        names: tuple[str, ...],
+        bases: frozenset[str],
+        units: tuple[str, ...],
+    ) -> None:
+        self._source, self._bases, self._single = source, {*bases}, (*names, *units)
+        self._letters = all(len(name) == 1 for name in self._single)
+        self._kinds: dict[str, str] = {}
+        self._with_entries = set(_ENTRY.findall(source.text))
+        self._depth = 0
+        self.definitions: dict[str, Passage] = {}
+        self.ideals: dict[str, dict[int, Passage]] = {}
+        self.places: dict[str, int] = {}
+        self.used: set[str] = set()
+
+    def statement(self, statement: Passage) -> None:
+        """Read one; what gives nothing a name, as a command that prints, is left out."""
+        declared = _DECLARED.match(statement.text)
+        kind, rest = "", statement
+        if declared is not None:
+            kind, rest = declared[1], statement.part(declared.start(2), len(statement.text))
+        assigned = _ASSIGNED.match(rest.text)
+        if assigned is None:
+            if _ASSIGNMENT.search(statement.text):
+                self._refuse(statement)
+            if kind:
+                for name in self._source.statements(rest, ","):
+                    match = _INDEXED.fullmatch(name.text)
+                    listed = [name] if match is None else _list_indexed(self._source, name, match)
+                    for each in listed:
+                        self._declare(kind, each.text)
+            return
+        name, index = assigned[1], assigned[2]
+        if kind:
+            self._declare(kind, name)
+        right = rest.part(assigned.end(), len(rest.text))
+        if not right.text:
+            self._source.fail(right.offset, f"{quote(name)} is nothing; write what it is")
+        name = _with_brackets(name)
+        kind = self._kinds.get(name, "")
+        if kind == "ideal":
+            self._assign_ideal(name, statement.offset, index, right)
+        elif kind and index is None:
+            self.definitions[name] = self._polynomial(name, right)
+        elif index is not None and not kind:
+            self._source.fail(rest.offset, f"{quote(name)} is no ideal; write ideal {name}; before")
+        else:
+            self._refuse(statement)
+
+    def _refuse(self, statement: Passage) -> NoReturn:
+        message = f"{quote(statement.text)} is not read; write 'ideal i = ..., ...;'"
+        self._source.fail(statement.offset, message)
+
+    def _declare(self, kind: str, name: str) -> None:
+        name = _with_brackets(name)
+        self._kinds[name] = kind
+        if "[" in name:
+            self._bases.add(name[: name.index("[")])
+
+    def _assign_ideal(self, name: str, place: int, index: str | None, right: Passage) -> None:
+        """An ideal, or one entry of it."""
+        if index is None:
+            if name in self.ideals and name not in self._ideals_in(right.text):
+                self._source.fail(place, f"a second ideal {quote(name)}; leave one in the file")
+            entries = dict(enumerate(self._entries(right, name), 1))
+            self.ideals[name] = entries
+        elif int(index) < 1:
+            self._source.fail(place, f"entry {index} of an ideal; entries are counted from 1")
+        else:
+            entries = {int(index): self._polynomial(f"{name}[{index}]", right)}
+            self.ideals.setdefault(name, {}).update(entries)
+        self.places.setdefault(name, place)
+        if name in self._with_entries:
+            self.definitions |= {f"{name}[{k}]": entry for k, entry in entries.items()}
+
+    def _ideals_in(self, text: str) -> set[str]:
+        """The ideals that are named in a text."""
+        return {_with_brackets(name) for name in _NAME.findall(text)} & self.ideals.keys()
+
+    def _polynomial(self, name: str, right: Passage) -> Passage:
+        texts = self._entries(right, "")
+        if len(texts) != 1:
+            message = f"{quote(name)} is {len(texts)} polynomials; write one"
+            self._source.fail(right.offset, message)
+        return texts[0]
+
+    def _entries(self, whole: Passage, own: str) -> list[Passage]:
+        """The polynomials of a list, ideals in it by what they consist of.
+
+        Args:
+            own: the ideal that they are those of; empty where these are no ideal's.
+        """
+        self._depth += 1
+        if self._depth > MOST_NESTED:
+            self._source.fail(whole.offset, "lists in lists; write their entries in one list")
+        found: list[Passage] = []
+        if own:
+            named = {_with_brackets(name) for name in _ENTRY.findall(whole.text)}
+            self.used |= named & self.ideals.keys() - {own}
+        for text in self._source.statements(whole, ","):
+            ideal = self._ideal(text, own)
+            if ideal is not None:
+                found += ideal
+                continue
+            for each in _in_range(self._source, text, self._bases):
+                indexed = _names_indexed(each, self._bases)
+                written = _write_out(indexed, self._single, self.definitions)
+                found.append(written if self._letters else indexed)
+            self._check_count(found, text)
+        self._depth -= 1
+        return found
+
+    def _check_count(self, found: list[Passage], place: Passage) -> None:
+        if len(found) > MAX_ENTRIES:
+            message = f"more than {MAX_ENTRIES} polynomials; at most that many are read"
+            self._source.fail(place.offset, message)
+
+    def _ideal(self, text: Passage, own: str) -> list[Passage] | None:
+        """The polynomials of an ideal that is named, worked out, or a sum; None of a polynomial."""
+        name = _with_brackets(text.text)
+        if name in self.ideals:
+            self.used |= {name} - {own}
+            entries = self.ideals[name]
+            return [entries[k] for k in sorted(entries)]
+        call = _CALL.match(text.text)
+        if call and call[1] not in (*self._bases, *self._single):
+            if call[1] not in _SAME_IDEAL:
+                self._source.fail(
+                    text.offset,
+                    f"{quote(call[1])} is not worked out here; write the polynomials that Singular "
+                    "prints",
+                )
+            if text.text.endswith(")") and _closes_at_end(text.text):
+                return self._entries(text.part(call.end(), len(text.text) - 1), own)
+        if not self._ideals_in(text.text):
+            return None
+        parts, found = self._source.statements(text, "+"), []
+        for part in parts:
+            ideal = self._ideal(part, own) if len(parts) > 1 else None
+            if ideal is None:
+                message = f"{quote(text.text)} is not worked out here; write its polynomials"
+                self._source.fail(text.offset, message)
+            found += ideal
+            self._check_count(found, text)
+        return found
+
+
+def _closes_at_end(text: str) -> bool:
+    """Whether the first bracket of a text is closed by its last character."""
+    depth = 0
+    for i, c in enumerate(text):
+        depth += (c == "(") - (c == ")")
+        if c == ")" and not depth:
+            return i == len(text) - 1
+    return False
+
+
+def _with_brackets(name: str) -> str:
+    """``p[1]`` for ``p(1)``."""
+    return name.replace("(", "[").replace(")", "]")
+
+
+def _in_range(source: SourceFile, text: Passage, bases: Container[str]) -> list[Passage]:
+    """``p(1)``, ``p(2)`` and so on for ``p(1..3)``; anything else as it is."""
+    match = _INDEXED.fullmatch(text.text)
+    if match is None or match[1] not in bases or ".." not in match[2]:
+        return [text]
+    return _list_indexed(source, text, match)
 
 
 def _read_ring(
@@ -101,20 +287,27 @@ def _read_ring(
             names.append(item)
             continue
         bases.add(match[1])
-        bounds = [(int(b[1]), int(b[2] or b[1])) for b in _BOUNDS.finditer(match[2])]
-        count = 1
-        for low, high in bounds:
-            count *= max(0, high - low + 1)
-            if count > MAX_ENTRIES:
-                source.fail(item.offset, f"more than {MAX_ENTRIES} variables; at most that many")
-        for index in itertools.product(*(range(low, high + 1) for low, high in bounds)):
-            names.append(Passage(match[1] + "".join(f"[{k}]" for k in index), item.offset))
+        names += _list_indexed(source, item, match)
     if unit is not None:
         return check_names(source, names), frozenset(bases), (unit,)
     parts = [part.strip() for part in field.rstrip(")").split(",")[1:]]
     units = tuple(part for part in parts if not part.isdigit()) or ("i",)
     is_complex = field.lstrip("(").startswith("complex")
     return check_names(source, names), frozenset(bases), units if is_complex else ()
+
+
+def _list_indexed(source: SourceFile, item: Passage, match: re.Match[str]) -> list[Passage]:
+    """``x[1]``, ``x[2]`` and so on for ``x(1..3)``, which the match is of."""
+    bounds = [(int(b[1]), int(b[2] or b[1])) for b in _BOUNDS.finditer(match[2])]
+    count = 1
+    for low, high in bounds:
+        count *= max(0, high - low + 1)
+        if count > MAX_ENTRIES:
+            source.fail(item.offset, f"more than {MAX_ENTRIES} names; at most that many")
+    return [
+        Passage(match[1] + "".join(f"[{k}]" for k in index), item.offset)
+        for index in itertools.product(*(range(low, high + 1) for low, high in bounds))
+    ]
 
 
 def _read_unit(source: SourceFile, field: Passage, minpolys: list[Passage]) -> str | None:
@@ -135,7 +328,7 @@ def _read_unit(source: SourceFile, field: Passage, minpolys: list[Passage]) -> s
     return name[1]
 
 
-def _names_indexed(text: Passage, bases: frozenset[str]) -> Passage:
+def _names_indexed(text: Passage, bases: Container[str]) -> Passage:
     """The same with ``x[1]`` for ``x(1)``, of the same length, so that columns stay."""
 
     def indexed(match: re.Match[str]) -> str:
