@@ -171,8 +171,8 @@ def _is_near_regular_zero(
     """Whether Kantorovich's theorem shows a zero at which the forms' Jacobian is surjective.
 
     In the logarithms of the coordinates the second derivatives of a term are the term times
-    products of its exponents k. Within r of the point those of a form are at most ``|k|^2 e^(|k|r)``
-    times the sum of the sizes of its terms, which is one.
+    products of its exponents k. Within r of the point those of a form are at most
+    ``|k|^2 e^(|k| r)`` times the sum of the sizes of its terms, which is one.
 
     Reference:
         Ortega & Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables, 1970,
