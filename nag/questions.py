@@ -24,6 +24,8 @@ from nag.text.table import join_words
 from nag.tracking.run import DEFAULT_RUN, Run, answers_early, takes_run
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from nag.algebra.family import Family
     from nag.algebra.number import Number
     from nag.algebra.symmetry import SignedPermutation
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
     from nag.decomposition.singular_points import SingularLocus
     from nag.files.cases import Case
     from nag.interpolation.image_ideal import ImageIdeal
+    from nag.interpolation.point_cloud import AmbientVariables, Cloud
     from nag.mechanism.assembly import AssemblyModel
     from nag.mechanism.axes import Space
     from nag.mechanism.model import Model
@@ -1075,12 +1078,15 @@ def eliminate(
         given: components that were found, a file of them, or what is decomposed now.
         onto: names of the variables, or a text of them with commas; by default essential ones, from
             which all others follow.
-        component: its number, from 1, which is the default.
-        point: a point, as for `nag.member`, that the component goes through, instead of its number.
+        component: its number, from 1, in the order of `nag.decompose`; by default 1, and of a
+            mechanism the one through its reference configuration, for which nothing is decomposed.
+        point: a point, as for `nag.member`, that the component goes through, instead of its number:
+            where it is exact and regular nothing is decomposed either.
         degree: all equations up to this degree; by default until they define the image.
         polynomial: whether only polynomial maps to the other variables are looked for.
-        formulation: of a mechanism's model, as for `nag.model`; ``"E"`` has the bodies' Euler
-            parameters, in which `nag eliminate` gives a mechanism's equations.
+        formulation: of a mechanism's model, as for `nag.model`. By default a mechanism is taken in
+            its bodies' Euler parameters, ``"E"``, as in the papers; with ``component`` in the
+            formulation of `nag.decompose`, whose numbers are meant.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
@@ -1093,25 +1099,168 @@ def eliminate(
     ['y^3 - z^2']
     """
     from nag.interpolation.image_ideal import eliminate_component
-    from nag.interpolation.point_cloud import AmbientVariables, Cloud
-    from nag.interpolation.precise_samples import SourceError, source_of_component
 
     if point is not None and component is not None:
         raise NagError("point: component names one already; give one of the two")
-    check = None if point is None else partial(_point, point)
-    found, points = _find_in(given, run, formulation, check=check)
-    if point is not None:
-        component = _number_through(found, _point(point, found.system, points), run)
+    given = asked_of_component(given, component, formulation)
+    chosen = choose_component(given, component, point, run)
+    names = onto.split(",") if isinstance(onto, str) else onto
+    system = chosen.cloud.ambient.system
+    places = None if names is None else place_variables([n.strip() for n in names], system)
+    return eliminate_component(chosen.cloud, chosen.alike, places, degree, polynomial, run.tell)
+
+
+@dataclass(frozen=True, eq=False)
+class ChosenComponent:
+    """A component whose equations are asked for.
+
+    Attributes:
+        cloud: its points, as many as are asked for, in the variables that equations may be in.
+        place: the point that it was reached from, in words; empty where it has a number.
+        number: of the component among those that were found, from 1; 0 where none were.
+        found: the components, if they were found.
+    """
+
+    cloud: Cloud
+    place: str = ""
+    number: int = 0
+    found: Decomposition | None = None
+
+    @property
+    def alike(self) -> dict[int, WitnessSet]:
+        """Components that may be conjugates of this one, by their numbers, this one first."""
+        return {} if self.found is None else list_alike(self.found, self.number)
+
+
+def asked_of_component(given: Any, component: int | None, formulation: str) -> Any:
+    """Components as they are given, else the problem in which one is asked about.
+
+    Raises:
+        nag.NagError: if a formulation is asked for of components.
+    """
+    one = is_a(given, "nag.witness.witness", "WitnessSet")
+    if one or is_a(given, "nag.witness.witness", "Decomposition"):
+        if formulation != "auto":
+            raise NagError("formulation: components are given; they are in one already")
+        return given
+    from nag.mechanism.problem import problem_of
+
+    formulation = formulation_of_component(given, component, formulation)
+    return problem_of(given, formulation=formulation)
+
+
+def formulation_of_component(given: Any, component: int | None, formulation: str) -> str:
+    """Euler parameters of a mechanism, unless a formulation is asked for.
+
+    A component's number is that of `decompose`, and stands for its formulation.
+    """
+    if formulation != "auto" or component is not None:
+        return formulation
+    mechanism = getattr(given, "mechanism", None) if is_a(given, *DESCRIPTIONS[0]) else given
+    return "E" if is_a(mechanism, *DESCRIPTIONS[1]) else "auto"
+
+
+def choose_component(given: Any, component: int | None, point: Any, run: Run) -> ChosenComponent:
+    """The component with a number, or through a point, as `eliminate` takes them.
+
+    Args:
+        given: components, or a problem: what `asked_of_component` returns.
+
+    Raises:
+        nag.NagError: if there is none, or more than one through the point.
+    """
+    from nag.interpolation.point_cloud import Cloud
+    from nag.interpolation.precise_samples import SourceError, source_of_component
+
+    rng = run.random(4)
+    problem = given if is_a(given, "nag.mechanism.problem", "Problem") else None
+    at: Sequence[Number | complex] | None = None
+    if problem is not None:
+        if component is None and point is None and problem.mechanism is not None:
+            point = "reference" if "reference" in _points(problem) else None
+        if point is not None:
+            at = _point_on(problem, point, run)
+            reached = _reach_component(problem, point, at, rng, run)
+            if reached is not None:
+                return reached
+        found = find_components(problem, run)
+    else:
+        found = find_components(given, run)
+        if point is not None:
+            at = _point(point, found.system, {})
+    if at is not None:
+        component = _number_through(found, at, run)
     component = 1 if component is None else component
     chosen = component_numbered(found, component)
     if not chosen.dimension:
         raise SourceError("the component is a point; there is nothing to eliminate from")
-    names = onto.split(",") if isinstance(onto, str) else onto
-    places = None if names is None else place_variables([n.strip() for n in names], found.system)
+    ambient = ambient_variables(found.system if problem is None else problem)
     source = source_of_component(found.system, chosen)
-    cloud = Cloud(source, AmbientVariables.itself(found.system), run.random(4), run)
-    alike = list_alike(found, component)
-    return eliminate_component(cloud, alike, places, degree, polynomial, run.tell)
+    return ChosenComponent(Cloud(source, ambient, rng, run), "", component, found)
+
+
+def _point_on(problem: Problem, point: Any, run: Run) -> tuple[Number | complex, ...]:
+    """A point in the variables of the equations, where it is given in all of a mechanism's.
+
+    Raises:
+        nag.NagError: if it is no solution, and not the rounding of one.
+    """
+    from nag.numerics.local_dimension import NoSolution, local_dimension_near
+
+    points, ambient = _points(problem), ambient_variables(problem)
+    # Points that have a name are in the variables that linear equations left.
+    named = isinstance(point, str) and point in points
+    system = problem.system if named else ambient.system
+    at = points[point] if named else _point(point, system, points)
+    if any(f(at) != 0 for f in system.polynomials):
+        try:
+            local_dimension_near(system, at, seed=run.seed)
+        except NoSolution:
+            raise NagError("point: it does not satisfy the equations") from None
+    return at if named else tuple(at[i] for i in ambient.kept)
+
+
+def _reach_component(
+    problem: Problem,
+    point: Any,
+    at: Sequence[Number | complex],
+    rng: np.random.Generator,
+    run: Run,
+) -> ChosenComponent | None:
+    """The component through an exact point that is regular; None if the point is not exact.
+
+    Raises:
+        nag.NagError: if it is exact and not regular.
+    """
+    from nag.interpolation.point_cloud import Cloud
+    from nag.interpolation.precise_samples import SourceError, source_at
+
+    exact = [x for x in at if not isinstance(x, complex)]
+    if len(exact) < len(at) or any(f(exact) != 0 for f in problem.system.polynomials):
+        return None
+    name = point if isinstance(point, str) else ""
+    try:
+        source = source_at(problem.system, exact, rng)
+    except SourceError as error:
+        what = "the reference configuration" if name == "reference" else "point"
+        reason = str(error).replace("the point is", "it is").removesuffix("; name a component")
+        raise NagError(f"{what}: {reason}; name a component by its number") from None
+    cloud = Cloud(source, ambient_variables(problem), rng, run)
+    return ChosenComponent(cloud, name or "the point")
+
+
+def ambient_variables(given: Problem | PolynomialSystem) -> AmbientVariables:
+    """All variables of a mechanism, where linear equations left only some in its system."""
+    from nag.interpolation.point_cloud import AmbientVariables
+
+    if not is_a(given, "nag.mechanism.problem", "Problem"):
+        return AmbientVariables.itself(given)
+    made = given.mechanism
+    elimination = None if made is None else getattr(made.form, "elimination", None)
+    if elimination is None or elimination.system.variables != given.system.variables:
+        return AmbientVariables.itself(given.system)
+    names, kept = elimination.original_variables, elimination.kept
+    return AmbientVariables.of(given.system, names, kept, elimination.images)
 
 
 def _number_through(found: Decomposition, at: Sequence[Number | complex], run: Run) -> int:
@@ -1128,7 +1277,7 @@ def _number_through(found: Decomposition, at: Sequence[Number | complex], run: R
         said = f"it lies on components {on}" if on else "it lies on no component"
         if located.open:
             said = "it is not known which components it lies on"
-        raise NagError(f"point: {said}; give component, the number of one")
+        raise NagError(f"point: {said}; name a component by its number")
     return located.numbers[0]
 
 

@@ -565,7 +565,7 @@ def test_commands_take_complex_points(
     ("point", "said"),
     [
         ("q", "the component is a point; there is nothing to eliminate from"),
-        ("x = 1, y = i", "--at: the point lies on no component; name a --component"),
+        ("x = 1, y = i", "--at: it does not satisfy the equations"),
         ("r", "has no point 'r'; it has 'on the line', 'q'"),
     ],
 )

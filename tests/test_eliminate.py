@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from systems import system
 
+import nag
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.groebner import Ideal, ideal_of
 from nag.algebra.number import cosine, square_root
@@ -21,6 +22,7 @@ from nag.files.json_schema import schema
 from nag.interpolation.image_ideal import image_ideal
 from nag.interpolation.point_cloud import AmbientVariables, Cloud
 from nag.interpolation.precise_samples import SourceError, source_at
+from nag.questions import ambient_variables
 from nag.symbolic import bennett, bricard
 from nag.tracking.run import Run
 from tests.linkages import CASES, exact
@@ -338,6 +340,40 @@ def test_too_many_monomials_are_refused_before_they_are_made(tmp_path, capsys) -
     assert main(argv) == 1
     out = " ".join(capsys.readouterr().out.split())
     assert "open 496 monomials of degree up to 2 in 30 variables are more than 400" in out
+
+
+def test_the_function_answers_as_the_command_does(tmp_path) -> None:
+    case = CASES / "bennett.toml"
+    for words, named in [
+        ((), {}),
+        (("--component", "1"), {"component": 1}),
+        (("--formulation", "H"), {"formulation": "H"}),
+        (("--at", "reference", "--formulation", "H"), {"point": "reference", "formulation": "H"}),
+    ]:
+        said = eliminated(tmp_path, str(case), *words)
+        found = nag.eliminate(case, **named).document()
+        assert found == {name: said[name] for name in found}
+    # A mechanism, its case and its file are one and the same.
+    mechanism = nag.read_case(case).mechanism
+    assert nag.eliminate(mechanism).document() == nag.eliminate(case).document()
+
+
+def test_a_point_is_given_in_all_variables_of_a_mechanism() -> None:
+    problem = nag.problem(CASES / "bennett.toml", formulation="E")
+    whole = ambient_variables(problem)
+    at = dict(
+        zip(whole.system.variables, (f(problem.reference) for f in whole.images), strict=True)
+    )
+    assert len(at) == 12 and problem.system.n == 8
+    through = nag.eliminate(problem, point=at)
+    assert through.document() == nag.eliminate(problem, point="reference").document()
+    with pytest.raises(nag.NagError, match="point: it does not satisfy the equations"):
+        nag.eliminate(problem, point=at | {"a0": 2})
+
+
+def test_a_rounded_point_is_looked_for_on_all_components() -> None:
+    found = nag.eliminate("(x^2 + y^2 - 1)*(x - y)", "x, y", point=(0.28, 0.96))
+    assert found.equations == ("x^2 + y^2 - 1",)
 
 
 def test_an_unknown_variable_of_a_mechanism_names_the_formulation(capsys) -> None:

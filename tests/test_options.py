@@ -46,6 +46,7 @@ RENAMED = {
     ("mobility", "components"): "detail",
     ("mobility", "curves"): "detail",
     ("plot", "out"): "path",
+    ("model", "from"): "format",  # its --format is that of what it writes
 }
 # A model tracks no paths, and is made within its bounds of work.
 TRACKS_NOTHING = {("model", "time_limit")}
@@ -102,6 +103,8 @@ def keywords_of(command: str) -> set[str]:
     return {*names}
 
 
+# Commands that take no case: an export, or nothing that is read.
+WITHOUT_CASES = {"certify", "init", "bench", "chart", "completion"}
 ASKED = [name for name, *_ in COMMANDS if name not in TERMINAL]
 
 
@@ -143,6 +146,13 @@ def test_a_keyword_is_an_option_of_the_same_name(command: str) -> None:
     apart |= {each.name for each in fields(nag.Run)} if "seed" not in asked else set()
     apart |= {"formulation"} if command in ("certify", "family") else set()
     assert keywords_of(command) - asked <= apart
+
+
+@pytest.mark.parametrize("command", [name for name, *_ in COMMANDS if name not in WITHOUT_CASES])
+def test_a_file_is_read_in_the_same_way_by_every_command(command: str) -> None:
+    renamed = {old for (of, old), new in RENAMED.items() if of == command and new in FILE_OPTIONS}
+    assert {*FILE_OPTIONS} <= options_of(command)
+    assert renamed == ({"from"} if command == "model" else set())
 
 
 @pytest.mark.parametrize("command", ASKED)

@@ -302,6 +302,7 @@ HELD = ["--hold", "l7", "--at", ", ".join(f"{joint} = {v}" for joint, v in ELBOW
         (["decompose"], 0, "8 components of dimension 0"),
         (["motion", "--circuit", "all"], 2, "does not move"),
         (["modes"], 2, "3 legs"),
+        (["local"], 0, "isolated, of multiplicity 1"),
     ],
 )
 def test_commands_take_robots_with_their_hands_held(
@@ -313,6 +314,33 @@ def test_commands_take_robots_with_their_hands_held(
 ) -> None:
     path = str(written(tmp_path, UR5))
     assert main([words[0], path, *words[1:], *HELD]) == status
+    shown = capsys.readouterr()
+    assert said in shown.out + shown.err
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (["local"], 0, "reference: x_j1 = -3/7, x_j2 = 5/9"),
+        (["member"], 0, "on 1 of 2 components; local dimension 0"),
+        (["sample", "--count", "1"], 0, "dimension 0, degree 1"),
+        (["singular"], 0, "no singular points"),
+        (["intersect", "--components", "1", "2"], 0, "they do not meet"),
+        (["eliminate"], 2, "there is nothing to eliminate from"),
+        (["eliminate", "--component", "3"], 2, "--component: 3: there are components 1 to 2"),
+        (["show"], 0, "5 bodies"),
+    ],
+)
+def test_components_and_points_are_asked_of_robots_that_stand_somewhere(
+    words: list[str],
+    status: int,
+    said: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    path = str(written(tmp_path, SCARA))
+    held = ["--hold", "l4", "--at", "j2 = pi/3", "--at", "j4 = 0.1"]
+    assert main([words[0], path, *words[1:], *held]) == status
     shown = capsys.readouterr()
     assert said in shown.out + shown.err
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -116,8 +117,10 @@ def _setting(text: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
-def add_case(parser: argparse.ArgumentParser) -> None:
-    """The case file and the formulation of its model."""
+def add_case(
+    parser: argparse.ArgumentParser, at: str = "", format_option: str = "--format"
+) -> None:
+    """The case file, how it is read as of `add_reading`, and the formulation of its model."""
     parser.add_argument(
         "case",
         metavar="CASE",
@@ -125,59 +128,112 @@ def add_case(parser: argparse.ArgumentParser) -> None:
         "HomotopyContinuation.jl, or of one polynomial a line; or a robot in URDF or MJCF",
     )
     add_formulation(parser)
-    add_parameters(parser)
+    add_reading(parser, at, format_option)
 
 
-def add_robot(parser: argparse.ArgumentParser, at: str = "") -> None:
-    """How a robot in URDF or MJCF stands, and what of it is held.
+def add_reading(
+    parser: argparse.ArgumentParser, at: str = "", format_option: str = "--format"
+) -> None:
+    """How a file is read, the same for every command that takes one: see `read_given_case`.
 
     Args:
-        at: what else ``--at`` gives in this command, in words that end in "; ".
+        at: what ``--at`` gives where the file is no robot, in words; without them nothing.
+        format_option: what the file's format is called where ``--format`` is that of another.
     """
-    _of_the_case(parser).add_argument(
+    from nag.files.formats import READ
+
+    group = _of_the_case(parser)
+    group.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        type=_setting,
+        metavar="NAME=VALUE",
+        help="another value of a parameter of the case, a number or an expression; may be repeated",
+    )
+    group.add_argument(
+        format_option,
+        dest="format",
+        choices=("auto", *READ),
+        default="auto",
+        help="format of the file (default: told by its content)",
+    )
+    group.add_argument(
         "--hold",
         metavar="LINK",
         action="append",
         default=[],
         help="of a robot in URDF or MJCF: this link is fixed to the ground; may be repeated",
     )
-    (parser if at else _of_the_case(parser)).add_argument(
+    (parser if at else group).add_argument(
         "--at",
+        dest="at" if at else "stance",
         metavar="VALUES",
-        action="append",
-        help=f"{at}of a robot in URDF or MJCF where its joints stand, 'J = pi/3, K = 0.2' in "
-        "radians and lengths, the others at 0; may be repeated",
+        action=_Joined,
+        help=f"{at}{'; ' if at else ''}of a robot in URDF or MJCF where its joints stand, "
+        "'J = pi/3, K = 0.2' in radians and lengths, the others at 0; may be repeated",
     )
 
 
-def robot_values(options: argparse.Namespace) -> dict[str, str] | None:
+class _Joined(argparse.Action):
+    """An option whose texts are parts of one list with commas."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        option: str | None = None,
+    ) -> None:
+        before = getattr(namespace, self.dest)
+        setattr(namespace, self.dest, values if before is None else f"{before}, {values}")
+
+
+def settle_stance(options: argparse.Namespace) -> None:
+    """Where the file is a robot, let ``--at`` say where its joints stand, and no point."""
+    if getattr(options, "at", None) is None or "hold" not in options:
+        return
+    from nag.files.cases import is_robot
+
+    # Of a file that cannot be read the command says so.
+    with contextlib.suppress(OSError):
+        if is_robot(options.case, options.format):
+            options.stance, options.at = options.at, None
+
+
+def _joint_values(text: str | None) -> dict[str, str] | None:
     """The values of a robot's joints that ``--at`` gives.
 
     Raises:
         UsageError: if it is no list of names and values.
     """
-    given = getattr(options, "at", None)
-    if not isinstance(given, list):
+    if text is None:
         return None
     values: dict[str, str] = {}
-    for part in ", ".join(given).split(","):
-        name, equals, value = (text.strip() for text in part.partition("="))
+    for part in text.split(","):
+        name, equals, value = (piece.strip() for piece in part.partition("="))
         if not equals or name in values:
             raise UsageError(f"--at: {part.strip()[:40]!r}: write 'JOINT = value', each joint once")
         values[name] = value
     return values
 
 
-def add_format(parser: argparse.ArgumentParser) -> None:
-    """The format of the case's file."""
-    from nag.files.formats import READ
+def refuse_reading(options: argparse.Namespace) -> None:
+    """Refuse what is said of how a case is read, where an export is given.
 
-    _of_the_case(parser).add_argument(
-        "--format",
-        choices=("auto", *READ),
-        default="auto",
-        help="format of the file (default: told by its content)",
-    )
+    Raises:
+        UsageError: if anything is.
+    """
+    given = {
+        "--formulation": getattr(options, "formulation", None) is not None,
+        "--set": bool(options.set),
+        "--format": options.format != "auto",
+        "--hold": bool(options.hold),
+        "--at": getattr(options, "stance", None) is not None,
+    }
+    for option, is_given in given.items():
+        if is_given:
+            raise UsageError(f"{options.case}: is an export; {option} is for cases")
 
 
 # Circuits that may be asked for by their number.
@@ -209,18 +265,6 @@ class StoreOnce(argparse.Action):
         if getattr(namespace, self.dest) is not None:
             raise argparse.ArgumentError(self, "is given twice; one is looked at at a time")
         setattr(namespace, self.dest, values)
-
-
-def add_parameters(parser: argparse.ArgumentParser) -> None:
-    """Other values of the case's parameters."""
-    _of_the_case(parser).add_argument(
-        "--set",
-        action="append",
-        default=[],
-        type=_setting,
-        metavar="NAME=VALUE",
-        help="another value of a parameter of the case, a number or an expression; may be repeated",
-    )
 
 
 def add_formulation(parser: argparse.ArgumentParser) -> None:
@@ -341,13 +385,13 @@ def read_case_file(
 
 
 def read_given_case(options: argparse.Namespace) -> Case:
-    """The case that the options of `add_case`, `add_format` and `add_robot` give."""
+    """The case that the options of `add_reading` give."""
     return read_case_file(
         options.case,
-        getattr(options, "set", ()),
-        getattr(options, "format", "auto"),
-        getattr(options, "hold", ()),
-        robot_values(options),
+        options.set,
+        options.format,
+        options.hold,
+        _joint_values(getattr(options, "stance", None)),
     )
 
 

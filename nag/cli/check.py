@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_parameters, add_running, read_case_file
+from nag.cli.arguments import UsageError, add_reading, add_running, read_given_case
 from nag.cli.running import CommandAnswer, Progress, chosen_run, document_head, name_case, run_row
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "case", metavar="CASE", nargs="?", help="case file (TOML) of a mechanism of the papers"
     )
     parser.add_argument("--all", action="store_true", help="all statements of both papers")
-    add_parameters(parser)
+    add_reading(parser)
     add_running(parser)
 
 
@@ -30,7 +30,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError("give either a case file or --all, and not both")
     if options.all and options.set:
         raise UsageError("--set: is for a case file")
-    case = None if options.all else read_case_file(options.case, options.set)
+    case = None if options.all else read_given_case(options)
     sections = _sections(case, options)
     decided = [(title, _decide(title, rows, options.progress)) for title, rows in sections]
 

@@ -9,8 +9,6 @@ from nag.cli.arguments import (
     UsageError,
     add_case,
     add_certify,
-    add_format,
-    add_robot,
     add_running,
     only_assembled,
     read_problem,
@@ -38,8 +36,6 @@ def _starts(text: str) -> int:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag decompose``."""
     add_case(parser)
-    add_robot(parser)
-    add_format(parser)
     add_running(parser)
     add_certify(parser)
     parser.add_argument(

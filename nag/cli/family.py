@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
     UsageError,
-    add_format,
-    add_parameters,
+    add_reading,
     add_running,
     add_start,
     error_in_file,
-    read_case_file,
+    read_given_case,
 )
 from nag.cli.running import (
     CommandAnswer,
@@ -38,8 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "case", metavar="CASE", help="case file (TOML) with a [family], or any system"
     )
-    add_format(parser)
-    add_parameters(parser)
+    add_reading(parser)
     parser.add_argument(
         "--values",
         required=True,
@@ -92,7 +90,7 @@ def _family_by_columns(options: argparse.Namespace, case: Case) -> Family:
 
 def run(options: argparse.Namespace) -> CommandAnswer:
     """All isolated solutions of many members."""
-    case = read_case_file(options.case, options.set, options.format)
+    case = read_given_case(options)
     from nag.errors import StartError
     from nag.files.member_values import read_member_values
     from nag.solving.family_members import check_values, solve_members

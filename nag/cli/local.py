@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_case, add_running, read_problem
 from nag.cli.running import CommandAnswer, answer_of, chosen_run, name_case
-from nag.cli.witness_input import Points, add_point, chosen_point
+from nag.cli.witness_input import POINT_AT, Points, add_point, chosen_point
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
@@ -21,7 +21,7 @@ FORMAT = "nag-local-dimension"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag local`` has besides those of every command that runs a case."""
-    add_case(parser)
+    add_case(parser, POINT_AT)
     add_running(parser)
     add_point(parser, " (default: all points)")
     parser.add_argument(

@@ -9,6 +9,7 @@ from nag.cli.arguments import UsageError
 from nag.cli.running import CommandAnswer, answer_of, chosen_run
 from nag.cli.witness_input import (
     ONE_POINT,
+    POINT_AT,
     add_input,
     add_point,
     chosen_point,
@@ -25,8 +26,8 @@ FORMAT = "nag-membership"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag member`` has besides those of every command that runs a case."""
-    add_input(parser)
-    add_point(parser)
+    add_input(parser, POINT_AT)
+    add_point(parser, " (default: the only one that has a name)")
 
 
 def run(options: argparse.Namespace) -> CommandAnswer:
@@ -35,7 +36,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.text.table import align
     from nag.witness.membership import locate_point
 
-    if (options.point is None) == (options.at is None):
+    if options.point is not None and options.at is not None:
         raise UsageError(ONE_POINT)
     found = with_tested_traces(
         read_components(options, lambda *known: chosen_point(options, *known))
@@ -50,7 +51,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         ("equations", _equations_text(located)),
         ("answer", _answer_text(located)),
     ]
-    tail = doubt_rows(found)
+    tail = doubt_rows(found.decomposition)
     if located.open:
         numbers = ", ".join(map(str, located.open))
         tail.append(("open", f"membership could not be decided for component {numbers}"))

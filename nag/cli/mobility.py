@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING, Any
 from nag.cli.arguments import (
     UsageError,
     add_case,
-    add_robot,
     add_running,
     budget_seconds,
     error_in_file,
     problem_of_case,
-    read_case_file,
     read_given_case,
 )
 from nag.cli.running import (
@@ -45,15 +43,14 @@ WIDTH = len("components")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag mobility`` has besides those of every command that runs a case."""
-    add_case(parser)
-    add_running(parser)
-    add_robot(
+    add_case(
         parser,
         "a configuration in the variables of `nag model`: 'c1 = 3/5, s1 = 4/5', all of them, "
         "where a rounded one stands for the configuration next to it "
         "(default: the reference configuration; of parts that are not assembled a general one); of "
-        "a framework in the plane the points' x_P and y_P, the first bar from (0, 0) to (1, 0); ",
+        "a framework in the plane the points' x_P and y_P, the first bar from (0, 0) to (1, 0)",
     )
+    add_running(parser)
     how_far = parser.add_mutually_exclusive_group()
     how_far.add_argument(
         "--local",
@@ -246,7 +243,7 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
     from nag.mechanism.mobility_at import check_body, product_of_loops, tree_of
     from nag.mechanism.problem import in_real_coordinates
 
-    case = _read_case(options)
+    case = read_given_case(options)
     try:
         check_body(options.of, case.mechanism or case.assembly)
     except NagError as error:
@@ -278,19 +275,6 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
                 f"{options.case}: its parts are not assembled: give --at, or leave out --local"
             )
     return case, problem
-
-
-def _read_case(options: argparse.Namespace) -> Case:
-    """The case; what is given of a robot's joints is part of it, and `options.at` None then."""
-    from nag.files.cases import is_robot
-
-    if is_robot(options.case):
-        case = read_given_case(options)
-        options.at = None
-        return case
-    if options.at is not None:
-        options.at = ", ".join(options.at)
-    return read_case_file(options.case, options.set, hold=options.hold)
 
 
 def _detail(options: argparse.Namespace) -> Detail:

@@ -9,7 +9,6 @@ from nag.cli.arguments import (
     add_case,
     add_json,
     add_quiet,
-    add_robot,
     read_problem,
 )
 from nag.cli.running import CommandAnswer, document_head, name_case
@@ -20,8 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag model``."""
     from nag.files.formats import WRITTEN
 
-    add_case(parser)
-    add_robot(parser)
+    add_case(parser, format_option="--from")
     add_json(parser)
     add_quiet(parser)
     parser.add_argument(

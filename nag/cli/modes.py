@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
     StoreOnce,
-    add_parameters,
-    add_robot,
+    add_reading,
     add_running,
     budget_seconds,
     error_in_file,
@@ -28,8 +27,7 @@ FORMAT = "nag-operation-modes"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag modes`` has besides those of every command that runs a case."""
     parser.add_argument("case", metavar="CASE", help="case file (TOML), or a robot in URDF or MJCF")
-    add_parameters(parser)
-    add_robot(parser)
+    add_reading(parser)
     add_running(parser)
     parser.add_argument(
         "--platform",

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 from nag.cli.arguments import (
     UsageError,
     add_case,
-    add_robot,
     add_running,
     error_in_file,
     parse_circuit,
@@ -45,7 +44,6 @@ MOST_SAMPLES = 100_000
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag motion`` has besides those of every command that runs a case."""
     add_case(parser)
-    add_robot(parser)
     add_running(parser)
     parser.add_argument(
         "--circuit",

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 from nag.cli.arguments import (
     UsageError,
     add_formulation,
-    add_parameters,
-    add_robot,
+    add_reading,
     add_tracking,
     parse_circuit,
     problem_of_case,
@@ -41,8 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "case", metavar="EXPORT_OR_CASE", help="export of `nag decompose --json`, or case file"
     )
     add_formulation(parser)
-    add_parameters(parser)
-    add_robot(parser)
+    add_reading(parser)
     add_tracking(parser)
     parser.add_argument(
         "--onto",
@@ -151,7 +149,7 @@ def _of_components(options: argparse.Namespace, kind: str) -> CommandAnswer:
     picture = plot_components(
         answer, kind, options.onto, found.title, options.out, chosen_run(options), chosen
     )
-    return _drawn(options, found.case, picture, doubt_rows(found))
+    return _drawn(options, found.case, picture, doubt_rows(found.decomposition))
 
 
 def _of_mechanism(options: argparse.Namespace, kind: str) -> CommandAnswer:

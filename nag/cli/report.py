@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_case, add_robot, add_running, read_problem
+from nag.cli.arguments import UsageError, add_case, add_running, read_problem
 from nag.cli.running import CommandAnswer, chosen_run, run_row, write_document
 from nag.errors import NagError
 
@@ -23,7 +23,6 @@ BYTES_IN_A_MEGABYTE = 1_000_000
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag report`` has besides those of every command that runs a case."""
     add_case(parser)
-    add_robot(parser)
     add_running(parser)
     parser.add_argument(
         "--html",

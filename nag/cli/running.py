@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
-from nag.cli.arguments import UsageError
+from nag.cli.arguments import UsageError, settle_stance
 from nag.numerics.linear_algebra_threads import VARIABLES
 from nag.text.progress import stage_name
 from nag.text.progress_line import ERASE, INTERVAL, ProgressLine, can_erase, progress_line
@@ -141,6 +141,7 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
         nag.NagError: as the command does.
     """
     begin(options)
+    settle_stance(options)
     forget_unfinished(options)
     told = write
     if getattr(options, "json", None) == STANDARD_OUTPUT:

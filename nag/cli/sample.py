@@ -65,7 +65,9 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     blocks = [numbered_row(options.component, component)], table
     # A point of a component needs no other component to be known.
     complete = str(component.status) == "irreducible" and not doubt
-    return answer_of(options, found.case, blocks, [*tail, *doubt_rows(found)], fields, complete)
+    return answer_of(
+        options, found.case, blocks, [*tail, *doubt_rows(found.decomposition)], fields, complete
+    )
 
 
 def _draw(

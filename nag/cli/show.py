@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_format, add_parameters, read_given_case
+from nag.cli.arguments import add_reading, read_given_case, refuse_reading
 from nag.cli.running import CommandAnswer
 from nag.cli.witness_input import is_export
 
@@ -67,8 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="case file, system in another program's format, or what a command wrote with --json",
     )
-    add_format(parser)
-    add_parameters(parser)
+    add_reading(parser)
 
 
 def run(options: argparse.Namespace) -> CommandAnswer:
@@ -97,8 +96,7 @@ def _describe(
     path = options.case
     if not is_export(path):
         return _describe_case(read_given_case(options))
-    if options.set:
-        raise UsageError(f"{path}: is an export; --set is for cases")
+    refuse_reading(options)
     from nag.questions import read
 
     found = read(path)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, read_case_file
+from nag.cli.arguments import UsageError, read_given_case
 from nag.cli.running import (
     CommandAnswer,
     answer_document,
@@ -81,7 +81,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     fields = fields_of(locus)
     known = [*early, *locus.rows(len(whole.components))]
     blocks = [known, *(one.rows(variables) for one in locus.sets)]
-    tail = [("open", note) for note in locus.notes] + doubt_rows(found)
+    tail = [("open", note) for note in locus.notes] + doubt_rows(found.decomposition)
     tail.append(("paths", paths_text(locus.paths)))
     complete = locus.complete and whole.complete
     return answer_of(options, found.case, blocks, tail, fields, complete, width=WIDTH)
@@ -108,7 +108,7 @@ def _for_parameters(options: argparse.Namespace) -> CommandAnswer:
     for name, _ in options.set:
         if name in names:
             raise UsageError(f"--set {name}: is an unknown by --free; give it no value")
-    case = read_case_file(options.case, options.set)
+    case = read_given_case(options)
     system = freed_system(case, names)
     if system.imaginary:
         raise UsageError(f"{options.case}: --free: is for cases with real coefficients")

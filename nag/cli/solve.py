@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any
 from nag.cli.arguments import (
     add_case,
     add_certify,
-    add_format,
-    add_robot,
     add_running,
     add_start,
     error_in_file,
@@ -33,8 +31,6 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag solve``."""
     add_case(parser)
-    add_robot(parser)
-    add_format(parser)
     add_running(parser)
     add_certify(parser)
     parser.add_argument(

@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING
 from nag.cli.arguments import (
     UsageError,
     add_formulation,
-    add_parameters,
+    add_reading,
     add_running,
     read_problem,
+    refuse_reading,
 )
 from nag.cli.running import chosen_run
 from nag.errors import NagError
@@ -30,6 +31,8 @@ ONE_POINT = (
     "which point? write either --at 'x = 1, y = 2', or the name of a point of the case behind the "
     "file"
 )
+# What `--at` is for, where a point is asked about.
+POINT_AT = "the point itself: 'x = 1/2, y = sqrt(3)/2', all variables; or its name"
 Points = Mapping[str, tuple["Number", ...]]
 Check = Callable[["PolynomialSystem", Points], object]
 
@@ -57,13 +60,17 @@ class ReadComponents:
         return self.title, self.file
 
 
-def add_input(parser: argparse.ArgumentParser) -> None:
-    """The export or case, which ``arguments.case`` holds, and how paths are tracked from it."""
+def add_input(parser: argparse.ArgumentParser, at: str = "") -> None:
+    """The export or case, which ``arguments.case`` holds, and how paths are tracked from it.
+
+    Args:
+        at: what ``--at`` gives where the file is no robot, as of `add_reading`.
+    """
     parser.add_argument(
         "case", metavar="EXPORT_OR_CASE", help="export of `nag decompose --json`, or case file"
     )
     add_formulation(parser)
-    add_parameters(parser)
+    add_reading(parser, at)
     add_running(parser)
 
 
@@ -101,11 +108,7 @@ def read_components(
     if is_export(options.case):
         from nag.files.export import read_export
 
-        if options.formulation is not None:
-            raise UsageError(f"{options.case}: is an export; --formulation is for cases")
-        if options.set or getattr(options, "hold", ()):
-            option = "--set" if options.set else "--hold"
-            raise UsageError(f"{options.case}: is an export; {option} is for cases")
+        refuse_reading(options)
         export = read_export(options.case)
         if check is not None:
             check(export.decomposition.system, {})
@@ -173,28 +176,27 @@ def with_tested_traces(found: ReadComponents) -> ReadComponents:
 
 
 def add_point(parser: argparse.ArgumentParser, otherwise: str = "") -> None:
-    """The arguments for a point: its name, or its coordinates."""
+    """The argument for the name of a point, where ``--at`` gives its coordinates."""
     parser.add_argument(
         "point",
         metavar="POINT",
         nargs="?",
         help=f"name of a point of the case; of a mechanism, 'reference'{otherwise}",
     )
-    parser.add_argument(
-        "--at",
-        metavar="VALUES",
-        help="the point itself: 'x = 1/2, y = sqrt(3)/2', all variables; or its name",
-    )
 
 
 def chosen_point(
     options: argparse.Namespace, system: PolynomialSystem, points: Points
 ) -> tuple[Number | complex, ...]:
-    """The point that the options of `add_point` name or spell.
+    """The point that `add_point`'s argument names or ``--at`` spells; else the only named one.
 
     Raises:
         UsageError: if there is none, or both options are given.
     """
+    if options.at is None and options.point is None:
+        if len(points) == 1:
+            return next(iter(points.values()))
+        raise UsageError(ONE_POINT)
     if options.at is None:
         return named_point(options.case, options.point, points)
     if options.point is not None:
@@ -291,8 +293,8 @@ def numbered_row(number: int, component: WitnessSet) -> tuple[str, str]:
     return "component", f"{kind}, {component.status}"
 
 
-def doubt_rows(found: ReadComponents) -> list[tuple[str, str]]:
+def doubt_rows(found: Decomposition) -> list[tuple[str, str]]:
     """What makes the decomposition itself incomplete, as labelled lines."""
-    if found.decomposition.complete:
+    if found.complete:
         return []
-    return [("open", f"the decomposition is incomplete: {'; '.join(found.decomposition.notes)}")]
+    return [("open", f"the decomposition is incomplete: {'; '.join(found.notes)}")]

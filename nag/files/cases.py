@@ -374,9 +374,12 @@ def parameter_table(path: Path, values: Mapping[str, Any]) -> CaseTable:
     return CaseTable(str(path), "", values).table("parameters")
 
 
-def is_robot(path: str | os.PathLike[str]) -> bool:
-    """Whether a file is one of a robot, by its content."""
-    return _format_of(Path(path), read_case_text(Path(path)), "auto") in ROBOTS
+def is_robot(path: str | os.PathLike[str], format: str = "auto") -> bool:
+    """Whether a file is one of a robot, by its format: if that is not given, by its content."""
+    text = read_case_text(Path(path))
+    # Exports are no cases of any format.
+    is_json = text.lstrip().startswith("{")
+    return not is_json and _format_of(Path(path), text, format) in ROBOTS
 
 
 def _robot_case(
