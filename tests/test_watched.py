@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -57,8 +59,13 @@ def is_alive(process: int) -> bool:
 
 def is_gone(process: int) -> bool:
     """Whether a process ends: it closes its pipes before it is gone. All stages take longer."""
+    return is_soon(lambda: not is_alive(process))
+
+
+def is_soon(true: Callable[[], object]) -> bool:
+    """Whether something comes true within seconds."""
     for _ in range(200):
-        if not is_alive(process):
+        if true():
             return True
         time.sleep(0.05)
     return False
@@ -174,3 +181,59 @@ def test_a_limit_is_a_positive_number(text, tmp_path) -> None:
     done = limited(tmp_path, f"--time-limit={text}")
     assert done.returncode == 2
     assert "is not a number above 0" in done.stderr and done.stderr.count("\n") == 1
+
+
+PROGRAM = """
+import contextlib, io, os, signal, sys, threading
+from nag.cli import main
+signal.signal(signal.SIGINT, signal.default_int_handler)
+threading.Thread(target=threading.Event().wait, daemon=True).start()
+printed = io.StringIO()
+with contextlib.redirect_stdout(printed):
+    status = main(sys.argv[1:])
+sys.stdout.write(f"{os.getpid()} {status} {printed.getvalue().count(chr(10))}\\n")
+"""
+
+
+@pytest.mark.parametrize(("limit", "status"), [("100", 0), ("0.001", 1)])
+def test_a_program_that_calls_a_limited_command_is_not_forked(limit, status, tmp_path) -> None:
+    (tmp_path / "program.py").write_text(PROGRAM)
+    (tmp_path / "lines.txt").write_text("x*y\nx - y\n")
+    command = [sys.executable, str(tmp_path / "program.py"), "solve", str(tmp_path / "lines.txt")]
+    process = subprocess.Popen(
+        [*command, "--time-limit", limit, "--quiet"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    out, err = process.communicate(timeout=100)
+    # It goes on once, in its own process, and has what was printed.
+    assert out.splitlines() in (
+        [f"{process.pid} {status} {n}"] for n in ([0] if status else range(5, 20))
+    )
+    assert err.count("\n") == status
+
+
+def children_of(process: int) -> list[int]:
+    """The processes that one has started."""
+    with contextlib.suppress(FileNotFoundError):
+        text = Path(f"/proc/{process}/task/{process}/children").read_text()
+        return [int(child) for child in text.split()]
+    return []
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell of children")
+def test_an_interrupted_program_interrupts_the_command_that_it_called(tmp_path) -> None:
+    (tmp_path / "program.py").write_text(PROGRAM)
+    (tmp_path / "katsura.txt").write_text(katsura(13))
+    words = ["solve", str(tmp_path / "katsura.txt"), "--time-limit", "60", "--quiet"]
+    process = subprocess.Popen(
+        [sys.executable, str(tmp_path / "program.py"), *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert is_soon(lambda: [c for child in children_of(process.pid) for c in children_of(child)])
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=30)
+    assert out == f"{process.pid} 130 0\n" and err.startswith("nag: interrupted after ")

@@ -19,7 +19,7 @@ from importlib import import_module
 import nag
 from nag.cli.arguments import CommandHelp, Parser, UsageError
 from nag.cli.running import run_command
-from nag.cli.watched import leave_to_parent, work_in_child
+from nag.cli.watched import end_with, leave_to_parent, work_in_child, work_in_new_process
 from nag.errors import ComponentError, NagError
 
 COMPLETE, INCOMPLETE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -266,8 +266,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     Args:
         argv: the words; None for those that the process was started with, which then works in a
-            child, as it does within limits of time and memory. Other words are run in the calling
-            process, whose threads a child would not have.
+            child. Other words are run in the calling process, or within limits of time and memory
+            in a new one, for no child would have the caller's threads.
     """
     words = sys.argv[1:] if argv is None else list(argv)
     # A stream that was closed before the start is None.
@@ -290,11 +290,13 @@ def main(argv: Sequence[str] | None = None) -> int:
             _print()
             return COMPLETE
         limits = (getattr(arguments, name, None) for name in ("time_limit", "memory_limit"))
-        if argv is None or any(limit is not None for limit in limits):
+        if argv is None:
             status = work_in_child(arguments)
             if status is not None:
                 return status
             watched = "tell" in arguments
+        elif any(limit is not None for limit in limits):
+            return work_in_new_process(words)
         return _run(arguments)
     except KeyboardInterrupt:
         if watched:
@@ -308,6 +310,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         if watched:
             # What is done is not undone by an interruption of the interpreter's own end.
             signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def main_for(parent: int) -> int:
+    """`main` in a process that ends with the one that started it."""
+    end_with(parent)
+    return main()
 
 
 # What options for arguments of functions are called that have another name.

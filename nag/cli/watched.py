@@ -5,6 +5,9 @@ signal nor a thread is served meanwhile. So the process that was started forks b
 there, and before NumPy is loaded. The child works as if it were alone. The parent does nothing that
 takes time: it shows progress, watches time and memory, and takes signals. What is to end is asked
 to (SIGINT), and killed if it has not ended `GRACE` seconds later.
+
+A program that calls the command line has threads, and goes on afterwards: it is never forked. A
+command with limits of time or memory is started for it as a new process, which does all this.
 """
 
 from __future__ import annotations
@@ -16,8 +19,9 @@ import select
 import signal
 import sys
 import time
+from collections.abc import Sequence
 from types import FrameType
-from typing import TextIO
+from typing import IO, TextIO
 
 from nag.cli.arguments import UsageError
 from nag.cli.running import TellParent, forget_unfinished, take_unfinished
@@ -66,7 +70,7 @@ def work_in_child(options: argparse.Namespace) -> int | None:
     if child == 0:
         os.close(heard)
         os.close(acknowledging)
-        _end_with(parent)
+        end_with(parent)
         _take_one_interruption()
         options.tell = TellParent(telling, acknowledged)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, _ENDINGS)
@@ -76,12 +80,52 @@ def work_in_child(options: argparse.Namespace) -> int | None:
     return _Watch(options, child, heard, acknowledging, seconds, gigabytes).wait()
 
 
+def work_in_new_process(words: Sequence[str]) -> int:
+    """Run a command for a program that goes on, in a new process; the exit status.
+
+    What is printed there is written to this process's ``sys.stdout`` and ``sys.stderr``.
+    """
+    from subprocess import DEVNULL, PIPE
+    from threading import Thread
+
+    from nag.tracking.timed_call import start_python
+
+    start = f"from nag.cli.command_line import main_for; sys.exit(main_for({os.getpid()}))"
+    # As the text that is read from its pipes, whatever a terminal here takes.
+    coding = os.environ | {"PYTHONIOENCODING": "utf-8"}
+    process = start_python(start, *words, stdin=DEVNULL, stdout=PIPE, stderr=PIPE, env=coding)
+    assert process.stdout is not None and process.stderr is not None
+    pairs = (process.stdout, sys.stdout), (process.stderr, sys.stderr)
+    passing = [Thread(target=_pass_on, args=pair, daemon=True) for pair in pairs]
+    for each in passing:
+        each.start()
+    try:
+        status = process.wait()
+    except KeyboardInterrupt:
+        # It says why it ends, in time.
+        process.send_signal(signal.SIGINT)
+        status = process.wait()
+    finally:
+        process.kill()
+    for each in passing:
+        each.join()
+    return status if status >= 0 else 128 - status
+
+
+def _pass_on(source: IO[bytes], target: TextIO) -> None:
+    """Write what is read, as long as it is taken."""
+    with contextlib.suppress(OSError, ValueError):
+        for line in source:
+            target.write(line.decode(errors="replace"))
+            target.flush()
+
+
 def leave_to_parent() -> None:
     """End an interrupted child at once: the parent says what there is to say."""
     os._exit(INTERRUPTED)
 
 
-def _end_with(parent: int) -> None:
+def end_with(parent: int) -> None:
     """Let this process be killed when its parent dies, where the system can."""
     if sys.platform == "linux":
         import ctypes

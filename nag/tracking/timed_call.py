@@ -4,7 +4,8 @@ A call into FLINT, SciPy or compiled code holds the interpreter for as long as i
 thread or signal ends it. It is made in a new process, which tells of progress and of what it has
 found; that process is killed when the time is over. It is started anew and not forked, as forks of
 a process with threads may hang, and it does not import the caller's main module again, as the
-processes of `multiprocessing` do.
+processes of `multiprocessing` do. (A command in a process of its own forks before there are
+threads, which is cheaper: `nag.cli.watched`. Commands that a program calls are started as this is.)
 """
 
 from __future__ import annotations
@@ -27,10 +28,22 @@ from nag.errors import NagError, TimeLimitError
 if TYPE_CHECKING:
     from nag.tracking.run import Run
 
-_CHILD = (
-    "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); "
-    "from nag.tracking.timed_call import work; work()"
-)
+
+def start_python(statement: str, *words: str, **streams: Any) -> subprocess.Popen[bytes]:
+    """A new process of this Python that imports what this one does, and runs a statement.
+
+    Args:
+        words: its ``sys.argv[1:]``.
+        streams: as of `subprocess.Popen`.
+
+    Raises:
+        NagError: if this Python has no program that could be started.
+    """
+    if not sys.executable:
+        raise NagError("time_limit: this Python has no program to start; leave it out")
+    path = [os.fspath(folder) for folder in sys.path]
+    code = f"import sys; sys.path[:] = {path!r}; {statement}"
+    return subprocess.Popen([sys.executable, "-c", code, *words], **streams)
 
 
 def call_within(
@@ -56,10 +69,8 @@ def call_within(
     assert limit is not None
     deadline = time.monotonic() + limit
     sent = _payload(function, given, named, run)
-    if not sys.executable:
-        raise NagError("time_limit: this Python has no program to start; leave it out")
-    command = [sys.executable, "-c", _CHILD]
-    child = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    start = "from nag.tracking.timed_call import work; work()"
+    child = start_python(start, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert child.stdin is not None and child.stdout is not None
     heard: queue.SimpleQueue[tuple[str, Any] | None] = queue.SimpleQueue()
     threading.Thread(target=_send, args=(child.stdin, sent), daemon=True).start()
@@ -102,10 +113,9 @@ def _payload(
     plain = replace(run, time_limit=None, progress=None, found=None)
     asked = (function.__module__, function.__qualname__, tuple(given), dict(named), plain)
     try:
-        call = pickle.dumps((*asked, run.progress is not None))
+        return pickle.dumps((*asked, run.progress is not None))
     except (pickle.PicklingError, AttributeError, TypeError) as error:
         raise NagError(f"time_limit: what is given cannot be sent to a process: {error}") from None
-    return pickle.dumps(sys.path) + call
 
 
 def _send(stream: BinaryIO, data: bytes) -> None:
