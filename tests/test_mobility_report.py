@@ -427,3 +427,30 @@ def test_a_regular_reference_of_what_is_kinematotropic_leads_on(
     assert main(["mobility", path, "--quiet", "--local"]) == 0
     said = capsys.readouterr().out
     assert ("elsewhere   motions with 1 and 2 freedoms are known of it" in said) is leads
+
+
+@pytest.mark.parametrize(
+    ("name", "first", "before"),
+    [
+        (
+            "bennett",
+            "mobility    overconstrained: it moves with 1 freedom, though counting",
+            "counted",
+        ),
+        (
+            "planar/kinematotropic-crank",
+            "so far      it moves with 2 freedoms at the most; the configuration is singular",
+            "mobility    kinematotropic point: it moves with 2 freedoms, though counting predicts 1",
+        ),
+        ("shaky/triangle-stretched", "mobility    shaky: ", "counted"),
+    ],
+)
+def test_what_was_asked_is_the_first_line_and_in_python_the_answer(
+    name: str, first: str, before: str, capsys
+) -> None:
+    path = str(CASES / f"{name}.toml")
+    assert main(["mobility", path, "--quiet"]) == 0
+    title, empty, said, *others = capsys.readouterr().out.splitlines()
+    assert title and not empty and said.startswith(first)
+    assert any(line.startswith(before) for line in others)
+    assert str(nag.mobility(path)).startswith("mobility    ")

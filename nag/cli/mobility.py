@@ -114,13 +114,21 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     at = None if options.at is None else real_point_at(options.at, problem.system)
     others = iter(()) if problem is None or not options.check else _other_equations(problem, at)
     here = at or (None if problem is None else problem.reference)
+    from nag.mechanism.mobility_report import is_so_far
 
     def document_of(early: MobilityReport) -> dict[str, Any]:
         return answer_document(options, name_case(case), _fields(options, early, here), False)
 
+    said: list[tuple[str, str]] = []
     for report in _reports(options, problem or case, at, chosen_run(options, document_of)):
-        say_first(options, name_case(case), report.early_rows(), WIDTH)
-    rows = [*report.rows(), *_unsaid_rows(options, report)]
+        # At once there is nothing to say before the answer.
+        if not options.local and not is_so_far(said):
+            said = report.early_rows()
+            say_first(options, name_case(case), said, WIDTH)
+    rows = report.rows()
+    if is_so_far(said):
+        rows = [*said, *(row for row in rows if row not in said)]
+    rows += _unsaid_rows(options, report)
     known_of = report.body_text is not None or report.local_dimension == 0
     complete = options.of is None or known_of
     complete &= report.complete

@@ -8,7 +8,7 @@ References:
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import zip_longest
@@ -24,6 +24,8 @@ from nag.witness.witness import WitnessSet
 
 # What must be the same of components in two formulations.
 Alike = Literal["dimensions", "counts", "degrees"]
+# The label of what is known before the answer is.
+SO_FAR = "so far"
 # What components are known by where the poses of a robot's platform stand for all configurations.
 ALL_POSES = "the platform's poses, in whose coordinates degrees count: all legs are regular there"
 
@@ -319,11 +321,9 @@ class MobilityReport:
         return "\n".join(f"{label.ljust(10)}  {text}" for label, text in self.rows())
 
     def rows(self) -> list[tuple[str, str]]:
-        """Labelled lines: those that are known early, components, and a line for each curve."""
-        early = self.early_rows()
+        """Labelled lines: what was asked, what it rests on, and what passes through."""
         return [
-            *early,
-            *(row for row in self._meaning_rows() if row not in early),
+            *self._final_rows(),
             ("components", _components_text(self)),
             *(("curve", str(curve)) for curve in self.curves),
         ]
@@ -331,13 +331,17 @@ class MobilityReport:
     def early_rows(self) -> list[tuple[str, str]]:
         """Those of these lines that no component is needed for, what was asked first.
 
-        At a singular configuration that moves what the numbers mean depends on the components.
+        At a singular configuration that moves what the numbers mean depends on the components:
+        there the first line says what is known before, and the answer follows when it is.
         """
         alone = self.general is not None or self.local is None or self.local.smooth
         if alone or (self.local is not None and self.local.upper == 0):
-            (sentence, *rest) = self._meaning_rows()
-            return [sentence, *self._local_rows(), *rest]
-        return self._local_rows()
+            return self._final_rows()
+        return [(SO_FAR, _known_so_far(self)), *self._local_rows()]
+
+    def _final_rows(self) -> list[tuple[str, str]]:
+        (sentence, *rest) = self._meaning_rows()
+        return [sentence, *self._local_rows(), *rest]
 
     @property
     def _status_text(self) -> str:
@@ -413,6 +417,23 @@ class MobilityReport:
             "curves": [curve.document() for curve in self.curves],
             "local": None if self.local is None else self.local.document(),
         }
+
+
+def is_so_far(rows: Sequence[tuple[str, str]]) -> bool:
+    """Whether lines are those of a singular configuration before its components are known."""
+    return bool(rows) and rows[0][0] == SO_FAR
+
+
+def _known_so_far(report: MobilityReport) -> str:
+    """What is known at a singular configuration before its components are."""
+    most = report.upper - report.unreal
+    if report.is_blocked:
+        known = _meaning(report)
+    elif report.moving is not None:
+        known = f"it moves with {count_text(most, 'freedom')}"
+    else:
+        known = f"it moves with {count_text(most, 'freedom')} at the most"
+    return f"{known}; the configuration is singular, and which motions meet here is looked for"
 
 
 def _kinds(components: Iterable[tuple[int, int | None]], alike: Alike) -> object:
