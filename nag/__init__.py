@@ -125,4 +125,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_HOME})
+    hidden = {"Any", "import_module", "annotations", "TYPE_CHECKING"}
+    return sorted({*globals(), *_HOME} - hidden)

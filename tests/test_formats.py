@@ -727,3 +727,23 @@ def test_an_ideal_without_a_ring_is_asked_for_its_ring(tmp_path: Path) -> None:
     file.write_text("K = ideal(a^2 - b, b^2 - a*b^2)\n")
     with pytest.raises(CaseError, match=r"there is no ring; write R = QQ\[x, y\]"):
         read_case(file)
+
+
+def test_an_unknown_that_has_a_value_is_a_parameter(tmp_path: Path) -> None:
+    file = tmp_path / "system.jl"
+    file.write_text(
+        "@var x y p q\nF = System([x^2 + p*y - 1, x - q*y], variables=[x, y], parameters=[p, q])"
+    )
+    case = nag.read_case(file, {"p": "1/2", "q": 2})
+    assert case.system.variables == ("x", "y") and dict(case.parameters) == {
+        "p": Fraction(1, 2),
+        "q": 2,
+    }
+    same = nag.solve(["x^2 + y/2 - 1", "x - 2*y"])
+    assert nag.solve(case).points == pytest.approx(same.points)
+    for values, said in (
+        ({"r": 1}, "'r': is no parameter and no unknown; it has x, y, p, q"),
+        (dict.fromkeys("xypq", 1), "every unknown has a value; leave one without"),
+    ):
+        with pytest.raises(nag.CaseError, match=said):
+            nag.read_case(file, values)

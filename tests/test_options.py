@@ -7,10 +7,12 @@ import inspect
 from dataclasses import fields
 from functools import reduce
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
 import nag
+from nag.cli import main
 from nag.cli.command_line import COMMANDS
 from nag.questions import FILE_OPTIONS
 
@@ -153,6 +155,21 @@ def test_a_file_is_read_in_the_same_way_by_every_command(command: str) -> None:
     renamed = {old for (of, old), new in RENAMED.items() if of == command and new in FILE_OPTIONS}
     assert {*FILE_OPTIONS} <= options_of(command)
     assert renamed == ({"from"} if command == "model" else set())
+
+
+def test_options_stand_before_between_and_behind_the_rest(capsys) -> None:
+    case = str(Path(__file__).parent.parent / "cases" / "bennett.toml")
+    for words in (
+        ["local", case, "reference", "--quiet"],
+        ["local", case, "--quiet", "reference"],
+        ["local", "--quiet", case, "--seed", "0", "reference"],
+    ):
+        assert main(words) == 0
+        assert "reference: x_J1 = -3/7" in capsys.readouterr().out
+    assert main(["local", case, "reference", "--quiet", "again"]) == 2
+    assert capsys.readouterr().err.startswith("nag: unrecognized arguments: again")
+    assert main(["local", "--help"]) == 0
+    assert capsys.readouterr().out.startswith("usage: nag local [OPTION ...] CASE [POINT]\n\nSay")
 
 
 @pytest.mark.parametrize("command", ASKED)

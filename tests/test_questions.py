@@ -122,6 +122,11 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
         (lambda: nag.eliminate("x*y", point=(0, 0)), "it is singular; name a component"),
         (lambda: nag.eliminate("x*y", point=(1, 2)), "point: it does not satisfy the equations"),
         (lambda: nag.eliminate("x*y", component=1, point=(0, 1)), "component names one already"),
+        (lambda: nag.solve(np.array([1.0, 0, -2])), "an array of numbers is given; the roots of"),
+        (
+            lambda: nag.solve_family(["x = p", "y = q*x"], ["p"], {"p": [1], "q": [2]}),
+            "2 equations for 3 unknowns: q, x, y; parameters are those that are named",
+        ),
         (lambda: nag.mobility("x - y"), "equations are given, which have no bodies; ask nag.local"),
         (lambda: nag.decompose("x*y", method="some"), "method: 'some' is unknown"),
         (lambda: nag.decompose("x*y", starts=3), 'starts: is for method="sampling"'),
@@ -438,3 +443,7 @@ def test_a_command_adds_the_option_that_mends_an_error(capsys: pytest.CaptureFix
     assert error.value.keyword == "drive" and pickle.loads(pickle.dumps(error.value)).keyword
     assert main(["motion", case, "--quiet"]) == 2
     assert capsys.readouterr().err.endswith("drive joints to values (--drive)\n")
+
+
+def test_what_is_listed_at_the_prompt_can_be_asked() -> None:
+    assert not {"Any", "import_module"} & {*dir(nag)}

@@ -11,6 +11,8 @@ from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 
+# Of more unknowns a message names the first.
+MOST_NAMES = 12
 Terms = Mapping[Exponents, Number | complex]
 
 
@@ -37,7 +39,13 @@ class Family:
         n, total = self.n, self.n + len(self.parameters)
         if len(self.polynomials) != n:
             own = len(self.polynomials) - self.imaginary
-            raise NagError(f"{own} equations for {len(self.own_variables)} unknowns")
+            unknowns = self.own_variables
+            names = ", ".join(unknowns[:MOST_NAMES])
+            more = ", ..." if len(unknowns) > MOST_NAMES else ""
+            raise NagError(
+                f"{own} equations for {len(unknowns)} unknowns: {names}{more}; parameters "
+                "are those that are named"
+            )
         if any(f.n != total for f in self.polynomials):
             raise NagError(f"the polynomials must be in {n} unknowns and the parameters")
 

@@ -199,7 +199,13 @@ def _list_equations(equations: Any, place: str) -> list[Any]:
     if isinstance(equations, str | Polynomial) or (is_sympy(equations) and not matrix):
         return [equations]
     if hasattr(equations, "ravel"):
-        return list(equations.ravel())
+        equations = equations.ravel()
+        if equations.dtype.kind in "biufc":
+            raise ExpressionError(
+                f"{place}: an array of numbers is given; the roots of a polynomial with these "
+                "coefficients are those of a text like 'x^2 - 2'"
+            )
+        return list(equations)
     if matrix:
         return list(equations)
     answer = is_a(equations, *ANSWERS)

@@ -37,6 +37,22 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(f"{message} (see {self.prog} --help)")
 
 
+class CommandParser(Parser):
+    """A parser whose options may stand before, between and behind what has no dashes."""
+
+    _is_apart = False
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """As of `argparse.ArgumentParser`: options first, then all else together."""
+        if self._is_apart:
+            return super().parse_known_args(args, namespace)
+        self._is_apart = True
+        try:
+            return self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self._is_apart = False
+
+
 class CommandHelp(argparse.HelpFormatter):
     """Help whose first line names what must be given; what may be is listed below it."""
 
@@ -47,6 +63,9 @@ class CommandHelp(argparse.HelpFormatter):
         groups: Iterable[Any],
         prefix: str | None,
     ) -> str:
+        if usage is not None:
+            # What was made of it here before.
+            return super()._format_usage(usage.strip(), actions, groups, prefix)
         needed = [action for action in actions if action.required or not action.option_strings]
         text = super()._format_usage(usage, needed, (), prefix)
         return text.replace("%(prog)s", self._prog).replace(

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from importlib import import_module
 
 import nag
-from nag.cli.arguments import CommandHelp, Parser, UsageError
+from nag.cli.arguments import CommandHelp, CommandParser, Parser, UsageError
 from nag.cli.running import run_command
 from nag.cli.watched import end_with, leave_to_parent, work_in_child, work_in_new_process
 from nag.errors import ComponentError, NagError
@@ -184,7 +184,9 @@ def parser(words: Sequence[str]) -> argparse.ArgumentParser:
         formatter_class=_format_help,
     )
     root.add_argument("--version", action="version", version=f"nag {nag.__version__}")
-    commands = root.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    commands = root.add_subparsers(
+        dest="command", metavar="COMMAND", required=True, parser_class=CommandParser
+    )
     named = next((word for word in words if not word.startswith("-")), None)
     # Behind a command's name all is for that command: the others are neither named nor listed.
     asked = [row for row in COMMANDS if words[:1] == [row[0]]]

@@ -14,9 +14,11 @@ from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, 
 from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.tokens import ExpressionError, is_name, names_in, quote
+from nag.algebra.tokens import ExpressionError, is_name, names_in, nearest, quote
 from nag.files.case_table import MAX_ENTRIES, CaseError, line_of
 
+# Of more names a message gives the first.
+SHOWN = 12
 _BRACKETS = {"(": ")", "[": "]", "{": "}"}
 
 
@@ -152,16 +154,13 @@ def read_given(
     """The exact system that a file gives, and the values of its parameters.
 
     Args:
-        values: other values of some parameters.
+        values: other values of some parameters, and values of unknowns, which are parameters then.
 
     Raises:
         CaseError: if something in it is no number or polynomial; the line says where.
     """
     budget = Budget()
-    for name in values or {}:
-        if name not in given.parameters:
-            known = ", ".join(given.parameters) or "none"
-            raise CaseError(line_of(source.file, quote(name), f"is no parameter; it has {known}"))
+    given = _with_fixed_unknowns(source, given, values or {})
     units = [u for u in given.imaginary if u not in _names(given)]
     parameters: dict[str, Number | ComplexNumber] = {}
     for name, text in given.parameters.items():
@@ -203,6 +202,38 @@ def read_given(
     if unit is not None:
         return adjoin_unit(names, equations, nonzero, groups), parameters
     return PolynomialSystem(names, tuple(equations), tuple(nonzero), groups), parameters
+
+
+def _with_fixed_unknowns(
+    source: SourceFile, given: GivenSystem, values: Mapping[str, Any]
+) -> GivenSystem:
+    """The same with unknowns as parameters for which there are values.
+
+    Raises:
+        CaseError: if there is a value for something else, or no unknown is left.
+    """
+    homogeneous = {name for group in given.patches for name in group}
+    unknowns = [name for name in given.variables if name not in homogeneous]
+    for name in values:
+        if name not in given.parameters and name not in unknowns:
+            known = [*given.parameters, *unknowns]
+            have = f"it has {', '.join(known[:SHOWN])}{', ...' if len(known) > SHOWN else ''}"
+            reason = f"is no parameter and no unknown{nearest(name, known)}; {have}"
+            raise CaseError(line_of(source.file, quote(name), reason))
+    fixed = [name for name in unknowns if name in values]
+    if not fixed:
+        return given
+    left = tuple(name for name in given.variables if name not in fixed)
+    if not left:
+        raise CaseError(line_of(source.file, "every unknown has a value; leave one without"))
+    groups = (tuple(name for name in group if name in left) for group in given.groups)
+    placed = {name: Passage("0", 0) for name in fixed}
+    return replace(
+        given,
+        variables=left,
+        parameters={**given.parameters, **placed},
+        groups=tuple(group for group in groups if group),
+    )
 
 
 def _names(given: GivenSystem) -> tuple[str, ...]:
