@@ -108,7 +108,7 @@ def read(
             of a decomposition or of solutions, which gives an equal one; or what another command
             wrote with ``--json``, which gives that JSON object, checked by its schema.
         set: of a case, values of some of its parameters in place of its own, by name: numbers, or
-            expressions as texts.
+            expressions as texts; of a system in another program's format, of unknowns as well.
         format: ``"bertini"``, ``"phc"``, ``"m2"``, ``"singular"``, ``"hc"``, ``"text"``,
             ``"urdf"``, ``"mjcf"`` or ``"toml"``; by default told by the content.
         hold: of a robot (URDF, MJCF), the links that are fixed to the ground.

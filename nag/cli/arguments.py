@@ -168,7 +168,8 @@ def add_reading(
         default=[],
         type=_setting,
         metavar="NAME=VALUE",
-        help="another value of a parameter of the case, a number or an expression; may be repeated",
+        help="another value of a parameter of the case, a number or an expression; of a system in "
+        "another program's format, a value of an unknown; may be repeated",
     )
     group.add_argument(
         format_option,

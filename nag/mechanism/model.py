@@ -289,9 +289,11 @@ def check_loops(mechanism: Mechanism, structure: LoopStructure) -> None:
     if structure.groups.is_one_body:
         raise ModelError("all bodies are tied together by rigid joints: nothing moves")
     if not structure.loops:
+        moving = sum(joint.of_type.freedoms > 0 for joint in mechanism.joints)
+        joints = "its joint moves" if moving == 1 else f"its {moving} joints move"
         raise NoLoopError(
-            f"the mechanism has no loop: each of its {len(mechanism.joints)} joints moves freely, "
-            f"so its mobility is {structure.cut_freedoms} and there is nothing to decompose"
+            f"the mechanism has no loop: {joints} freely, so its mobility is "
+            f"{structure.cut_freedoms} and there is nothing to decompose"
         )
 
 
