@@ -212,6 +212,27 @@ def test_results_are_frames_of_pandas() -> None:
         assert samples.to_numpy().dtype == (np.float64 if real else np.complex128)
 
 
+def test_components_solutions_and_circuits_alone_are_arrays_frames_and_values() -> None:
+    for equations, columns in (("x^2 + y^2 = 1", ["x", "y"]), ("x^2 + 2*y^2 = i", ["x", "y"])):
+        unit = "i" if equations.endswith("i") else None
+        component = nag.decompose(equations, imaginary=unit)[0]
+        assert list(component.to_dataframe().columns) == [*columns, "error"]
+        array = component.to_numpy()
+        assert array.shape == (2, 2) and array.flags.writeable
+        assert np.array_equal(component.to_dataframe()[columns].to_numpy(), array)
+        assert [[complex(v) for v in p.values()] for p in component.to_sympy()] == array.tolist()
+        solved = nag.solve([equations, "x - y"], imaginary=unit)
+        for names in ("x, y", solved.system.own_variables):
+            assert solved[0].to_sympy(names) == solved.to_sympy()[0]
+    with pytest.raises(nag.NagError, match="variables: 1 are given for 3 coordinates"):
+        solved[0].to_sympy(["x"])
+    moves = nag.motion(CASES / "planar" / "four-bar.toml", samples=12)
+    frame = moves[0].to_dataframe()
+    assert len(frame) == len(moves[0])
+    whole = moves.to_dataframe()
+    assert whole[whole["circuit"] == 1][list(frame.columns)].equals(frame)
+
+
 def test_families_are_solved_of_whatever_describes_one(tmp_path: Path) -> None:
     values = [[2.0, 1.0], [8.0, -1.0]]
     equations = ["x^2 + y^2 = r", "x = a*y"]

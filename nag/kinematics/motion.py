@@ -145,6 +145,31 @@ class Circuit(Several[RealArray]):
         """The samples in the variables of the equations, shape ``(k, n)``, to be written to."""
         return self.points.copy()
 
+    def table(self, *, angles: str = "degrees") -> dict[str, np.ndarray]:
+        """Its samples as columns, each of shape ``(k,)``, as `pandas.DataFrame` takes them.
+
+        ``circuit`` and ``arc``, and angles and slides by the names of the joints; the bodies'
+        places are in the table of a `Motion`.
+
+        Args:
+            angles: ``"degrees"`` or ``"radians"``.
+        """
+        check_choice(angles, "angles", ("degrees", "radians"))
+        columns = {"circuit": np.full(len(self), self.number), "arc": self.arc}
+        for i, each in enumerate(self.values.coordinates):
+            column = self.values.values[:, i]
+            turned = each.kind == "angle" and angles == "degrees"
+            columns[each.name] = np.degrees(column) if turned else column
+        return columns
+
+    def to_dataframe(self, *, angles: str = "degrees") -> pandas.DataFrame:
+        """The same as a frame of pandas.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        return data_frame(self.table(angles=angles))
+
     def document(self, scene: Scene) -> dict[str, Any]:
         """The circuit as a JSON object."""
         values = self.values
@@ -274,13 +299,8 @@ class Motion(Several[Circuit]):
             circuit: its number, from 1.
             angles: ``"degrees"`` or ``"radians"``.
         """
-        check_choice(angles, "angles", ("degrees", "radians"))
         own = self.circuit(circuit)
-        columns = {"circuit": np.full(len(own), own.number), "arc": own.arc}
-        for i, each in enumerate(own.values.coordinates):
-            column = own.values.values[:, i]
-            turned = each.kind == "angle" and angles == "degrees"
-            columns[each.name] = np.degrees(column) if turned else column
+        columns = own.table(angles=angles)
         for i, name in enumerate(self.scene.bodies):
             columns |= {f"{name}.{x}": own.poses.places[i, :, k] for k, x in enumerate("xyz")}
             columns |= {f"{name}.q{k}": own.poses.turns[i, :, k] for k in range(4)}

@@ -11,6 +11,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.to_sympy import to_sympy_point
+from nag.errors import NagError
 from nag.numerics.array_table import RecordTable
 from nag.numerics.read_only import (
     BooleanArray,
@@ -78,8 +79,29 @@ class Solution(FixedArrays):
             object.__setattr__(self, "radii", fixed_array(self.radii))
 
     def to_numpy(self) -> ComplexArray:
-        """The point, to be written to."""
+        """The point, to be written to; as it is, with the imaginary unit if there is one."""
         return self.point.copy()
+
+    def to_sympy(self, variables: Sequence[Any]) -> dict[sympy.Symbol, sympy.Expr]:
+        """The point as sympy has it: values, floats, by symbols.
+
+        Args:
+            variables: their names, or sympy's symbols, in order, as ``result.system.variables``;
+                without the imaginary unit where coefficients are complex.
+
+        Raises:
+            nag.NagError: if sympy is not installed, or there are not as many coordinates.
+        """
+        if isinstance(variables, str):
+            variables = variables.replace(",", " ").split()
+        names = [str(name) for name in variables]
+        unit = len(self.point) - len(names)
+        if unit not in (0, 1) or (unit and self.point[-1] != 1j):
+            raise NagError(
+                f"variables: {len(names)} are given for {len(self.point)} coordinates; give "
+                "those of the result's system"
+            )
+        return to_sympy_point(names, self.point[: len(names)])
 
     def document(self) -> dict[str, Any]:
         """The solution as a JSON object."""

@@ -12,6 +12,7 @@ import numpy as np
 from nag.algebra.given import check_error, check_listed, check_type
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.to_sympy import to_sympy_point
 from nag.errors import NagError
 from nag.numerics.read_only import (
     ComplexArray,
@@ -28,6 +29,7 @@ from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
     import pandas
+    import sympy
 
     from nag.decomposition.curve_genus import Genus
     from nag.tracking.settings import Settings
@@ -240,6 +242,36 @@ class WitnessSet(FixedArrays):
             "radii": [[real_or_null(r) for r in row] for row in self.radii.tolist()],
             "digits": self.digits.tolist(),
         }
+
+    def to_numpy(self) -> ComplexArray:
+        """The witness points, shape ``(degree, n)``, to be written to.
+
+        As in frames, without the imaginary unit, which is the last variable of a system with
+        complex coefficients.
+
+        Raises:
+            nag.NagError: if the component does not know its equations.
+        """
+        return self.points[:, : len(self._known_system().own_variables)].copy()
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each witness point: its coordinates, and its error relative to its size.
+
+        Raises:
+            nag.NagError: if pandas is not installed, or the component does not know its equations.
+        """
+        names = self._known_system().own_variables
+        columns: dict[str, Any] = dict(zip(names, self.to_numpy().T, strict=True))
+        return data_frame(columns | {"error": self.errors})
+
+    def to_sympy(self) -> list[dict[sympy.Symbol, sympy.Expr]]:
+        """The witness points as sympy has them: values, floats, by symbols.
+
+        Raises:
+            nag.NagError: if sympy is not installed, or the component does not know its equations.
+        """
+        names = self._known_system().own_variables
+        return [to_sympy_point(names, x) for x in self.to_numpy()]
 
     def _known_system(self) -> PolynomialSystem:
         if self.system is None:
