@@ -165,7 +165,7 @@ def test_what_is_made_of_a_result_for_other_programs_is_as_long(name: str) -> No
     if hasattr(result, "to_numpy"):
         array = result.to_numpy()
         assert array.flags.writeable and (name not in SEVERAL or len(array) == len(result))
-    if hasattr(result, "to_sympy"):
+    if hasattr(result, "to_sympy") and not isinstance(result, nag.Solution):
         held = result if name in SEVERAL else result.to_numpy()
         assert len(result.to_sympy()) == len(held)
     if hasattr(result, "to_dataframe"):
