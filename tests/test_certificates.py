@@ -584,3 +584,28 @@ def test_degrees_of_complex_equations_bound_those_of_components() -> None:
     whole = decompose(nag.system(["x*z - I*y^2", "y*z - x^2*(1 + I)"], "x y z"))
     certificate = certify_decomposition(whole)
     assert certificate.most == 4 and certificate.complete
+
+
+def holds_field(document: object, path: list[str]) -> bool:
+    """Whether a field, as ``components[].degree``, is in a document."""
+    if not path:
+        return True
+    key, listed = path[0].removesuffix("[]"), path[0].endswith("[]")
+    if not isinstance(document, dict) or key not in document:
+        return False
+    parts = document[key] if listed else [document[key]]
+    return any(holds_field(part, path[1:]) for part in parts)
+
+
+def test_statements_name_fields_that_the_export_has(tmp_path: Path) -> None:
+    for found in (
+        nag.decompose("(x^2 + y^2 - 1)*(x - y)*z^2"),
+        nag.decompose(["x*y", "x*z", "x^2 - x"]),
+        nag.solve(["x^2 - 1", "y - x"]),
+    ):
+        nag.write(found, tmp_path / "found.json")
+        document = json.loads((tmp_path / "found.json").read_text())
+        for paths in (False, True):
+            fields = {claim.field for claim in nag.certify(found, paths=paths).claims}
+            assert len(fields) > 10
+            assert not [f for f in fields if not holds_field(document, f.split("."))]
