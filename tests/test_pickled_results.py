@@ -264,5 +264,5 @@ def test_a_component_alone_answers_what_a_decomposition_does() -> None:
     assert nag.sample(line, count=3).points.shape == (3, 2)
     assert len(nag.member(line, [2, 2]).on) == 1 and not nag.member(line, [1, 0]).on
     for ask in (nag.find_real_curve, nag.find_real_points):
-        with pytest.raises(nag.NagError, match="component: something of type Decomposition is"):
+        with pytest.raises(nag.NagError, match=r"component: which one\? 1 and 2 .*; give the num"):
             ask(found())
