@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import base64
 import html
 import json
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,12 +16,13 @@ import pytest
 from traced_curves import trace_loop
 
 import nag
+from nag.kinematics.driven_motion import DrivenMotion
 from nag.kinematics.motion import Motion, motion_of
 from nag.kinematics.scene import Scene
 from nag.mechanism.linkage import Linkage
 from nag.mechanism.problem import in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import real_assemblies
-from nag.page.link_shapes import link_shapes
+from nag.page.link_shapes import link_shapes, typical_length
 from nag.page.motion_page import driven_page, motion_page
 
 ROOT = Path(__file__).parent.parent
@@ -95,17 +98,35 @@ def test_titles_and_names_cannot_break_out_of_the_page(moved) -> None:
     assert json.loads(data)["title"] == title
 
 
-def test_frames_are_the_samples(moved) -> None:
-    import base64
-
-    motion = moved("bennett")
-    page = motion_page(motion, "title", "case.toml")
+def data_of(page: str) -> dict:
+    """What a page's script is given."""
     (text,) = re.findall(r'<script type="application/json" id="motion">(.*?)</script>', page)
-    data = json.loads(text)
+    return json.loads(text)
+
+
+def rows_of(data: dict, circuit: dict) -> np.ndarray:
+    """The numbers of a circuit's frames as the page's script reads them, a row each."""
+    parts = np.frombuffer(base64.b64decode(circuit["rows"]), np.uint8).reshape(-1, 3)
+    moving = iter((parts @ [1, 256, 65536]).reshape(-1, circuit["frames"]))
+    still = np.ones(circuit["frames"])
+    return np.array([s * (f + next(moving)) if s else f * still for f, s in data["grids"]])
+
+
+def test_frames_are_the_samples(moved) -> None:
+    motion = moved("bennett")
+    (own,) = motion.circuits
+    data = data_of(motion_page(motion, "title", "case.toml"))
     (circuit,) = data["circuits"]
-    turns = np.frombuffer(base64.b64decode(circuit["turns"]), "<f4").reshape(4, -1, 4)
-    assert turns.shape[1] == circuit["frames"] == 121
-    assert np.abs(turns - motion.circuits[0].poses.turns).max() < 1e-6
+    assert circuit["frames"] == 121 and not [k for k, _ in data["facts"] if k == "frames"]
+    rows = rows_of(data, circuit)
+    turns, places = rows[:16].reshape(4, 4, -1), rows[16:28].reshape(4, 3, -1)
+    assert np.abs(np.moveaxis(turns, 1, 2) - own.poses.turns).max() < 1e-6
+    assert np.abs(np.moveaxis(places, 1, 2) - own.poses.places).max() < 1e-6
+    assert np.abs(rows[28:].T - np.degrees(own.values.values)).max() < 1e-4
+    # The ground does not move, and it costs nothing; what is zero is zero.
+    ground = motion.scene.ground
+    assert all(not data["grids"][4 * ground + k][1] for k in range(4))
+    assert (rows[28:, 0] == 0).all()
 
 
 def _points(shape) -> list[np.ndarray]:
@@ -190,16 +211,24 @@ def test_a_link_that_moves_little_in_the_picture_is_dragged_as_well(tmp_path) ->
     assert seen["messages"] == [] and seen["dragged"]
 
 
-def data_of(page: str) -> dict:
-    """What a page's script is given."""
-    (text,) = re.findall(r'<script type="application/json" id="motion">(.*?)</script>', page)
-    return json.loads(text)
-
-
 def five_bar(second: float, third: float, fourth: float) -> Linkage:
     links = {"base": ("A", "E", 3), "crank": ("A", "B", 2), "left": ("B", "C", second)}
     right = {"right": ("C", "D", third), "rocker": ("D", "E", fourth)}
     return Linkage.of(links | right, "base")
+
+
+def replace_often(driven: DrivenMotion, times: int) -> DrivenMotion:
+    """The same driven through its values again and again."""
+    count = len(driven)
+    again = [
+        replace(c, first=c.first + k * count) for k in range(times) for c in driven.continuations
+    ]
+    return replace(
+        driven,
+        values=driven.values * times,
+        motions=driven.motions * times,
+        continuations=tuple(again),
+    )
 
 
 def test_crossings_of_a_driven_motion_name_the_circuits_at_their_value() -> None:
@@ -213,7 +242,36 @@ def test_crossings_of_a_driven_motion_name_the_circuits_at_their_value() -> None
         assert texts and all(re.fullmatch(rf"{words}( [12])? at .* %", text) for text in texts)
 
 
+def test_many_circuits_have_fewer_frames_and_the_page_says_how_far_places_are_off() -> None:
+    driven = nag.driven_motion(five_bar(2.5, 2.7, 1.8), "A", [0.0, 0.5, 1.0], samples=360)
+    circuits = [(k, c) for k, motion in enumerate(driven) for c in motion.circuits]
+    many = replace_often(driven, 25)
+    page = driven_page(many, "five-bar", "five-bar")
+    data = data_of(page)
+    assert len(page.encode()) < 1_000_000 and len(data["circuits"]) == 25 * len(circuits) > 100
+    (said,) = (text for name, text in data["facts"] if name == "frames")
+    (off,) = (float(x) / 100 for x in re.findall(r"off by (\S+) % of a link at most", said))
+    assert 0 < off <= 0.02
+    points = [own for j in driven[0].scene.joints for own in zip(j.bodies, j.points, strict=True)]
+    largest = 0.0
+    for own, (_, circuit) in zip(data["circuits"], circuits, strict=False):
+        rows = rows_of(data, own)
+        for k, at in enumerate(np.linspace(0, own["frames"] - 1, len(circuit))):
+            # The page's cubic through four frames.
+            first = int(np.clip(int(at) - 1, 0, own["frames"] - 4))
+            t = at - first
+            weights = [np.prod([(t - j) / (i - j) for j in range(4) if j != i]) for i in range(4)]
+            frame = rows[:, first : first + 4] @ weights
+            for body, point in points:
+                q = frame[4 * body : 4 * body + 4]
+                z = (q[0] + 1j * q[3]) ** 2 * (point[0] + 1j * point[1]) / (q @ q)
+                z += frame[20 + 3 * body] + 1j * frame[21 + 3 * body]
+                x, y, _ = circuit.poses.move(body, point)[k]
+                largest = max(largest, abs(z - x - 1j * y))
+    assert largest / typical_length(driven[0].scene) == pytest.approx(off, rel=0.06)
+
+
 def test_what_does_not_fit_in_a_page_is_to_be_driven_through_fewer_values() -> None:
-    driven = nag.driven_motion(five_bar(2.5, 2.7, 1.8), "A", np.linspace(0, 1.2, 40), samples=12)
-    with pytest.raises(nag.NagError, match="drive through fewer values"):
-        driven_page(driven, "five-bar", "five-bar")
+    driven = nag.driven_motion(five_bar(2.5, 2.7, 1.8), "A", [0.0, 0.5, 1.0], samples=24)
+    with pytest.raises(nag.NagError, match=r"fewer values, about \d+"):
+        driven_page(replace_often(driven, 400), "five-bar", "five-bar")

@@ -71,7 +71,7 @@ def link_shapes(scene: Scene, slides: dict[str, tuple[float, float]]) -> Shapes:
         slides: by joint, from where to where it slides along its axis.
     """
     scene = _with_slides_at_pins(scene)
-    link = _typical_length(scene)
+    link = typical_length(scene)
     if scene.planar is not None:
         return _planar_shapes(scene, slides, link)
     return _spatial_shapes(scene, slides, link)
@@ -103,7 +103,7 @@ def _with_slides_at_pins(scene: Scene) -> Scene:
     return replace(scene, joints=tuple(joints))
 
 
-def _typical_length(scene: Scene) -> float:
+def typical_length(scene: Scene) -> float:
     lengths = []
     for body in range(len(scene.bodies)):
         own = _points_of(scene, body)

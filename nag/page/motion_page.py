@@ -16,14 +16,27 @@ import numpy as np
 from nag.errors import NagError
 from nag.kinematics.driven_motion import DrivenMotion
 from nag.kinematics.motion import Circuit, Crossing, Motion
-from nag.kinematics.poses import turn_back, turn_vectors
+from nag.kinematics.poses import Poses, turn_back, turn_vectors
+from nag.kinematics.scene import Scene
 from nag.kinematics.shown import crossing_text, range_text, turning_text, value_text
-from nag.page.link_shapes import BodyShape, Shapes, link_shapes
+from nag.kinematics.turning_points import STILL
+from nag.page.link_shapes import BodyShape, Shapes, link_shapes, typical_length
 from nag.text.table import count_text
 
-# Bytes of a page, and of those the numbers of all circuits in base64, at most. Circuits have fewer
-# frames where there are many, but so many at least.
-MOST_BYTES, BYTES, LEAST_FRAMES = 985_000, 315_000, 24
+# Bytes of a page, and of those the numbers of all circuits in base64, at most: four for each number
+# of 24 bits. Circuits have fewer frames where there are many, but so many at least.
+MOST_BYTES, BYTES, LEAST_FRAMES = 985_000, 315_000, 12
+BITS, BYTES_OF_NUMBER = 24, 4
+# Decides: Share of a typical link by which what is drawn may be off between frames: two fifths of a
+# rod's radius.
+HONEST = 0.02
+# By what numbers of frames that are tried differ.
+THINNER = 1.25
+# How often a page is made, after the first time with as much room less as it was too large before,
+# and with some bytes to spare for digits of its text.
+ROUNDS, SPARE = 3, 500
+# Decimals of a frame's number at which something is special.
+AT = 3
 # Decimals of places in shapes, over the typical link's length.
 DECIMALS = 6
 # How much of the light of a colour each body has is not decided here: see viewer.js.
@@ -95,17 +108,118 @@ def _fitting_page(motion: Motion, title: str, file: str, held: _Held | None) -> 
     """The page with as many frames as fit."""
     if not motion.circuits:
         raise NagError("html: there is no real motion to show")
-    page = _with_frames(motion, title, file, _frame_count(motion, BYTES, held), held)
-    excess = len(page.encode()) - MOST_BYTES
-    if excess > 0:
-        page = _with_frames(motion, title, file, _frame_count(motion, BYTES - excess, held), held)
-    return page
+    bytes_of_frame = BYTES_OF_NUMBER * int((_grids(motion)[:, 1] > 0).sum()) or 1
+    thinned = [_thin(circuit, motion.scene) for circuit in motion.circuits]
+    room = BYTES
+    for _ in range(ROUNDS):
+        most = max(room, 0) // bytes_of_frame
+        chosen = choose_frames(thinned, most)
+        if chosen is None:
+            raise _too_large(motion, held, most / sum(_frames_for(thinned, HONEST)))
+        page = _with_frames(motion, title, file, *chosen, held)
+        excess = len(page.encode()) - MOST_BYTES
+        if excess <= 0:
+            return page
+        room = sum(chosen[0]) * bytes_of_frame - excess - SPARE
+    raise _too_large(motion, held, 0.0)
 
 
-def _with_frames(motion: Motion, title: str, file: str, frames: int, held: _Held | None) -> str:
-    """The page with so many frames for each circuit, at most."""
+def _too_large(motion: Motion, held: _Held | None, share: float) -> NagError:
+    """That there is no page, and what to do; ``share``: of the circuits that would fit."""
+    circuits, bodies = len(motion.circuits), len(motion.scene.bodies)
+    text = f"html: {circuits} circuits of {bodies} bodies do not fit in one page"
+    text += f", though drawn places are off by {100 * HONEST:g} % of a link"
+    if held is None:
+        return NagError(f"{text}; show one of them").mended_by("circuit")
+    some = f", about {max(1, int(len(held.values) * share))}" if share else ""
+    return NagError(f"{text}; drive through fewer values{some}").mended_by("drive")
+
+
+# Numbers of frames of a circuit, and how far drawn places are off between them, from all on.
+Thinned = Sequence[tuple[int, float]]
+
+
+def _thin(circuit: Circuit, scene: Scene) -> Thinned:
+    """A circuit with as many frames as samples, and with fewer and fewer."""
+    found, frames = [(len(circuit), 0.0)], len(circuit) / THINNER
+    while frames >= LEAST_FRAMES:
+        found.append((int(frames), _deviation(circuit, int(frames), scene)))
+        frames /= THINNER
+    return found
+
+
+def choose_frames(circuits: Sequence[Thinned], most: int) -> tuple[list[int], float] | None:
+    """Numbers of frames of all circuits, so many in all at most, and how far places are off.
+
+    As little as can be, the same on all circuits; None where it would be more than is honest.
+    """
+    errors = sorted({off for each in circuits for _, off in each if off <= HONEST})
+    fits = [sum(_frames_for(circuits, off)) <= most for off in errors]
+    if not any(fits):
+        return None
+    off = errors[fits.index(True)]
+    return _frames_for(circuits, off), off
+
+
+def _frames_for(circuits: Sequence[Thinned], off: float) -> list[int]:
+    """The least numbers of frames of which places are off by no more."""
+    return [min(frames for frames, own in each if own <= off) for each in circuits]
+
+
+def _deviation(circuit: Circuit, frames: int, scene: Scene) -> float:
+    """How far joints' points are from where they are, between frames, over a typical link."""
+    at = np.linspace(0, len(circuit) - 1, frames)
+    if frames == len(circuit):
+        return 0.0
+    shown = _poses_at(circuit.poses, at)
+    samples = np.arange(len(circuit)) / (len(circuit) - 1) * (frames - 1)
+    between = _poses_at(shown, samples)
+    points = [own for j in scene.joints for own in zip(j.bodies, j.points, strict=True)]
+    points += list(scene.points.values())
+    gaps = (between.move(b, p) - circuit.poses.move(b, p) for b, p in points)
+    largest = max((float(np.linalg.norm(gap, axis=1).max()) for gap in gaps), default=0.0)
+    return largest / typical_length(scene)
+
+
+def _poses_at(poses: Poses, at: np.ndarray) -> Poses:
+    """Poses between those that there are, by cubics through four of them.
+
+    As the page's script has them.
+    """
+    turns, places = (_between(x, at, axis=1) for x in (poses.turns, poses.places))
+    return Poses(turns / np.linalg.norm(turns, axis=-1, keepdims=True), places)
+
+
+def _between(samples: np.ndarray, at: np.ndarray, axis: int) -> np.ndarray:
+    """Samples along an axis, at places between them, by cubics through four of them."""
+    first = np.clip(at.astype(int) - 1, 0, samples.shape[axis] - 4)
+    t = at - first - 1
+    weights = (
+        -t * (t - 1) * (t - 2) / 6,
+        (t + 1) * (t - 1) * (t - 2) / 2,
+        -(t + 1) * t * (t - 2) / 2,
+        (t + 1) * t * (t - 1) / 6,
+    )
+    moved = np.moveaxis(samples, axis, -1)
+    found = sum(w * moved[..., first + k] for k, w in enumerate(weights))
+    return np.moveaxis(np.asarray(found), -1, axis)
+
+
+def _with_frames(
+    motion: Motion,
+    title: str,
+    file: str,
+    frames: Sequence[int],
+    off: float,
+    held: _Held | None,
+) -> str:
+    """The page with so many frames of each circuit, between which places are so far off."""
     motions = [motion] * len(motion.circuits) if held is None else held.motions
     data = _page_data(motion, title, file, frames, motions)
+    if off > 0:
+        counts = join_bounds(min(frames), max(frames))
+        text = f"{counts} of each circuit; between them places are off by"
+        data["facts"].append(["frames", f"{text} {100 * off:.2g} % of a link at most"])
     if held is not None:
         data["held"] = {"name": held.name, "values": held.values}
         own = zip(data["circuits"], held.of_circuit, held.family, strict=True)
@@ -157,8 +271,13 @@ def _part(name: str) -> str:
     return re.sub(r"</(script|style)", r"<\\/\1", page_part(name), flags=re.IGNORECASE)
 
 
+def join_bounds(low: int, high: int) -> str:
+    """``40``, or ``20 to 40``."""
+    return str(low) if low == high else f"{low} to {high}"
+
+
 def _page_data(
-    motion: Motion, title: str, file: str, frames: int, motions: Sequence[Motion]
+    motion: Motion, title: str, file: str, frames: Sequence[int], motions: Sequence[Motion]
 ) -> dict[str, Any]:
     """What the page shows, for its script; ``motions`` that each circuit has its number in."""
     scene = motion.scene
@@ -166,6 +285,7 @@ def _page_data(
     root = _root_turn(motion)
     colours = _colours(motion)
     ground = motion.circuits[0].poses.turns[scene.ground, 0]
+    grids = _grids(motion)
     return {
         "title": title,
         "file": re.sub(r"\.toml$", "", file),
@@ -192,8 +312,10 @@ def _page_data(
             {"name": each.name, "kind": each.kind} for each in motion.circuits[0].values.coordinates
         ],
         "facts": facts(motion),
+        "grids": grids.tolist(),
         "circuits": [
-            _circuit_data(own, c, frames) for own, c in zip(motions, motion.circuits, strict=True)
+            _circuit_data(own, c, count, grids)
+            for own, c, count in zip(motions, motion.circuits, frames, strict=True)
         ],
     }
 
@@ -263,21 +385,6 @@ def _colours(motion: Motion) -> list[int]:
     return found
 
 
-def _frame_count(motion: Motion, most: int, held: _Held | None) -> int:
-    """How many frames each circuit has, for all of them to take so many bytes at most."""
-    first = motion.circuits[0]
-    numbers = 7 * len(motion.scene.bodies) + len(first.values.coordinates)
-    # Four bytes each, in base64 a third more.
-    frames = int(most * 3 / 16 / numbers / len(motion.circuits))
-    if frames < LEAST_FRAMES:
-        less = "show one circuit" if held is None else "drive through fewer values"
-        raise NagError(
-            f"html: {len(motion.circuits)} circuits of {len(motion.scene.bodies)} bodies do not "
-            f"fit in one page; {less}"
-        ).mended_by("circuit" if held is None else "drive")
-    return min(frames, max(len(c) for c in motion.circuits))
-
-
 def _rounded(point: Sequence[float] | np.ndarray, link: float) -> list[float]:
     scale = 10.0 ** np.floor(np.log10(link))
     return [round(float(x) / scale, DECIMALS) * scale for x in point]
@@ -338,16 +445,41 @@ def _feet(motion: Motion, shapes: Shapes) -> list[list[float]]:
     return feet
 
 
-def _circuit_data(motion: Motion, circuit: Circuit, frames: int) -> dict[str, Any]:
-    frames = min(frames, len(circuit))
+def _rows_of(circuit: Circuit, poses: Poses, values: np.ndarray) -> np.ndarray:
+    """All numbers of frames, a row each: quaternions and places of bodies, values of joints.
+
+    Args:
+        values: shape ``(coordinates, frames)``; angles come out in degrees.
+    """
+    angles = np.array([each.kind == "angle" for each in circuit.values.coordinates], dtype=bool)
+    values = np.where(angles[:, None], np.degrees(values), values)
+    flat = (np.moveaxis(x, 1, 2).reshape(-1, x.shape[1]) for x in (poses.turns, poses.places))
+    return np.vstack([*flat, values])
+
+
+def _grids(motion: Motion) -> np.ndarray:
+    """Of each row of numbers the first point of a grid, in steps, and the step; shape ``(r, 2)``.
+
+    They are whole multiples of the step, of 24 bits from the first one on, as many as those of a
+    float of four bytes. Of a number that never changes the step is 0, and it is the first point.
+    """
+    rows = [_rows_of(c, c.poses, c.values.values.T) for c in motion.circuits]
+    low, high = (
+        f([g(own, axis=1) for own in rows], axis=0) for f, g in ((np.min, np.min), (np.max, np.max))
+    )
+    still = high - low < STILL * np.maximum(1.0, np.abs(high))
+    steps = np.where(still, 0.0, (high - low) / (2**BITS - 3))
+    first = np.floor(low / np.where(still, 1.0, steps))
+    middle = (low + high) / 2
+    return np.stack([np.where(still, np.where(abs(middle) < STILL, 0.0, middle), first), steps], -1)
+
+
+def _circuit_data(
+    motion: Motion, circuit: Circuit, frames: int, grids: np.ndarray
+) -> dict[str, Any]:
     at = np.linspace(0, len(circuit) - 1, frames)
-    values = _between(circuit.values.values.T, at)
-    for i, each in enumerate(circuit.values.coordinates):
-        if each.kind == "angle":
-            values[i] = np.degrees(values[i])
-    turns = np.stack([_between(q.T, at).T for q in circuit.poses.turns])
-    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
-    places = np.stack([_between(r.T, at).T for r in circuit.poses.places])
+    values = _between(circuit.values.values.T, at, axis=1)
+    rows = _rows_of(circuit, _poses_at(circuit.poses, at), values)
     return {
         "number": circuit.number,
         "label": circuit_label(motion, circuit),
@@ -355,9 +487,7 @@ def _circuit_data(motion: Motion, circuit: Circuit, frames: int) -> dict[str, An
         "length": f"{circuit.length:.2f}",
         "arc": circuit.length,
         "frames": frames,
-        "turns": _encode(turns),
-        "places": _encode(places),
-        "values": _encode(values),
+        "rows": _encode(rows, grids),
         "dead": [_dead_data(circuit, p, frames) for p in circuit.values.turning],
         "crossings": [_crossing_data(motion, circuit, c, frames) for c in circuit.crossings],
         "facts": [
@@ -380,15 +510,13 @@ def _closed_text(closed: bool) -> str:
     return "closed" if closed else "open"
 
 
-def _between(rows: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Rows of samples at places between these."""
-    index = np.arange(rows.shape[1])
-    return np.stack([np.interp(at, index, row) for row in rows]) if len(rows) else rows[:, :0]
-
-
-def _encode(numbers: np.ndarray) -> str:
-    """Numbers as little-endian floats of four bytes, in base64."""
-    return base64.b64encode(np.ascontiguousarray(numbers, dtype="<f4").tobytes()).decode("ascii")
+def _encode(rows: np.ndarray, grids: np.ndarray) -> str:
+    """Those rows of numbers that change, as little-endian integers of three bytes, in base64."""
+    moving = grids[:, 1] > 0
+    first, steps = grids[moving].T
+    places = np.round(rows[moving] / steps[:, None]) - first[:, None]
+    numbers = np.ascontiguousarray(places, dtype="<u4").view(np.uint8).reshape(-1, 4)[:, :3]
+    return base64.b64encode(np.ascontiguousarray(numbers).tobytes()).decode("ascii")
 
 
 def _dead_data(circuit: Circuit, point: Any, frames: int) -> dict[str, Any]:
@@ -396,9 +524,9 @@ def _dead_data(circuit: Circuit, point: Any, frames: int) -> dict[str, Any]:
     column = names.index(point.coordinate)
     angle = circuit.values.coordinates[column].kind == "angle"
     return {
-        "at": point.arc / circuit.length * (frames - 1),
+        "at": round(point.arc / circuit.length * (frames - 1), AT),
         "column": column,
-        "value": float(np.degrees(point.value) if angle else point.value),
+        "value": float(f"{np.degrees(point.value) if angle else point.value:.7g}"),
         "text": turning_text(circuit, point),
     }
 
@@ -407,6 +535,6 @@ def _crossing_data(
     motion: Motion, circuit: Circuit, crossing: Crossing, frames: int
 ) -> dict[str, Any]:
     return {
-        "at": crossing.arc / circuit.length * (frames - 1),
+        "at": round(crossing.arc / circuit.length * (frames - 1), AT),
         "text": crossing_text(motion, circuit, crossing),
     }

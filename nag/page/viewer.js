@@ -12,35 +12,49 @@
   const DASHES = [[], [9, 4], [2, 3], [10, 3, 2, 3], [5, 3], [14, 4], [2, 6], [8, 3, 2, 3, 2, 3]];
 
   // ---- the numbers --------------------------------------------------------------------------
-  const decode = (text) => {
+  // Numbers that change are on a grid, as integers of three bytes, row by row; others are its start.
+  function decode(text, frames) {
     const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-    return new Float32Array(bytes.buffer);
-  };
+    let k = 0;
+    return data.grids.map(([first, step]) => Float64Array.from({ length: frames }, () => {
+      if (!step) return first;
+      k += 3;
+      return (first + bytes[k - 3] + 256 * bytes[k - 2] + 65536 * bytes[k - 1]) * step;
+    }));
+  }
   const bodies = data.bodies.length, columns = data.coordinates.length;
   for (const circuit of data.circuits) {
-    circuit.turns = decode(circuit.turns);
-    circuit.places = decode(circuit.places);
-    circuit.values = decode(circuit.values);
+    const rows = decode(circuit.rows, circuit.frames);
+    const together = (first, count, parts) => Float64Array.from({ length: count * parts * circuit.frames },
+      (_, i) => rows[first + parts * Math.floor(i / parts / circuit.frames) + (i % parts)][Math.floor(i / parts) % circuit.frames]);
+    circuit.turns = together(0, bodies, 4);
+    circuit.places = together(4 * bodies, bodies, 3);
+    circuit.values = together(7 * bodies, columns, 1);
   }
   let circuit = data.circuits[0];
   let frame = 0;
 
   const last = () => circuit.frames - 1;
-  const q0 = new Quaternion(), q1 = new Quaternion(), p0 = new Vector3(), p1 = new Vector3();
+  // Between frames are cubics through four of them: the first one's index, and their weights.
+  const weights = [0, 0, 0, 0];
+  function around(at) {
+    const i = Math.max(0, Math.min(Math.floor(at) - 1, last() - 3)), t = at - i - 1;
+    weights[0] = (-t * (t - 1) * (t - 2)) / 6;
+    weights[1] = ((t + 1) * (t - 1) * (t - 2)) / 2;
+    weights[2] = (-(t + 1) * t * (t - 2)) / 2;
+    weights[3] = ((t + 1) * t * (t - 1)) / 6;
+    return i;
+  }
   function pose(body, at, quaternion, position) {
-    const i = Math.min(Math.floor(at), last() - 1), t = at - i;
-    const k = body * circuit.frames + i, a = circuit.turns, b = circuit.places;
-    q0.set(a[4 * k + 1], a[4 * k + 2], a[4 * k + 3], a[4 * k]);
-    q1.set(a[4 * k + 5], a[4 * k + 6], a[4 * k + 7], a[4 * k + 4]);
-    p0.set(b[3 * k], b[3 * k + 1], b[3 * k + 2]);
-    p1.set(b[3 * k + 3], b[3 * k + 4], b[3 * k + 5]);
-    quaternion.copy(q0).slerp(q1, t);
-    position.copy(p0).lerp(p1, t);
+    const k = body * circuit.frames + around(at), a = circuit.turns, b = circuit.places;
+    const turn = (c) => weights.reduce((sum, w, j) => sum + w * a[4 * (k + j) + c], 0);
+    const way = (c) => weights.reduce((sum, w, j) => sum + w * b[3 * (k + j) + c], 0);
+    quaternion.set(turn(1), turn(2), turn(3), turn(0)).normalize();
+    position.set(way(0), way(1), way(2));
   }
   function value(column, at) {
-    const i = Math.min(Math.floor(at), last() - 1), t = at - i;
-    const k = column * circuit.frames + i;
-    return circuit.values[k] * (1 - t) + circuit.values[k + 1] * t;
+    const k = column * circuit.frames + around(at);
+    return weights.reduce((sum, w, j) => sum + w * circuit.values[k + j], 0);
   }
   const rootTurn = new Quaternion(data.root[1], data.root[2], data.root[3], data.root[0]);
   const bodyTurn = new Quaternion(), bodyPlace = new Vector3();
@@ -763,7 +777,7 @@
         const k = b * circuit.frames + i;
         row.push(...circuit.places.slice(3 * k, 3 * k + 3), ...circuit.turns.slice(4 * k, 4 * k + 4));
       }
-      lines.push(row.map((v, j) => (j ? Number(v.toPrecision(8)) : v)).join(","));
+      lines.push(row.map((v, j) => (j ? Number(v.toPrecision(7)) : v)).join(","));
     }
     return lines.join("\n") + "\n";
   }
