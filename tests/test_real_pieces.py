@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from fractions import Fraction
 
@@ -139,6 +140,46 @@ def test_real_samples_are_real_and_on_the_component(equations: list[str]) -> Non
     assert samples.residual < 1e-12
     assert all(component.contains(x) for x in samples.points)
     assert sample_real(component, 5) == samples
+
+
+@pytest.mark.parametrize(
+    ("equation", "dimension", "known"),
+    [
+        ("x*y*z - 1", 2, {2}),
+        # Conjugate surfaces that meet in a circle; a line of singular points.
+        ("(x^2 + y^2 + z^2 - 1)^2 + (x - y)^2", 2, {1}),
+        ("x^2 + y^2*(1 + z^2)", 2, {-1}),
+        # An oval with a point beside it: samples are drawn from arcs.
+        ("y^2 - x^2*(x - 1)", 1, {1}),
+        ("x^2 + y^2", 1, {0}),
+    ],
+)
+def test_real_samples_tell_the_real_dimension_from_the_complex_one(
+    equation: str, dimension: int, known: set[int]
+) -> None:
+    for component in nag.decompose(equation):
+        drawn = nag.sample(component, count=3, real=True)
+        assert component.dimension == dimension and set(drawn.real_dimensions) == known
+        assert len(drawn.real_dimensions) == 3
+    assert not nag.sample(component, count=3).real_dimensions
+
+
+def test_the_prompt_tells_complex_and_real_dimension_apart(tmp_path, capsys) -> None:
+    listed = 'variables = ["x", "y", "z"]\nequations = ["{}"]\n'
+    file, out = tmp_path / "set.toml", tmp_path / "out.json"
+    for equation, told, known in (
+        ("(x^2 + y^2 + z^2 - 1)^2 + (x - y)^2", "1", 1),
+        ("x^2 + y^2*(1 + z^2)", "not known", None),
+    ):
+        file.write_text('title = "t"\nkind = "system"\n' + listed.format(equation))
+        words = ["sample", str(file), "--real", "--count", "2", "--quiet", "--json", str(out)]
+        assert main(words) == 0
+        text = capsys.readouterr().out
+        assert "complex dimension 2" in text and f"real dimension {told}\n" in text
+        assert len(re.findall(rf"^ +[12] .* {told}$", text, re.MULTILINE)) == 2
+        document = json.loads(out.read_text())
+        assert document["real_dimensions"] == [known] * 2
+        jsonschema.validate(document, schema("nag-samples"))
 
 
 def test_real_samples_of_a_ball_joint_are_spread_as_its_unit_quaternions_are() -> None:

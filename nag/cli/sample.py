@@ -45,6 +45,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     """Points of a component."""
     from nag.text.table import align, magnitude
     from nag.witness.shown import MOST_SAMPLES as SHOWN
+    from nag.witness.shown import real_dimension_text
 
     found = read_components(options, real=options.real)
     component = component_of(found, options.component, "--component")
@@ -62,7 +63,10 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         **samples.document(),
     }
     table = align(samples.rows(system.own_variables)) if count else ()
-    blocks = [numbered_row(options.component, component)], table
+    head = [numbered_row(options.component, component, "complex " if options.real else "")]
+    if samples.real_dimensions:
+        head.append(("real", real_dimension_text(samples.real_dimensions)))
+    blocks = head, table
     # A point of a component needs no other component to be known.
     complete = str(component.status) == "irreducible" and not doubt
     return answer_of(

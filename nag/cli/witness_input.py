@@ -287,9 +287,9 @@ def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...
     return coordinates(values, system.variables, system.imaginary)
 
 
-def numbered_row(number: int, component: WitnessSet) -> tuple[str, str]:
-    """The line that says which component is meant."""
-    kind = f"{number}: dimension {component.dimension}, degree {component.degree}"
+def numbered_row(number: int, component: WitnessSet, of: str = "") -> tuple[str, str]:
+    """The line that says which component is meant; ``of``: which dimension it is told by."""
+    kind = f"{number}: {of}dimension {component.dimension}, degree {component.degree}"
     return "component", f"{kind}, {component.status}"
 
 

@@ -49,6 +49,7 @@ from nag.witness.fibres import Fibre
 from nag.witness.frame import expand_orbits
 from nag.witness.membership import Membership, is_member
 from nag.witness.real_points import real_points_near
+from nag.witness.shown import real_dimension_text
 from nag.witness.witness import Slice, WitnessSet
 
 # Paths of the system of nearest points, by the product of its degrees, up to which it is solved.
@@ -106,7 +107,9 @@ class RealPieces(Several[RealArray]):
     __repr__ = one_line
 
     def __str__(self) -> str:
-        rows = [("answer", answer_text(self)), ("rests on", self.reason)]
+        rows = [("answer", answer_text(self))]
+        rows += [("real", real_dimension_text(self.dimensions))] if len(self) else []
+        rows.append(("rests on", self.reason))
         rows += [("point", point_text(x)) for x in self.points[:1]]
         return lines_of("RealPieces", rows)
 
@@ -271,7 +274,7 @@ def _of_larger_set(component: WitnessSet, run: Run) -> RealPieces:
             reason = "no nearest point of a random one is real, and none is singular"
             return RealPieces(np.zeros((0, system.n)), (), Reality.NONE, True, reason)
         return _near_random_points(component, f"no real nearest point was found; {doubt}", run)
-    dimensions = tuple(_dimension_at(system, here, x) for x in points)
+    dimensions = tuple(real_dimension_at(system, here, x) for x in points)
     reason = f"points whose distance from a random one is stationary; {doubt or 'all of them'}"
     back = natural.inverse.points(points)
     return RealPieces(back, dimensions, Reality.FOUND, not doubt, reason)
@@ -282,17 +285,24 @@ def _where_conjugates_meet(component: WitnessSet, run: Run) -> RealPieces | None
 
     They lie on its conjugate as well.
     """
+    met = meet_conjugate(component, run)
+    if met is None:
+        return None
+    system = component._known_system()
+    found = [find_real_points(each, run=run) for each in met]
+    doubts = [each.reason for each in found if not each.each_piece]
+    reason = "it is not its own conjugate, and its real points are where it meets that"
+    return _join(found, len(system.own_variables), "; ".join([reason, *doubts]), not doubts)
+
+
+def meet_conjugate(component: WitnessSet, run: Run) -> tuple[WitnessSet, ...] | None:
+    """The components of where one meets its conjugate; None where these are not known."""
     system = component._known_system()
     try:
         met = intersect_components(system, component, _conjugate(component), run=run)
     except ComponentError:
         return None
-    if not met.complete:
-        return None
-    found = [find_real_points(each, run=run) for each in expand_orbits(met).components]
-    doubts = [each.reason for each in found if not each.each_piece]
-    reason = "it is not its own conjugate, and its real points are where it meets that"
-    return _join(found, len(system.own_variables), "; ".join([reason, *doubts]), not doubts)
+    return expand_orbits(met).components if met.complete else None
 
 
 def _conjugate(component: WitnessSet) -> WitnessSet:
@@ -394,7 +404,7 @@ def _members(
     return known, undecided
 
 
-def _dimension_at(system: PolynomialSystem, component: WitnessSet, x: np.ndarray) -> int:
+def real_dimension_at(system: PolynomialSystem, component: WitnessSet, x: np.ndarray) -> int:
     """The component's dimension where the equations have the rank that they have on it.
 
     There the real part has the same dimension; elsewhere it is not known, -1. A nearest point at
@@ -416,7 +426,7 @@ def _near_random_points(component: WitnessSet, why: str, run: Run) -> RealPieces
             found = real_points_near(system, component, near, run=run, starts=6)
             if len(found):
                 points = np.asarray(found.points)[:1]
-                dimension = _dimension_at(system, component, points[0])
+                dimension = real_dimension_at(system, component, points[0])
                 reason = f"Newton's method from random points; {why}"
                 return RealPieces(points, (dimension,), Reality.FOUND, False, reason)
     nothing = np.zeros((0, system.n))

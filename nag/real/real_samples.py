@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
@@ -15,7 +17,15 @@ from nag.numerics.located_zero import exact_zero
 from nag.real.curve import RealCurve, VertexKind
 from nag.real.find_curve import find_real_curve
 from nag.real.real_equations import find_real_equations
-from nag.real.real_pieces import Reality, RealPieces, find_real_points, join_pieces
+from nag.real.real_pieces import (
+    Reality,
+    RealPieces,
+    find_real_points,
+    join_pieces,
+    meet_conjugate,
+    real_dimension_at,
+)
+from nag.real.real_through import is_other_than_its_conjugate
 from nag.real.spherical_chart import SphericalChart
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.real_points import real_points_near
@@ -68,20 +78,27 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
     system.check_real_coordinates()
     if component.dimension and system.imaginary:
         return _of_complex_equations(component, count, rng, run)
-    doubt = ""
     if component.dimension == 1:
-        points, doubt = _of_curve(component, count, rng, run)
-    else:
-        found = find_real_points(component, run=run)
-        if found.reality is not Reality.FOUND:
-            raise _why_none(system, found.reality, found.reason)
-        points = np.asarray(found.points)
-        if component.dimension == 0:
-            points = points[rng.integers(len(points), size=count)]
-            doubt = _doubt_of(found)
-        else:
-            points = _near(component, points, count, rng, run)
-    return _samples(component, points, doubt)
+        return _of_curve(component, count, rng, run)
+    if component.dimension and is_other_than_its_conjugate(system, component, run):
+        met = meet_conjugate(component, run)
+        if met is not None:
+            return _of_parts(component, met, find_real_points, "", count, rng, run)
+    found = find_real_points(component, run=run)
+    if found.reality is not Reality.FOUND:
+        raise _why_none(system, found.reality, found.reason)
+    if component.dimension == 0:
+        return _draw_from(component, found, count, rng)
+    return _near(component, np.asarray(found.points), count, rng, run)
+
+
+def _draw_from(
+    component: WitnessSet, found: RealPieces, count: int, rng: np.random.Generator
+) -> Samples:
+    """Some of finitely many real points."""
+    drawn = rng.integers(len(found.points), size=count)
+    dimensions = [found.dimensions[k] for k in drawn]
+    return _samples(component, found.points[drawn], dimensions, _doubt_of(found))
 
 
 def _doubt_of(drawn_from: RealPieces) -> str:
@@ -93,8 +110,14 @@ def _say_points_may_miss(reason: str) -> str:
     return f"real points may be missing: {reason}"
 
 
-def _samples(component: WitnessSet, points: np.ndarray, doubt: str = "") -> Samples:
-    """Points with how well they are known; singular ones in their stead where these are found."""
+def _samples(
+    component: WitnessSet, points: np.ndarray, dimensions: Sequence[int], doubt: str = ""
+) -> Samples:
+    """Points with how well they are known; singular ones in their stead where these are found.
+
+    Args:
+        dimensions: of the real part round them, -1 where that is not known.
+    """
     system = component._known_system()
     z = append_unit(points) if system.imaginary else points + 0j
     evaluator = Evaluator.of(system.polynomials, system.n)
@@ -107,7 +130,8 @@ def _samples(component: WitnessSet, points: np.ndarray, doubt: str = "") -> Samp
         known[k], errors[k] = found[x.tobytes()]
     residual = float(evaluator.residuals(known).max(initial=0.0))
     error = float(errors.max(initial=EPS))
-    return Samples(known, residual, error, doubt, system.own_variables, real=True)
+    dimensions = tuple(map(int, dimensions))
+    return Samples(known, residual, error, doubt, system.own_variables, True, dimensions)
 
 
 @np.errstate(all="ignore")
@@ -160,28 +184,52 @@ def _singular_point(component: WitnessSet, x: np.ndarray) -> tuple[np.ndarray, f
 def _of_complex_equations(
     component: WitnessSet, count: int, rng: np.random.Generator, run: Run
 ) -> Samples:
-    """Points of the sets of the most real dimensions that lie on a component, all alike often."""
-    system = component._known_system()
+    """Points of the real and imaginary parts' sets that lie on a component."""
     equations = find_real_equations(component, run)
-    found = [(each, find_real_points(each, run=run)) for each in equations.inside]
+
+    def find_all(component: WitnessSet, *, run: Run) -> RealPieces:
+        found = [find_real_points(each, run=run) for each in equations.inside]
+        return join_pieces(component, equations, found, run)
+
+    return _of_parts(component, equations.inside, find_all, equations.doubt, count, rng, run)
+
+
+def _of_parts(
+    component: WitnessSet,
+    parts: Sequence[WitnessSet],
+    find_all: Callable[..., RealPieces],
+    doubt: str,
+    count: int,
+    rng: np.random.Generator,
+    run: Run,
+) -> Samples:
+    """Points of the sets of the most real dimensions that lie on a component, all alike often.
+
+    Args:
+        parts: sets on which all its real points lie, but for finitely many.
+        find_all: its real points, where none of the parts has more than finitely many.
+        doubt: why parts may be missing; empty if none is.
+    """
+    found = [(each, find_real_points(each, run=run)) for each in parts]
     largest = max((max(f.dimensions) for _, f in found if len(f)), default=-1)
     if largest <= 0:
-        whole = join_pieces(component, equations, [f for _, f in found], run)
+        whole = find_all(component, run=run)
         if whole.reality is not Reality.FOUND:
-            raise _why_none(system, whole.reality, whole.reason)
-        drawn = whole.points[rng.integers(len(whole.points), size=count)]
-        return _samples(component, drawn, _doubt_of(whole))
+            raise _why_none(component._known_system(), whole.reality, whole.reason)
+        return _draw_from(component, whole, count, rng)
     chosen = [each for each, f in found if len(f) and max(f.dimensions) == largest]
     shares = rng.multinomial(count, np.full(len(chosen), 1 / len(chosen)))
-    parts = [
+    drawn = [
         _sample_part(component, each, int(share), run)
         for each, share in zip(chosen, shares, strict=True)
         if share
     ]
-    doubts = [_say_points_may_miss(equations.doubt)] if equations.doubt else []
-    doubts += [part.doubt for part in parts if part.doubt]
-    points = rng.permutation(np.vstack([part.points.real for part in parts]))
-    return _samples(component, points, "; ".join(dict.fromkeys(doubts)))
+    doubts = [_say_points_may_miss(doubt)] if doubt else []
+    doubts += [part.doubt for part in drawn if part.doubt]
+    order = rng.permutation(count)
+    points = np.vstack([part.points.real for part in drawn])[order]
+    dimensions = np.concatenate([part.real_dimensions for part in drawn])[order]
+    return _samples(component, points, dimensions.tolist(), "; ".join(dict.fromkeys(doubts)))
 
 
 def _sample_part(component: WitnessSet, part: WitnessSet, count: int, run: Run) -> Samples:
@@ -193,13 +241,11 @@ def _sample_part(component: WitnessSet, part: WitnessSet, count: int, run: Run) 
     try:
         return sample_real(part, count, run=run)
     except SamplingError as error:
-        some = _samples(component, error.found.points.real)
+        some = _samples(component, error.found.points.real, error.found.real_dimensions)
         raise SamplingError(str(error), some) from None
 
 
-def _of_curve(
-    component: WitnessSet, count: int, rng: np.random.Generator, run: Run
-) -> tuple[np.ndarray, str]:
+def _of_curve(component: WitnessSet, count: int, rng: np.random.Generator, run: Run) -> Samples:
     """Points of the arcs, isolated ones where there is none, and why others may be missing."""
     curve = find_real_curve(component, run=run)
     doubt = "" if curve.complete else _say_points_may_miss(curve.reason)
@@ -207,12 +253,14 @@ def _of_curve(
         # An arc's points but for the first; they are on the curve to rounding.
         points = np.vstack([e.points[1:] for e in curve.edges])
         lengths = _lengths_of_steps(curve, SphericalChart.of(component._known_system()))
-        return points[rng.choice(len(points), size=count, p=lengths / lengths.sum())], doubt
+        drawn = points[rng.choice(len(points), size=count, p=lengths / lengths.sum())]
+        return _samples(component, drawn, [1] * count, doubt)
     isolated = [v.point for v in curve.vertices]
     if not isolated:
         none = Reality.NONE if curve.complete else Reality.NONE_FOUND
         raise _why_none(component._known_system(), none, curve.reason)
-    return np.array(isolated)[rng.integers(len(isolated), size=count)], doubt
+    drawn = np.array(isolated)[rng.integers(len(isolated), size=count)]
+    return _samples(component, drawn, [0] * count, doubt)
 
 
 def _lengths_of_steps(curve: RealCurve, coordinates: SphericalChart) -> np.ndarray:
@@ -239,7 +287,8 @@ def _near(
     count: int,
     rng: np.random.Generator,
     run: Run,
-) -> np.ndarray:
+) -> Samples:
+    """Real points of a larger set near random ones, beside some that are known."""
     system = component._known_system()
     coordinates = SphericalChart.of(system)
     charts = coordinates.chart(known)
@@ -255,7 +304,8 @@ def _near(
         points = real_points_near(system, component, near, starts=1, run=run)
         if len(points):
             found.append(np.asarray(points.points)[0])
+    dimensions = [real_dimension_at(system, component, x) for x in found]
+    some = _samples(component, np.array(found).reshape(-1, system.n), dimensions)
     if len(found) < count:
-        some = _samples(component, np.array(found).reshape(-1, system.n))
         raise SamplingError(f"{len(found)} of {count} random real points were found", some)
-    return np.array(found).reshape(count, system.n)
+    return some

@@ -46,6 +46,8 @@ class Samples(Several[ComplexArray]):
         doubt: why the set that they are drawn from may not be whole; empty if it is.
         variables: names of the coordinates, without the imaginary unit.
         real: whether real points were asked for, whose imaginary parts are all 0.
+        real_dimensions: of real points, those of the component's real part round each, or -1 where
+            it is not known, as at singular points.
     """
 
     points: ComplexArray
@@ -54,6 +56,7 @@ class Samples(Several[ComplexArray]):
     doubt: str = ""
     variables: tuple[str, ...] = ()
     real: bool = False
+    real_dimensions: tuple[int, ...] = ()
 
     __eq__ = equal_values
 
@@ -103,11 +106,12 @@ class Samples(Several[ComplexArray]):
 
     def document(self) -> dict[str, Any]:
         """The points as a JSON object, without its head."""
+        known = [None if d < 0 else d for d in self.real_dimensions]
         return {
             "residual": self.residual,
             "accuracy": self.accuracy,
             "points": pairs(self.points),
-        }
+        } | ({"real_dimensions": known} if self.real else {})
 
     __repr__ = one_line
 

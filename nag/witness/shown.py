@@ -305,9 +305,22 @@ def _samples_rest(samples: Samples) -> str:
 def samples_text(samples: Samples) -> str:
     """Points of a component in three lines."""
     first = _first_point(samples.points, samples.accuracy)
-    rows = [("points", first), ("rests on", _samples_rest(samples))]
+    rows = [("points", first)]
+    if samples.real_dimensions:
+        rows.append(("real", real_dimension_text(samples.real_dimensions)))
+    rows.append(("rests on", _samples_rest(samples)))
     rows += [("open", samples.doubt)] if samples.doubt else []
     return lines_of(_samples_title(samples), rows)
+
+
+def real_dimension_text(dimensions: Sequence[int]) -> str:
+    """Dimensions of the real part round points, in words; -1 where one is not known."""
+    counts = sorted(Counter(dimensions).items(), reverse=True)
+    texts = [f"real dimension {d}" if d >= 0 else "real dimension not known" for d, _ in counts]
+    if len(texts) < 2:
+        return "".join(texts)
+    own = zip(texts, counts, strict=True)
+    return ", ".join(f"{text} at {count_text(count, 'point')}" for text, (_, count) in own)
 
 
 def sample_rows(samples: Samples, variables: Sequence[str]) -> list[list[str]]:
@@ -317,18 +330,22 @@ def sample_rows(samples: Samples, variables: Sequence[str]) -> list[list[str]]:
         variables: names of the leading coordinates; the imaginary unit may be left out.
     """
     dots = ["..."] if len(variables) > MOST_COLUMNS else []
-    rows = [["point", *variables[:MOST_COLUMNS], *dots]]
+    real = ["real dimension"] if samples.real_dimensions else []
+    rows = [["point", *variables[:MOST_COLUMNS], *dots, *real]]
     for i, point in enumerate(samples.points[:MOST_SAMPLES]):
         error = _error_of(point, samples.accuracy)
         cells = [number_text(z, error) for z in point[: min(len(variables), MOST_COLUMNS)]]
-        rows.append([str(i + 1), *cells, *dots])
+        known = [str(d) if d >= 0 else "not known" for d in samples.real_dimensions[i : i + 1]]
+        rows.append([str(i + 1), *cells, *dots, *known])
     return rows
 
 
 def samples_html(samples: Samples) -> str:
     """Points of a component as a table."""
     note = _samples_rest(samples) + (f"; open: {samples.doubt}" if samples.doubt else "")
-    return _point_table(_samples_title(samples), samples.points, {}, note, samples.accuracy)
+    known = [str(d) if d >= 0 else "not known" for d in samples.real_dimensions]
+    more = {"real dimension": known} if known else {}
+    return _point_table(_samples_title(samples), samples.points, more, note, samples.accuracy)
 
 
 def _real_points_title(found: RealPoints) -> str:
