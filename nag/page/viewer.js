@@ -400,7 +400,7 @@
     for (const hub of hubs) {
       if (!hub.path) continue;
       const points = [];
-      const count = Math.min(last(), 240);
+      const count = Math.min(Math.max(last(), 120), 240);
       let length = 0;
       for (let i = 0; i <= count; i++) {
         const at = place(hub.body, hub.at, (i / count) * last(), new Vector3());
@@ -567,9 +567,11 @@
       if (s.off) continue;
       pen.strokeStyle = s.colour; pen.lineWidth = 1.9; pen.setLineDash(s.dash); pen.lineJoin = "round";
       pen.beginPath();
-      for (let i = 0; i < circuit.frames; i++) {
-        const v = y(circuit.values[s.columns[0] * circuit.frames + i], ranges[s.kind]);
-        if (i) pen.lineTo(x(i), v); else pen.moveTo(x(i), v);
+      // Few frames are joined by their cubics.
+      const fine = Math.max(1, Math.ceil(240 / last())), places = fine * last();
+      for (let i = 0; i <= places; i++) {
+        const at = i / fine, v = y(value(s.columns[0], at), ranges[s.kind]);
+        if (i) pen.lineTo(x(at), v); else pen.moveTo(x(at), v);
       }
       pen.stroke();
     }
