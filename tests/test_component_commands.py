@@ -314,7 +314,8 @@ def test_coordinates_of_samples_are_printed_to_what_is_known_of_them(
         start = next(i for i, line in enumerate(lines) if line.startswith("point  "))
         for line in lines[start + 1 : start + 5]:
             # The component is x = 0, y = 1 or y = -1, with any z.
-            _, x, y, z = line.split()
+            _, x, y, z, *real_dimension = line.split()
+            assert real_dimension == ["1"] * len(more)
             assert x == "0" and y in ("1", "-1") and z.endswith("i") == (not more)
 
 
