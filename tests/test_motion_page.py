@@ -271,6 +271,14 @@ def test_many_circuits_have_fewer_frames_and_the_page_says_how_far_places_are_of
     assert largest / typical_length(driven[0].scene) == pytest.approx(off, rel=0.06)
 
 
+def test_frames_tell_how_bodies_turn_where_all_joints_are_at_one_point(moved) -> None:
+    motion = moved("spherical/four-bar")
+    centre = motion.scene.joints[0].points[0]
+    assert all(np.abs(j.points - centre).max() == 0 for j in motion.scene.joints)
+    data = data_of(motion_page(motion, "title", "case.toml"))
+    assert [c["frames"] for c in data["circuits"]] == [len(c) for c in motion.circuits]
+
+
 def test_what_does_not_fit_in_a_page_is_to_be_driven_through_fewer_values() -> None:
     driven = nag.driven_motion(five_bar(2.5, 2.7, 1.8), "A", [0.0, 0.5, 1.0], samples=24)
     with pytest.raises(nag.NagError, match=r"fewer values, about \d+"):

@@ -167,7 +167,10 @@ def _frames_for(circuits: Sequence[Thinned], off: float) -> list[int]:
 
 
 def _deviation(circuit: Circuit, frames: int, scene: Scene) -> float:
-    """How far joints' points are from where they are, between frames, over a typical link."""
+    """How far joints' points are from where they are, between frames, over a typical link.
+
+    In space so are places a link beside them: bodies may turn about points that stay.
+    """
     at = np.linspace(0, len(circuit) - 1, frames)
     if frames == len(circuit):
         return 0.0
@@ -176,9 +179,12 @@ def _deviation(circuit: Circuit, frames: int, scene: Scene) -> float:
     between = _poses_at(shown, samples)
     points = [own for j in scene.joints for own in zip(j.bodies, j.points, strict=True)]
     points += list(scene.points.values())
+    link = typical_length(scene)
+    if scene.planar is None:
+        points += [(b, p + link * e) for b, p in points for e in np.eye(3)]
     gaps = (between.move(b, p) - circuit.poses.move(b, p) for b, p in points)
     largest = max((float(np.linalg.norm(gap, axis=1).max()) for gap in gaps), default=0.0)
-    return largest / typical_length(scene)
+    return largest / link
 
 
 def _poses_at(poses: Poses, at: np.ndarray) -> Poses:
