@@ -557,6 +557,15 @@ def test_robots_drawn_at_120_degrees_have_the_modes_of_rational_drawings(
     assert kinds(nag.modes(make())) == Counter(known)
 
 
+def test_a_mode_is_known_to_be_real_where_newtons_method_for_the_legs_leads_to_others() -> None:
+    robot = rps_at_120_degrees()
+    universal = replace(robot.joints[2], type="universal", axis=Y, second_axis=X)
+    found = nag.modes(replace(robot, joints=(*robot.joints[:2], universal, *robot.joints[3:])))
+    # By minimal primes over Q(sqrt 3) in Singular; each is parametrised by real coordinates.
+    assert kinds(found) == {(2, 2): 2, (2, 4): 2}
+    assert all(m.reality is ModeReality.REAL for m in found.modes)
+
+
 def test_forms_of_a_leg_with_square_roots_vanish_at_its_poses_exactly() -> None:
     root_2 = square_root(Fraction(2))
     leg = chain(

@@ -72,6 +72,7 @@ from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.zero_values import NONZERO
 from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
+from nag.witness.gauss_newton import descend
 from nag.witness.membership import (
     Membership,
     UndecidedError,
@@ -564,12 +565,18 @@ def _orthonormal(rows: np.ndarray) -> np.ndarray:
 
 
 def _real_points(model: PlatformModel, mode: OperationMode, run: Run) -> Iterator[np.ndarray]:
-    """Real points at which a mode is smooth, each one nearer to the reference if that is on it."""
+    """Real points at which a mode is smooth, each one nearer to the reference if that is on it.
+
+    They are looked for from zeros of the mode's own equations: from elsewhere Newton's method for
+    those of the legs leads to other modes as well.
+    """
     rng, n = run.random(45), model.system.n
     reference = np.array([float(x) for x in model.reference])
     rows = [[f.terms.get(e, 0) for e in UNITS] for f in mode.linear]
     basis = np.array([[float(c) for c in v] for v in null_space(rows, 8)])
     chart = np.array([1.0, *(-float(c) for c in model.chart)])
+    on_chart = Polynomial.of_doubles(8, {**dict(zip(UNITS, chart, strict=False)), (0,) * 8: -1.0})
+    own = Evaluator.of((study_quadric(), on_chart, *mode.linear, *mode.quadratic), 8)
     for k in range(REAL_POSES):
         pose = rng.standard_normal(len(basis)) @ basis
         pose = pose / (pose[:4] @ chart)
@@ -579,6 +586,9 @@ def _real_points(model: PlatformModel, mode: OperationMode, run: Run) -> Iterato
         if mode.is_linear and not model.charts.n:
             yield near
             continue
+        on_own = descend(own, np.concatenate([[1 - chart[1:] @ near[:3]], near[:7]]))
+        if on_own is not None:
+            near[:7] = on_own[1:]
         real = real_points_near(model.system, mode.component, near, starts=REAL_STARTS, run=run)
         for point in real.points[:1]:
             jacobian = _jacobian(model.system, point)
