@@ -27,8 +27,8 @@ from nag.text.table import count_text
 # of 24 bits. Circuits have fewer frames where there are many, but so many at least.
 MOST_BYTES, BYTES, LEAST_FRAMES = 985_000, 315_000, 12
 BITS, BYTES_OF_NUMBER = 24, 4
-# Decides: Share of a typical link by which what is drawn may be off between frames: two fifths of a
-# rod's radius.
+# Share of a typical link by which what is drawn may be off between frames: two fifths of a rod's
+# radius.
 HONEST = 0.02
 # By what numbers of frames that are tried differ.
 THINNER = 1.25
