@@ -1244,7 +1244,8 @@ def _reach_component(
     except SourceError as error:
         what = "the reference configuration" if name == "reference" else "point"
         reason = str(error).replace("the point is", "it is").removesuffix("; name a component")
-        raise NagError(f"{what}: {reason}; name a component by its number") from None
+        text = f"{what}: {reason}; name a component by its number"
+        raise NagError(text).mended_by("component") from None
     cloud = Cloud(source, ambient_variables(problem), rng, run)
     return ChosenComponent(cloud, name or "the point")
 
@@ -1277,7 +1278,8 @@ def _number_through(found: Decomposition, at: Sequence[Number | complex], run: R
         said = f"it lies on components {on}" if on else "it lies on no component"
         if located.open:
             said = "it is not known which components it lies on"
-        raise NagError(f"point: {said}; name a component by its number")
+        text = f"point: {said}; name a component by its number"
+        raise NagError(text).mended_by("component")
     return located.numbers[0]
 
 

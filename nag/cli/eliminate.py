@@ -138,7 +138,8 @@ def _begin(options: argparse.Namespace) -> Begun:
     except NagError as error:
         argument, _, reason = str(error).partition(": ")
         option = {"point": "--at", "component": "--component"}.get(argument)
-        raise UsageError(f"{option}: {reason}" if option else f"{case.path}: {error}") from None
+        text = f"{option}: {reason}" if option else f"{case.path}: {error}"
+        raise UsageError(text).mended_by(error.keyword) from None
     top, tail = _said(chosen)
     return name_case(case), chosen, [*top, *body_rows(problem)], tail
 
