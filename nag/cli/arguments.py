@@ -43,8 +43,11 @@ class CommandParser(Parser):
     _is_apart = False
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """As of `argparse.ArgumentParser`: options first, then all else together."""
-        if self._is_apart:
+        """As of `argparse.ArgumentParser`: options first, then all else together.
+
+        What a command's name stands before is that command's.
+        """
+        if self._is_apart or self._subparsers is not None:
             return super().parse_known_args(args, namespace)
         self._is_apart = True
         try:

@@ -9,7 +9,7 @@ from importlib.resources import files
 from nag.cli.arguments import UsageError
 from nag.cli.running import STANDARD_OUTPUT, CommandAnswer, check_option_target
 
-KINDS = ("linkage", "mechanism", "system")
+KINDS = ("linkage", "mechanism", "framework", "dh", "system")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

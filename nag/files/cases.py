@@ -109,7 +109,7 @@ _NEEDED = {
     },
 }
 # Kinds of which `nag init` writes a case.
-_WRITTEN = ("system", "mechanism", "linkage")
+_WRITTEN = ("system", "mechanism", "linkage", "framework", "dh")
 _TRUTH_KEYS = (
     "dimension",
     "degree",
@@ -346,7 +346,7 @@ def _require_all(top: CaseTable) -> None:
     # Of other kinds none is written, and who left the kind out may choose among those that are.
     hint = f" (`nag init {kind}` prints a whole case)" if kind in _WRITTEN else ""
     if kind is None:
-        hint = " (`nag init system`, mechanism or linkage prints a whole case)"
+        hint = " (`nag init system`, mechanism, linkage, framework or dh prints a whole case)"
     top.require(needed, hint)
 
 
