@@ -40,8 +40,9 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
     (
         "init",
         "write a commented case to begin with",
-        "Write a commented case to be edited: of a linkage by its links, a mechanism by its joints, "
-        "a framework by its bars, a loop by a table of Denavit and Hartenberg's (dh), or a system.",
+        "Write a commented case to be edited: of a linkage by its links, a mechanism by its "
+        "joints, a framework by its bars, a loop by a table of Denavit and Hartenberg's (dh), or a "
+        "system.",
     ),
     (
         "mobility",

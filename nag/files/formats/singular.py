@@ -23,7 +23,7 @@ _SHOWN = re.compile(r"\s*(?:short|printlevel|echo|timer|rtimer|TRACE)\s*=")
 _CALL = re.compile(r"([A-Za-z]\w*)\s*\(")
 # Names, and those of which entries are named; not an entry itself.
 _NAME = re.compile(r"(?<!\w)([A-Za-z]\w*(?:\([0-9]{1,6}\))*)(?![\w\[])")
-_ENTRY = re.compile(r"([A-Za-z]\w*(?:\([0-9]{1,6}\))*)\[")
+_ENTRY = re.compile(r"(?<!\w)([A-Za-z]\w*(?:\([0-9]{1,6}\))*)\[")
 # Calls in calls.
 MOST_NESTED = 8
 # What makes other generators of the same ideal.
