@@ -30,7 +30,13 @@ from nag.mechanism.graph import Joint, Mechanism, check_mechanism
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
 from nag.mechanism.parts import PARTS, mechanism_in, parts_in_formulation
-from nag.mechanism.path_estimates import Alternative, ModelError, NoLoopError, path_bound
+from nag.mechanism.path_estimates import (
+    MOST_TRACKED,
+    Alternative,
+    ModelError,
+    NoLoopError,
+    path_bound,
+)
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.rods import RodModel
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
@@ -187,7 +193,8 @@ def model(
 
     Parts that may be assembled in any way have one as well, an `AssemblyModel`.
 
-    The smallest is the one with the fewest estimated paths.
+    The smallest is the one with the fewest estimated paths, Euler parameters where these are more
+    than ten million.
 
     Args:
         mechanism: a `nag.Mechanism`, or a `nag.Case` or a model of one; at least one of its joints
@@ -304,7 +311,11 @@ def _reason(structure: LoopStructure, space: Space, chosen: Alternative, asked: 
         return f"{text}, as asked"
     unknowns = count_text(chosen.system.n, "unknown")
     how = "at most" if chosen.at_once is None else "at once"
-    text += f": {unknowns} and the fewest paths, {how} {chosen.paths}"
+    if chosen.fewer:
+        text += f": {unknowns} and short equations; {how} {chosen.paths} paths, half-angles "
+        text += f"{chosen.fewer}, and more than {MOST_TRACKED} are not tracked"
+    else:
+        text += f": {unknowns} and the fewest paths, {how} {chosen.paths}"
     return f"{text}; {chosen.stopped}" if chosen.stopped else text
 
 

@@ -23,6 +23,8 @@ from nag.errors import MechanismError
 MOST_STATES = 2_000
 # Seconds that a path of a decomposition takes at least.
 LEAST_SECONDS = 1e-4
+# More paths than these, a quarter of an hour at the least, do not decide which equations are taken.
+MOST_TRACKED = 10**7
 
 
 class ModelError(MechanismError):
@@ -45,6 +47,8 @@ class Alternative:
         solved: what is left of parts' equations when linear ones have been solved; None where those
             of ``form`` have been already.
         stopped: where the choice among formulations was cut short, after what.
+        fewer: how many paths another one takes that was left for its long equations, as so many are
+            not tracked; 0 if there is none.
     """
 
     formulation: str
@@ -52,6 +56,7 @@ class Alternative:
     problem: str = ""
     solved: PolynomialSystem | None = None
     stopped: str = ""
+    fewer: int = 0
 
     @classmethod
     def of_parts(cls, coordinates: str, form: Any) -> Alternative:
