@@ -16,8 +16,11 @@ from nag.kinematics.driven import Drive, hold
 from nag.kinematics.joint_values import joint_coordinates, joint_errors
 from nag.kinematics.motion import Motion, held_motion
 from nag.kinematics.poses import turn_product, turn_vectors
+from nag.mechanism.leg_ways import count_ways, find_leg_ways
+from nag.mechanism.legs import Leg
 from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.mechanism.problem import problem_of
+from nag.tracking.run import Run
 
 ROOT = Path(__file__).resolve().parent.parent
 CASES = ROOT / "cases"
@@ -405,3 +408,59 @@ def test_parts_without_a_reference_are_told_that_no_body_can_be_placed() -> None
         nag.NagError, match="pose: bodies are placed in mechanisms with a reference"
     ):
         nag.motion(CASES / "planar" / "four-bar.toml", pose={"crank": (0, 0, 0)})
+
+
+def turned_about(axis: tuple[int, int, int], angle: float) -> np.ndarray:
+    half = angle / 2
+    return np.array([math.cos(half), *(math.sin(half) * np.array(axis))])
+
+
+def test_a_rod_on_a_universal_joint_reaches_its_places_in_two_ways() -> None:
+    joints = (
+        nag.Joint("U", "universal", ("base", "rod"), (0, 0, 0), (1, 0, 0), (0, 1, 0)),
+        nag.Joint("S", "spherical", ("rod", "platform"), (1, 2, 3)),
+    )
+    leg = Leg(joints, ("base", "rod", "platform"))
+    assert count_ways(leg.elements(), Run()) == 2
+    first, second = (turned_about(*x) for x in (((1, 0, 0), 0.4), ((0, 1, 0), -0.7)))
+    turn = turn_product(first, second)
+    # The ball's point goes where both turns take it; the platform is turned as it was.
+    point = np.array([1.0, 2.0, 3.0])
+    moved = turn_vectors(turn, point) - point
+    pose = np.array([1.0, 0, 0, 0, 0, *(moved / 2)])
+    rng = np.random.default_rng(0)
+    ways = find_leg_ways(leg.elements(), pose, 2, 1.0, rng)
+    assert len(ways.joints) == 2 and not ways.missing
+    for way in ways.joints:
+        one, other = (2 * math.atan2(u[1], u[0]) for u in way[:2])
+        both = turn_product(turned_about((1, 0, 0), one), turned_about((0, 1, 0), other))
+        assert np.allclose(turn_vectors(both, point), point + moved, atol=FIT)
+    firsts = [2 * math.atan2(way[1][1], way[1][0]) % (2 * math.pi) for way in ways.joints]
+    assert abs(firsts[0] - firsts[1]) > 0.1
+
+
+def test_assemblies_by_poses_are_those_by_joints() -> None:
+    drive = {"P1": 0.1, "P2": 0.0, "P3": 0.0}
+    by_joints = nag.motion(rps_robot(), drive=drive)
+    by_poses = nag.motion(rps_robot(), drive=drive, formulation="P")
+    assert by_poses.complete and len(by_poses.assemblies) == len(by_joints.assemblies)
+    for one, other in zip(by_joints.assemblies, by_poses.assemblies, strict=True):
+        assert np.allclose(one.values, other.values, atol=1e-9)
+
+
+def test_a_hexapods_platform_is_solved_for_with_all_slides_held() -> None:
+    # Each leg reaches a pose in two ways: half a turn of its universal joint turns the rod over.
+    case = nag.read_case(CASES / "robots" / "hexapod.toml")
+    slides = [j.name for j in case.mechanism.joints if j.type == "prismatic"]
+    motion = nag.motion(case, drive=dict.fromkeys(slides, 0.0))
+    assert motion.complete and "its legs eliminated" in motion.reason
+    count, rest = divmod(len(motion.assemblies), 2**6)
+    assert count and not rest
+    assert max(joint_errors(motion.scene, a.poses).max() for a in motion.assemblies) < FIT
+    drawn = [a for a in motion.assemblies if np.abs(a.values).max() < 1e-9]
+    assert len(drawn) == 1
+
+
+def test_a_platform_that_moves_is_not_taken_by_its_poses() -> None:
+    with pytest.raises(nag.NagError, match="formulation P: the platform moves"):
+        nag.motion(rps_robot(), drive={"P1": 0.0, "P2": 0.0}, formulation="P")

@@ -18,7 +18,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import pairwise
 from math import isqrt
 from typing import Protocol
 
@@ -34,7 +33,7 @@ from nag.numerics.read_only import equal_values
 # vanish on the image meets with a probability of its degree over the prime.
 MORE_POINTS = 8
 # Primes for one coefficient; each gives it 31 bits for its numerator and as many below.
-MOST_PRIMES = 9
+MOST_PRIMES = 40
 # Conjugates of the coefficients, and with them bases.
 MOST_CONJUGATES = 16
 
@@ -172,9 +171,9 @@ def _vanishing(
     """A reduced basis of the forms in these monomials that vanish on the image."""
     modulus = 1
     residues: list[list[list[int]]] = []
-    fields = _fields(found.source, MOST_PRIMES + 1)
     numbers = found.source.coefficients.basis
-    for field, other in pairwise(fields):
+    for k in range(MOST_PRIMES):
+        field, other = _fields(found.source, k + 2)[k:]
         parts = _parts_modulo(field, found, degree, candidates, rng)
         if not parts[0]:
             return []

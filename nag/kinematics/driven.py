@@ -221,8 +221,16 @@ def check_drive(scene: Scene, drive: Drive) -> int:
     return names.index(drive.coordinate)
 
 
-def hold(problem: Problem, drives: Sequence[Drive], poses: Sequence[Pose]) -> tuple[Problem, Scene]:
+def hold(
+    problem: Problem, drives: Sequence[Drive], poses: Sequence[Pose], formulation: str = "auto"
+) -> tuple[Problem, Scene]:
     """What is left to be solved with joints at values and bodies at places, and what it shows.
+
+    Args:
+        problem: in real coordinates.
+        drives: the joints.
+        poses: the bodies.
+        formulation: of a mechanism's model, as for `nag.mechanism.holding.held_model`.
 
     Raises:
         NagError: if a joint or a body is not there or cannot be held, or of what is given none can.
@@ -232,7 +240,7 @@ def hold(problem: Problem, drives: Sequence[Drive], poses: Sequence[Pose]) -> tu
     chosen = [(coordinates[check_drive(scene, drive)], drive) for drive in drives]
     made = problem.model
     if isinstance(made, DHModel | DHEulerModel) and not poses:
-        angles = {each.joint: Fraction(drive.value) for each, drive in chosen}
+        angles = {each.joint: _as_written(drive.value) for each, drive in chosen}
         held = problem_of(hold_rows(made.loop, angles))
         return held, scene_of(held)
     if isinstance(made, LinkageModel) and not poses:
@@ -247,15 +255,20 @@ def hold(problem: Problem, drives: Sequence[Drive], poses: Sequence[Pose]) -> tu
     mechanism = HeldMechanism(made.mechanism, {})
     for each, drive in chosen:
         freedom = each.name[len(each.joint) + 1 :] or each.kind
-        mechanism = hold_joint(mechanism, each.joint, freedom, Fraction(drive.value))
+        mechanism = hold_joint(mechanism, each.joint, freedom, _as_written(drive.value))
     for pose in poses:
         mechanism = place_body(mechanism, pose.body, _displacement(made, pose))
-    held = problem_of(held_model(mechanism))
+    held = problem_of(held_model(mechanism, formulation))
     # A tie that holds its body somewhere else is no joint that is seen.
     joints = tuple(
         j for j in scene.joints if j.type != "rigid" or j.name not in mechanism.displacements
     )
     return held, replace(scene_of(held), joints=joints)
+
+
+def _as_written(x: float) -> Fraction:
+    """The shortest decimal number that is this double: of 0.1 a tenth, as it is meant."""
+    return Fraction(repr(float(x)))
 
 
 @dataclass(frozen=True)
@@ -293,7 +306,7 @@ def _hold_pins(
             first, second, angle = second, first, -angle
         pin = each.joint.split(":")[0]
         at = [_pin_place(linkage, part.plate, pin) for part in (first, second)]
-        linkage = hold_pin(linkage, pin, first.plate, second.plate, Fraction(angle))
+        linkage = hold_pin(linkage, pin, first.plate, second.plate, _as_written(angle))
         outer = _LinkInPlate(first.plate, angle, complex(at[0] - np.exp(1j * angle) * at[1]))
         for name, part in parts.items():
             if part.plate == second.plate:
@@ -328,11 +341,11 @@ def _displacement(made: Model, pose: Pose) -> GivenFrame:
     numbers = (*pose.place, *(pose.quaternion or ()))
     if not all(abs(x) <= LARGEST for x in numbers):
         raise NagError(f"pose: the numbers of {pose.body!r} have to be {LARGEST:.0e} at most")
-    origin = given_point([Fraction(x) for x in pose.place])
+    origin = given_point([_as_written(x) for x in pose.place])
     if pose.quaternion is None:
         return GivenFrame(origin=origin)
     try:
-        turned = given_quaternion([Fraction(x) for x in pose.quaternion]).quaternion
+        turned = given_quaternion([_as_written(x) for x in pose.quaternion]).quaternion
     except NagError as error:
         raise NagError(f"pose: the quaternion of {pose.body!r} {error}") from None
     drawn = made.mechanism.orientation(pose.body)

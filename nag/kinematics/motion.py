@@ -38,6 +38,7 @@ from nag.kinematics.rigid_assemblies import (
 from nag.kinematics.scene import Scene, scene_of
 from nag.kinematics.turning_points import Values, values_along
 from nag.kinematics.walks import CurveWalk, walks_of
+from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem
 from nag.mechanism.real_assemblies import obstacle, of_real_assemblies
@@ -70,6 +71,10 @@ Which = Literal["reference", "all"]
 
 class MotionError(NagError):
     """What has no motion of one freedom, with the reason."""
+
+
+class PosesError(MotionError):
+    """What moves in formulation P, which has the poses of a platform alone."""
 
 
 class FreedomsError(MotionError):
@@ -500,12 +505,20 @@ def held_motion(
         MotionError: if what is left moves with two freedoms or more, or has no real assembly.
         NagError: as `nag.kinematics.driven.hold` does.
     """
-    left, scene = hold(problem, drives, poses)
 
     def with_held(found: Motion) -> Motion:
         return replace(found, held=tuple(drives), poses=tuple(poses))
 
-    found, _ = _motion_on(left, scene, "all", samples, run.convert_found(with_held), holding=True)
+    told = run.convert_found(with_held)
+    asked = problem.formulation == PLATFORM_ALONE
+    left, scene = hold(problem, drives, poses, PLATFORM_ALONE if asked else "auto")
+    try:
+        found, _ = _motion_on(left, scene, "all", samples, told, holding=True)
+    except PosesError:
+        if asked:
+            raise
+        left, scene = hold(problem, drives, poses, "H")
+        found, _ = _motion_on(left, scene, "all", samples, told, holding=True)
     notes = list(found.notes)
     if not found.circuits and not found.assemblies and found.counted < 0:
         notes.append(
@@ -608,11 +621,17 @@ def _motion_on(
     """
     if not isinstance(samples, int) or not LEAST_SAMPLES <= samples <= MOST_SAMPLES:
         raise NagError(f"samples: give a whole number from {LEAST_SAMPLES} to {MOST_SAMPLES}")
+    alone = problem.formulation == PLATFORM_ALONE
     if not problem.system.n:
         raise MotionError("no equation has an unknown: nothing moves but what is in no loop")
     inner = run.without_found
     decomposition = problem.decompose(run=inner)
     notes = [] if decomposition.complete else [f"components: {'; '.join(decomposition.notes)}"]
+    if alone and any(c.dimension for c in decomposition.components):
+        raise PosesError(
+            "formulation P: the platform moves, and of the joints above moving poses it says "
+            "nothing; take another formulation"
+        )
     configurations = _distinct_configurations(problem, decomposition)
     own, left_out = _choose_components(
         problem, decomposition, configurations, which, inner, notes, holding

@@ -88,6 +88,14 @@ class Poses(FixedArrays):
         return Poses(self.turns * signs[:, :, None], self.places)
 
 
+def join_poses(several: Sequence[Poses]) -> Poses:
+    """The configurations of all of them, one after another."""
+    return Poses(
+        np.concatenate([each.turns for each in several], axis=1),
+        np.concatenate([each.places for each in several], axis=1),
+    )
+
+
 def pose_steps(poses: Poses, centres: np.ndarray, size: float) -> np.ndarray:
     """How far configurations are from the ones before them, shape ``(k - 1,)``.
 

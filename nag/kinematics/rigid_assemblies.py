@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.kinematics.driven import DrivenAssembly, is_same_assembly
 from nag.kinematics.joint_values import joint_coordinates, joint_values
-from nag.kinematics.poses import SAME
+from nag.kinematics.poses import SAME, Poses, join_poses, pose_distances
 from nag.kinematics.scene import Scene
 from nag.kinematics.turning_points import STILL
 from nag.real.curve import PieceKind, RealCurve
@@ -100,11 +100,21 @@ def find_rigid_assemblies(
         elsewhere.append(f"on {count_text(along, 'other curve')} (--circuit all)")
     if larger:
         elsewhere.append(f"on {count_text(larger, 'component')} of dimension 2 or more")
-    assemblies: list[DrivenAssembly] = []
-    for each in [*found, *on_curves]:
-        if not any(is_same_assembly(scene, each, other) for other in assemblies):
-            assemblies.append(each)
+    assemblies = _each_once(scene, [*found, *on_curves])
     return RigidAssemblies(_in_order(assemblies), join_words(elsewhere), tuple(doubts))
+
+
+def _each_once(scene: Scene, assemblies: Sequence[DrivenAssembly]) -> list[DrivenAssembly]:
+    """Those that are the same configuration as none before them."""
+    if not assemblies:
+        return []
+    every = join_poses([each.poses for each in assemblies])
+    kept: list[int] = []
+    for i in range(len(assemblies)):
+        before, own = every.at(np.array(kept, dtype=int)), every.at(np.full(len(kept), i))
+        if not (pose_distances(own, before, scene.centres, scene.size) < SAME).any():
+            kept.append(i)
+    return [assemblies[i] for i in kept]
 
 
 def _in_order(assemblies: Iterable[DrivenAssembly]) -> tuple[DrivenAssembly, ...]:
@@ -115,20 +125,27 @@ def isolated_assemblies(
     scene: Scene, components: Sequence[WitnessSet], run: Run
 ) -> tuple[list[DrivenAssembly], list[str]]:
     """The real assemblies among components of dimension 0, and what is not known of others."""
-    found, doubtful = list[DrivenAssembly](), 0
+    every, doubtful = list[np.ndarray](), 0
     for component in components:
         real = find_real_points(component, run=run)
         doubtful += not real.each_piece
-        found += _assemblies_at(scene, np.asarray(real.points))
+        every += list(np.asarray(real.points))
     notes = []
     if doubtful:
         notes.append(f"assemblies left out as it is not known whether they are real: {doubtful}")
-    return found, notes
+    points = np.array(every)
+    if scene.lift_all is None or not every:
+        return (_assemblies_at(scene, points) if every else []), notes
+    above, poses, doubts = scene.lift_all(points, run)
+    return _assemblies_of(scene, points[above], poses), [*notes, *doubts]
 
 
 def _assemblies_at(scene: Scene, points: np.ndarray) -> list[DrivenAssembly]:
     """The assemblies at points of the equations."""
-    poses = scene.lift(points)
+    return _assemblies_of(scene, points, scene.lift(points))
+
+
+def _assemblies_of(scene: Scene, points: np.ndarray, poses: Poses) -> list[DrivenAssembly]:
     values = _upper_half_turns(scene, joint_values(scene, poses))
     return [
         DrivenAssembly(None, None, values[i], poses.at(slice(i, i + 1)), points[i])

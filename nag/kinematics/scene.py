@@ -18,6 +18,7 @@ import numpy as np
 
 from nag.errors import NagError
 from nag.kinematics.poses import Poses, turn_back, turn_product, turn_vectors
+from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.configuration import Configuration, as_entries
 from nag.mechanism.dh import DHEulerModel, DHModel
 from nag.mechanism.framework_model import FrameworkModel
@@ -26,6 +27,7 @@ from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem
 from nag.mechanism.quaternion import translation
 from nag.numerics.read_only import FixedArrays, equal_values
+from nag.tracking.run import Run
 
 IDENTITY = (1, 0, 0, 0)
 UP = (0, 0, 1)
@@ -78,6 +80,8 @@ class Scene(FixedArrays):
             pins of a single link.
         variables: those of the equations.
         lift: poses at points, shape ``(k, n)``.
+        lift_all: of equations of which a point stands for several configurations, all real ones
+            above points: which of these each is above, their poses, and what is not known.
     """
 
     bodies: tuple[str, ...]
@@ -88,6 +92,9 @@ class Scene(FixedArrays):
     points: dict[str, tuple[int, np.ndarray]]
     variables: tuple[str, ...]
     lift: Callable[[np.ndarray], Poses] = field(compare=False)
+    lift_all: Callable[[np.ndarray, Run], tuple[np.ndarray, Poses, list[str]]] | None = field(
+        default=None, compare=False
+    )
 
     __eq__ = equal_values
 
@@ -184,13 +191,22 @@ def _of_mechanism(made: Model) -> Scene:
         {},
         made.system.variables,
         partial(_lift_mechanism, made),
+        partial(_lift_poses, made) if made.formulation == PLATFORM_ALONE else None,
     )
 
 
 def _lift_mechanism(made: Model, points: np.ndarray) -> Poses:
+    return _poses_of(made, made.form.lift(_columns(points)), len(points))
+
+
+def _lift_poses(made: Model, points: np.ndarray, run: Run) -> tuple[np.ndarray, Poses, list[str]]:
+    index, placed, notes = made.form.real_configurations(points, run)
+    return index, _poses_of(made, placed, len(index)), notes
+
+
+def _poses_of(made: Model, placed: Configuration, count: int) -> Poses:
+    """The bodies of many configurations, given entry by entry."""
     names = made.mechanism.body_names
-    placed: Configuration = made.form.lift(_columns(points))
-    count = len(points)
     return Poses.of(
         [_stack(placed.euler[b], count) for b in names],
         [_stack(placed.position[b], count) for b in names],

@@ -17,7 +17,8 @@ says how one moves, `moving_parts` (on `joint_chains`, of parts on `assembled`) 
 how it would if it were not rigid as it is given; `operation_modes` with `modes_report` how the
 platform of a parallel robot does, by `legs`, `leg_image`, `isotropic_limits`, `platform`,
 `inverse_kinematics` and `motions`, and `pose_model` makes a formulation of its poses, taken on
-request; `shown` is what is seen at the prompt.
+request, or with joints held where `leg_ways` says all that a leg can do at each; `shown` is what is
+seen at the prompt.
 
 To add a type of joint, write its record in `joint_types.JOINT_TYPES`, by the rules at the head of
 that file, and a row in `docs/cases.md`: all formulations, case files, graphs and tables read it

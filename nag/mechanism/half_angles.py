@@ -326,6 +326,11 @@ def _choose_closure(
     return None
 
 
+def cheapest_closure(product: Sequence[Element]) -> Closure | None:
+    """The closure of a single loop with the fewest paths; None where its products are dependent."""
+    return _choose_closure(product, Counter(factors_in(product)), True)
+
+
 def _terms(closure: Closure) -> int:
     """How many terms an equation has at most."""
     return prod(1 + e.factor.dimension for e in closure.kept if e.factor is not None)

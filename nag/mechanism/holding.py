@@ -10,21 +10,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 
 from nag.algebra.fixed_mapping import fixed_mapping
 from nag.algebra.number import Number, square_root
 from nag.errors import MechanismError
-from nag.mechanism.axes import cross, dot, space_of
+from nag.mechanism import PLATFORM_ALONE
+from nag.mechanism.axes import Space, cross, dot, space_of
 from nag.mechanism.given_rotation import GivenFrame, turn_about
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.half_angles import LoopClosures
 from nag.mechanism.joint_factors import NOTHING, ONE, UNIT, ZERO
-from nag.mechanism.loops import loop_structure
+from nag.mechanism.loops import LoopStructure, loop_structure
 from nag.mechanism.model import Model, check_loops
-from nag.mechanism.path_estimates import ModelError, path_bound
+from nag.mechanism.path_estimates import Alternative, ModelError, path_bound
 from nag.mechanism.quaternion import DualQuaternion, dual_multiply, multiply
 from nag.text.table import count_text
 
+# Estimated paths up to which a platform's legs are not asked for their equations: these take as
+# long to be made as so many paths.
+FEW_PATHS = 1_000
 # By the factors of a joint: its freedoms' names, as `nag.kinematics.joint_values` has them, and
 # what type of joint is left when one of them is held; None where none has that freedom alone.
 _LEFT: dict[tuple[str, ...], dict[str, str | None]] = {
@@ -153,8 +158,15 @@ def place_body(given: HeldMechanism, body: str, place: GivenFrame) -> HeldMechan
     )
 
 
-def held_model(given: HeldMechanism) -> Model:
-    """The equations of a mechanism that is held: those of half-angles.
+def held_model(given: HeldMechanism, formulation: str = "auto") -> Model:
+    """The equations of a mechanism that is held: the joints' coordinates, or a platform's poses.
+
+    Those with the fewest estimated paths. Poses are taken by themselves only where no leg moves
+    while the platform stands still: each stands for finitely many configurations then.
+
+    Args:
+        given: the mechanism.
+        formulation: ``"H"`` or ``"P"``, as for `nag.model`, or ``"auto"``.
 
     Raises:
         ModelError: if it has no loop, what is held is in none, or a loop has nothing to eliminate.
@@ -166,20 +178,19 @@ def held_model(given: HeldMechanism) -> Model:
     for name in given.displacements:
         if name not in inside:
             raise ModelError(f"hold: joint {name!r} is in no loop: whatever it does, others do not")
-    try:
-        form = LoopClosures.of(structure, displacements=given.displacements).model
-    except ValueError as error:
-        raise ModelError(
-            f"with {', '.join(given.held)} held too little is left that moves; hold less ({error})"
-        ) from None
     space = space_of(structure.joints)
+    chosen = _choose_form(given, structure, space, formulation)
+    form = chosen.form
     loops = count_text(len(structure.loops), "loop")
     unknowns = count_text(form.system.n, "unknown")
+    what = "joint coordinates"
+    if chosen.formulation == PLATFORM_ALONE:
+        what = f"poses of {form.platform.robot.platform}, its legs eliminated"
     return Model(
         mechanism=mechanism,
-        formulation="H",
+        formulation=chosen.formulation,
         space=space,
-        reason=f"{space}, {loops}; {', '.join(given.held)} held; joint coordinates: {unknowns}",
+        reason=f"{space}, {loops}; {', '.join(given.held)} held; {what}: {unknowns}",
         system=form.system,
         reference=(),
         sign_group=1,
@@ -188,6 +199,40 @@ def held_model(given: HeldMechanism) -> Model:
         structure=structure,
         form=form,
     )
+
+
+def _choose_form(
+    given: HeldMechanism, structure: LoopStructure, space: Space, formulation: str
+) -> Alternative:
+    """The equations with the fewest estimated paths, or those that are asked for."""
+    closures, problem = None, ""
+    if formulation != PLATFORM_ALONE:
+        try:
+            closures = LoopClosures.of(structure, displacements=given.displacements)
+        except ValueError as error:
+            problem = str(error)
+    paths = inf if closures is None else closures.estimated_paths(space)
+    if formulation == PLATFORM_ALONE or (formulation == "auto" and paths > FEW_PATHS):
+        from nag.mechanism.pose_model import pose_model
+
+        try:
+            poses = Alternative(
+                PLATFORM_ALONE, pose_model(structure, displacements=given.displacements)
+            )
+        except ValueError as error:
+            if formulation == PLATFORM_ALONE:
+                raise ModelError(f"formulation {formulation}: {error}") from None
+        else:
+            if formulation == PLATFORM_ALONE:
+                return poses
+            if not poses.form.left_out and poses.paths < paths:
+                return poses
+    if closures is None:
+        raise ModelError(
+            f"with {', '.join(given.held)} held too little is left that moves; hold less "
+            f"({problem})"
+        )
+    return Alternative("H", closures.model)
 
 
 def _find_joint(mechanism: Mechanism, name: str) -> Joint:

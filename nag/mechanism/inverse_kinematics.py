@@ -13,6 +13,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.mechanism.loop_product import Element
+from nag.numerics.double_ranks import NEARLY_SINGULAR
 from nag.numerics.zero_values import NONZERO
 
 # Random starts of a round, their steps, and rounds for a pose that is not reached before; fewer
@@ -25,6 +26,9 @@ TINY = 1e-12
 # Decides: Relative residual of a pose that a leg reaches; what it does not reach is said, not
 # dismissed.
 REACHED = 1e-10
+# Decides: Sine of the angle between coordinates of a joint at which two ways to reach a pose are
+# one: regular ones are known to rounding times their condition. Closer ones are told as missing.
+SAME_WAY = 1e-7
 # Least damping of a step; share of a factor's size in the squares that its norm is compared with.
 LEAST_DAMPING, LEAST_SHARE = 1e-14, 1e-3
 
@@ -208,6 +212,98 @@ def find_joints(
                 found = _step(found, rest, slopes)
             return [w[0] / np.linalg.norm(g, axis=1) for w, g in zip(found, given, strict=True)]
     return None
+
+
+def find_all_joints(
+    elements: Sequence[Element],
+    pose: np.ndarray,
+    length: float,
+    rng: np.random.Generator,
+    count: int,
+) -> list[list[np.ndarray]]:
+    """All regular ways in which a product of factors is a pose, as far as they are found.
+
+    Args:
+        pose, length: as for `find_joints`.
+        count: how many there are at most.
+
+    Returns:
+        Of each way homogeneous coordinates of the factors, complex ones of length one.
+    """
+    scale = np.array([1.0] * 4 + [1.0 / length] * 4)
+    given = [_given_generators(e) * scale for e in elements]
+    sizes = [np.linalg.norm(g, axis=1) for g in given]
+    generators = list(map(_unit, given))
+    target = _unit(pose[None] * scale)
+    free = sum(len(g) - 1 for g, e in zip(generators, elements, strict=True) if e.factor)
+    found: list[list[np.ndarray]] = []
+    for _ in range(ROUNDS):
+        weights = [_unit(_random(rng, (STARTS, len(g)), False)) for g in generators]
+        for _ in range(STEPS):
+            residuals, rest, slopes = _across_poses(generators, weights, target)
+            arrived = (residuals < REACHED) & _are_displacements(generators, weights)
+            if arrived.any():
+                for way in _regular_ways([w[arrived] for w in weights], generators, target, free):
+                    if not any(_ways_apart(way, other) < SAME_WAY for other in found):
+                        found.append(way)
+                if len(found) >= count:
+                    break
+            left = ~arrived
+            if not left.any():
+                break
+            weights = _step([w[left] for w in weights], rest[left], slopes[left])
+        if len(found) >= count:
+            break
+    return [[_unit((w / s)[None])[0] for w, s in zip(way, sizes, strict=True)] for way in found]
+
+
+def _regular_ways(
+    weights: Sequence[np.ndarray],
+    generators: Sequence[np.ndarray],
+    target: np.ndarray,
+    free: int,
+) -> list[list[np.ndarray]]:
+    """Ways that Newton's method ends at, those left out at which it is singular."""
+    ends = list(weights)
+    for _ in range(LAST_STEPS):
+        _, rest, slopes = _across_poses(generators, ends, target)
+        ends = _step(ends, rest, slopes)
+    slopes = _across_poses(generators, ends, target)[2]
+    s = np.linalg.svd(slopes, compute_uv=False)
+    regular = s[:, free - 1] > NEARLY_SINGULAR * s[:, 0] if free else np.ones(len(s), dtype=bool)
+    return [[w[k] for w in ends] for k in np.flatnonzero(regular)]
+
+
+def _ways_apart(one: Sequence[np.ndarray], other: Sequence[np.ndarray]) -> float:
+    """The largest sine of the angle between the coordinates of a factor in two ways."""
+    return max(
+        float(np.linalg.norm(v / np.linalg.norm(v) - u * (u.conj() @ v) / np.linalg.norm(v)))
+        for u, v in zip(map(_unit_vector, one), other, strict=True)
+    )
+
+
+def _unit_vector(u: np.ndarray) -> np.ndarray:
+    return np.asarray(u / np.linalg.norm(u))
+
+
+def real_ways(ways: Sequence[Sequence[np.ndarray]]) -> list[tuple[np.ndarray, ...]]:
+    """Those of all ways to reach a real pose that are real: the conjugate of no other one.
+
+    Ways to a real pose are real or conjugate to each other in pairs.
+    """
+    found = []
+    for k, way in enumerate(ways):
+        mirrored = [u.conj() for u in way]
+        apart = [_ways_apart(mirrored, other) for other in ways]
+        if int(np.argmin(apart)) == k and apart[k] < SAME_WAY:
+            found.append(tuple(map(_real_vector, way)))
+    return found
+
+
+def _real_vector(u: np.ndarray) -> np.ndarray:
+    """Real homogeneous coordinates that are those of a real point but for a factor."""
+    largest = u[np.argmax(np.abs(u))]
+    return np.asarray((u * (abs(largest) / largest)).real)
 
 
 def _generators(element: Element, scale: np.ndarray) -> np.ndarray:

@@ -8,13 +8,16 @@ nothing of the platform, and neither do trees that hang on a leg.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
+from nag.algebra.fixed_mapping import fixed_mapping
 from nag.errors import MechanismError
 from nag.mechanism.graph import Joint, Mechanism, check_mechanism, connected_to
 from nag.mechanism.loop_product import Element, joint_elements, opposite
 from nag.mechanism.loops import rigid_groups
+from nag.mechanism.quaternion import DualQuaternion
 from nag.text.table import join_words
 
 # Legs of a body that is taken for the platform without being named.
@@ -30,10 +33,16 @@ class Leg:
         joints: all of them, those of a serial chain from the ground on.
         bodies: of a serial chain, from the ground to the platform, one more than there are joints;
             empty where the leg has loops of its own.
+        displacements: of joints that are held elsewhere, as `half_angles.LoopClosures.of` takes
+            them.
     """
 
     joints: tuple[Joint, ...]
     bodies: tuple[str, ...]
+    displacements: Mapping[str, DualQuaternion] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "displacements", fixed_mapping(self.displacements))
 
     @property
     def is_serial(self) -> bool:
@@ -57,11 +66,21 @@ class Leg:
 
     def elements(self) -> tuple[Element, ...]:
         """The factors of the platform's displacement, of a serial chain."""
-        found: list[Element] = []
-        for joint, body in zip(self.joints, self.bodies, strict=False):
-            own = joint_elements(joint, 0, True)
-            found += own if joint.bodies[0] == body else opposite(own)
-        return tuple(found)
+        return tuple(e for own in self.elements_by_joint() for e in own)
+
+    def elements_by_joint(self) -> list[tuple[Element, ...]]:
+        """The same, those of each joint by themselves."""
+        return [
+            own if joint.bodies[0] == body else tuple(opposite(own))
+            for joint, body in zip(self.joints, self.bodies, strict=False)
+            for own in [self.elements_of(joint)]
+        ]
+
+    def elements_of(self, joint: Joint) -> tuple[Element, ...]:
+        """The elements of a joint, its second body against the first."""
+        own = joint_elements(joint, 0, True)
+        before = self.displacements.get(joint.name)
+        return own if before is None else (Element(None, (before,)), *own)
 
 
 @dataclass(frozen=True)
@@ -83,18 +102,24 @@ class ParallelRobot:
     aside: tuple[Joint, ...]
 
 
-def parallel_robot(mechanism: Mechanism, platform: str | None = None) -> ParallelRobot:
+def parallel_robot(
+    mechanism: Mechanism,
+    platform: str | None = None,
+    displacements: Mapping[str, DualQuaternion] = MappingProxyType({}),
+) -> ParallelRobot:
     """The platform of a mechanism and its legs.
 
     Args:
         platform: name of the body; by default the one of the most legs, three at least.
+        displacements: of joints that are held elsewhere, as `half_angles.LoopClosures.of` takes
+            them.
 
     Raises:
         MechanismError: if it is no body, the ground or tied to it, or hangs on a single leg, or if
             none is named and there is not one such body.
     """
     check_mechanism(mechanism)
-    groups = rigid_groups(mechanism)
+    groups = rigid_groups(mechanism, displaced=tuple(displacements))
     if groups.is_one_body:
         raise MechanismError("all bodies are tied together by rigid joints: nothing moves")
     merged = groups.merged
@@ -108,7 +133,15 @@ def parallel_robot(mechanism: Mechanism, platform: str | None = None) -> Paralle
         raise MechanismError(f"platform {platform!r} is the ground, or tied to it; name another")
     else:
         platform = groups.leader[platform]
-    legs = _legs(merged, platform)
+    legs = tuple(
+        replace(
+            leg,
+            displacements={
+                j.name: displacements[j.name] for j in leg.joints if j.name in displacements
+            },
+        )
+        for leg in _legs(merged, platform)
+    )
     if len(legs) < 2:
         count = "one leg" if legs else "no leg"
         raise MechanismError(

@@ -30,7 +30,7 @@ from nag.errors import MechanismError
 from nag.interpolation.image_forms import ImageForms
 from nag.mechanism.graph import Vector
 from nag.mechanism.inverse_kinematics import conjugate_pose, multiply_poses
-from nag.mechanism.joint_factors import UNIT, Charts, Factor, primitive
+from nag.mechanism.joint_factors import NOTHING, ONE, UNIT, ZERO, Charts, Factor, primitive
 from nag.mechanism.leg_image import (
     COORDINATES,
     MOST_DEGREE,
@@ -253,7 +253,12 @@ def _shift_leg(leg: Leg, place: Place) -> Leg:
         replace(j, point=tuple(x - c for x, c in zip(j.point, place, strict=True)))
         for j in leg.joints
     )
-    return replace(leg, joints=tuple(joints))
+    origin = ((ONE, *NOTHING[1:]), (ZERO, *(c / 2 for c in place)))
+    displacements = {
+        name: dual_multiply(dual_multiply(dual_conjugate(origin), moved), origin)
+        for name, moved in leg.displacements.items()
+    }
+    return replace(leg, joints=tuple(joints), displacements=displacements)
 
 
 def _shift_equations(equations: LegEquations, place: Place) -> LegEquations:
