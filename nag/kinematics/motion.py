@@ -950,27 +950,43 @@ def _passages(made: _FoundCircuit) -> list[_Passage]:
     ]
 
 
+def _same_poses(passages: Sequence[_Passage]) -> np.ndarray:
+    """Which of them are one configuration, shape ``(k, k)``."""
+    if not passages:
+        return np.zeros((0, 0), dtype=bool)
+    scene = passages[0].made.path.curve.scene
+    turns, places = (
+        np.concatenate([getattr(p.pose, name) for p in passages], axis=1)
+        for name in ("turns", "places")
+    )
+    every = Poses(turns, places)
+    rows = []
+    for i in range(len(passages)):
+        alone = every.at(np.full(len(passages), i))
+        rows.append(pose_distances(alone, every, scene.centres, scene.size) < SAME)
+    return np.array(rows)
+
+
 def _with_crossings(
     found: Sequence[_FoundCircuit], configurations: Configurations, own: Sequence[int], run: Run
 ) -> list[Circuit]:
     """The circuits with the singular configurations on their way."""
     passages = [passage for made in found for passage in _passages(made)]
-    known: list[tuple[_Passage, tuple[int, ...] | None]] = []
+    same = _same_poses(passages)
+    known: list[tuple[int, tuple[int, ...] | None]] = []
     crossings: dict[int, list[Crossing]] = {made.circuit.number: [] for made in found}
-    for here in passages:
-        scene, circuit = here.made.path.curve.scene, here.made.circuit
-
-        def is_here(other: _Passage, here: _Passage = here, scene: Scene = scene) -> bool:
-            return pose_distances(here.pose, other.pose, scene.centres, scene.size)[0] < SAME
-
-        numbers = {p.made.circuit.number for p in passages if p is not here and is_here(p)}
-        through = next((components for other, components in known if is_here(other)), ())
-        if not any(is_here(other) for other, _ in known):
+    for i, here in enumerate(passages):
+        circuit = here.made.circuit
+        numbers = {
+            other.made.circuit.number for k, other in enumerate(passages) if k != i and same[i, k]
+        }
+        through = next((components for k, components in known if same[i, k]), ())
+        if not any(same[i, k] for k, _ in known):
             if len(known) < MOST_PLACES:
                 through = find_components_through(configurations, here.point, run)
             else:
                 through = None
-            known.append((here, through))
+            known.append((i, through))
         others = None
         if through is not None:
             itself = configurations.classes[own[circuit.component]]

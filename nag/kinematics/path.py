@@ -22,8 +22,9 @@ from nag.real.spherical_chart import SphericalChart
 # Decides: Singular values of equations along a curve, over the largest, that are zero: Newton's
 # steps that bring samples onto it leave them out.
 KERNEL = 1e-8
-# Newton's steps, and the last one's size from which on a point is on the curve.
-STEPS, ARRIVED = 12, 1e-14
+# Newton's steps, the last one's size from which on a point is on the curve, and the share of a step
+# that the next one is at most while derivatives are not worked out anew.
+STEPS, ARRIVED, SHRINKING = 12, 1e-14, 1e-3
 # Steps of samples are so many of the points that they are taken between; how often these are
 # halved for it at most.
 FINER, HALVINGS = 4, 12
@@ -85,6 +86,11 @@ class Curve:
         evaluator = Evaluator(size, np.array(monomials, dtype=np.int64).reshape(-1, size), table)
         return evaluator, evaluator.placed_derivatives(size)
 
+    def values_at(self, chart: np.ndarray) -> np.ndarray:
+        """Values of the equations, and zeros for the lengths of groups, shape ``(k, rows)``."""
+        values = self._equations[0].values(chart).real
+        return np.hstack([values, np.zeros((len(chart), len(self.coordinates.groups)))])
+
     def equations_at(self, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Values and Jacobians by the chart's coordinates.
 
@@ -104,18 +110,41 @@ class Curve:
         needs, they have full rank beside it, and the least singular value is left out.
         """
         chart = np.array(chart)
+        left, sizes = np.arange(len(chart)), np.full(len(chart), np.inf)
+        stale = np.ones(len(chart), dtype=bool)
+        inverses = np.empty((0, 0, 0))
         for _ in range(STEPS):
-            values, rows = self.equations_at(chart)
-            u, s, v = np.linalg.svd(rows, full_matrices=False)
-            kept = s > KERNEL * s[:, :1]
-            kept[:, chart.shape[1] - 1 :] = False
-            parts = (u.transpose(0, 2, 1) @ values[:, :, None])[:, :, 0]
-            parts = np.where(kept, parts / np.where(kept, s, 1.0), 0.0)
-            step = (v.transpose(0, 2, 1) @ parts[:, :, None])[:, :, 0]
-            chart = self.coordinates.normalise(chart - step)
-            if float(np.abs(step).max(initial=0.0)) < ARRIVED:
+            if not len(left):
                 break
+            values, rows = self.equations_at(chart[left[stale]])
+            if stale.any():
+                own = _shortest_steps(rows)
+                if not inverses.size:
+                    inverses = np.empty((len(chart), *own.shape[1:]))
+                inverses[left[stale]] = own
+            if not stale.all():
+                values = self.values_at(chart[left])
+            step = (inverses[left] @ values[:, :, None])[:, :, 0]
+            chart[left] = self.coordinates.normalise(chart[left] - step)
+            size = np.abs(step).max(axis=1)
+            going = ~(size < ARRIVED)
+            stale = (size > SHRINKING * sizes[left])[going]
+            sizes[left] = size
+            left = left[going]
         return chart
+
+
+def _shortest_steps(rows: np.ndarray) -> np.ndarray:
+    """Matrices that take values of equations to the shortest steps by which these vanish.
+
+    Of Jacobians, shape ``(k, rows, size)``, the inverses of ``size - 1`` singular values at most,
+    and of none that is zero.
+    """
+    u, s, v = np.linalg.svd(rows, full_matrices=False)
+    kept = s > KERNEL * s[:, :1]
+    kept[:, rows.shape[2] - 1 :] = False
+    scales = np.where(kept, 1 / np.where(kept, s, 1.0), 0.0)
+    return np.asarray(v.transpose(0, 2, 1) @ (scales[:, :, None] * u.transpose(0, 2, 1)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -50,7 +50,6 @@ from nag.real.fibre_table import (
     fibre_table,
     sample_circle,
 )
-from nag.real.real_equations import curve_of_real_points, find_real_equations
 from nag.real.real_fibres import SpecialFibre, infinite_fibre, real_fibre, special_fibre
 from nag.real.tracked_fibres import TrackedFibres, ordinary_fibre, special_fibres_of
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -139,6 +138,9 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
 
 
 def _of_complex_equations(component: WitnessSet, run: Run) -> RealCurve:
+    # Few equations are complex, and what takes them apart takes a tenth of a second to load.
+    from nag.real.real_equations import curve_of_real_points, find_real_equations
+
     equations = find_real_equations(component, run)
     if equations.inside and equations.inside[0].dimension:
         return find_real_curve(equations.inside[0], run=run)
