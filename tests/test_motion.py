@@ -18,13 +18,16 @@ from linkages import CASES
 from traced_curves import trace_loop
 
 import nag
+from nag.algebra.evaluation import Evaluator
 from nag.errors import NagError
+from nag.kinematics.driven import Drive, assemblies_on
 from nag.kinematics.joint_values import joint_errors, joint_values
 from nag.kinematics.motion import Motion, MotionError, motion_of
-from nag.kinematics.path import Curve
-from nag.kinematics.poses import Poses, pose_steps, turn_product
+from nag.kinematics.path import Curve, sample_path
+from nag.kinematics.poses import Poses, pose_distances, pose_steps, turn_product
 from nag.kinematics.scene import Scene, SceneJoint, scene_of
 from nag.kinematics.shown import rigid_text
+from nag.kinematics.turning_points import values_along
 from nag.kinematics.walks import walks_of
 from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
@@ -125,6 +128,86 @@ def test_two_formulations_give_the_same_motion_point_for_point(moved, name) -> N
     # Where they begin they are the same; which way they run is not said.
     best = min(np.abs(own - x).max() for x in (forwards, backwards))
     assert best < 1e-3
+
+
+@pytest.mark.parametrize("name", ["bennett", "planar/slider-crank"])
+def test_at_equal_angles_of_a_joint_two_formulations_have_the_same_configurations(
+    moved, name
+) -> None:
+    found = []
+    for formulation in ("E", "H"):
+        motion, problem = moved(name, formulation), read_problem(name, formulation)
+        curve = Curve(motion.curves[0], problem.system, motion.scene)
+        (walk,) = walks_of(curve.real, curve.coordinates)
+        path = sample_path(curve, walk, 121)
+        values = values_along(path)
+        crank = values.coordinates[0].name
+        driven = [
+            assemblies_on(path, values, Drive(crank, angle), 1, np.inf)
+            for angle in np.linspace(-3, 3, 12)
+        ]
+        found.append([np.array([each.values for each in own]) for own in driven])
+    for one, other in zip(*found, strict=True):
+        assert len(one) and len(other)
+        gaps = np.abs(np.exp(1j * one[:, None]) - np.exp(1j * other[None])).max(axis=2)
+        assert gaps.min(axis=0).max() < 1e-9 and gaps.min(axis=1).max() < 1e-9
+
+
+# Bennett's, Goldberg's, Myard's, Schatz' and three of Bricard's linkages, Sarrus', and a four-bar
+# of the plane whose bodies turn in space.
+IN_SPACE = [
+    "bennett",
+    "spatial/bennett",
+    "spatial/goldberg-5r",
+    "spatial/myard-5r",
+    "spatial/schatz",
+    "spatial/bricard-line-symmetric",
+    "spatial/bricard-plane-symmetric",
+    "bricard-cube",
+    "spatial/sarrus",
+    "spatial/planar-four-bar",
+]
+
+
+def points_along(name: str, problem: Problem) -> tuple[np.ndarray, Poses]:
+    """Samples of a motion, its points and where the bodies are at each."""
+    if name == "spatial/sarrus":
+        # Circuits cross: no loop is traced past that.
+        circuit = motion_of(problem, circuit="all", samples=30).circuits[0]
+        return circuit.points, circuit.poses
+    real = trace_loop(problem, start_of(problem), step=0.02)
+    curve = Curve(real, problem.system, scene_of(problem))
+    (walk,) = walks_of(real, curve.coordinates)
+    path = sample_path(curve, walk, 31)
+    return curve.coordinates.points(path.chart), path.poses
+
+
+@pytest.mark.parametrize("name", IN_SPACE)
+def test_every_point_of_a_motion_in_half_angles_is_one_in_euler_parameters(name: str) -> None:
+    halves, euler = (read_problem(name, formulation) for formulation in ("H", "E"))
+    points, poses = points_along(name, halves)
+    own = np.array([euler_point(halves, euler, x) for x in points])
+    equations = Evaluator.of(euler.system.polynomials, euler.system.n)
+    assert equations.residuals(own + 0j).max() < FIT
+    # No other curve passes: where the motion goes on in half-angles it does in the others.
+    n = euler.system.n
+    for x in own:
+        s = np.linalg.svd(equations.jacobian(x + 0j), compute_uv=False)
+        assert s[n - 2] > 1e-4 * s[0] and (len(s) < n or s[n - 1] < FIT * s[0])
+    scene = scene_of(euler)
+    there = scene.lift(own)
+    assert pose_distances(there, poses, scene.centres, scene.size).max() < FIT
+    one, other = (joint_values(*each) for each in ((scene, there), (scene_of(halves), poses)))
+    assert np.abs(np.exp(1j * one) - np.exp(1j * other)).max() < FIT
+
+
+def euler_point(halves: Problem, euler: Problem, point: np.ndarray) -> np.ndarray:
+    """The point in Euler parameters, one of each sign, that one in half-angles is."""
+    if halves.mechanism is None:
+        found = euler.model.of_half_angles(halves.model, [complex(x) for x in point])
+    else:
+        found = euler.mechanism.project(halves.mechanism.lift(point))
+    return np.array([complex(x).real for x in found])
 
 
 def test_angles_of_bennetts_linkage_have_the_law_that_they_have(moved) -> None:
