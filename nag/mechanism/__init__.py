@@ -37,5 +37,6 @@ FORMULATIONS = {
     "H": "half-angles, slides and quaternions of the joints",
     "S": "rods between spherical joints as distances, free bodies in Study coordinates",
 }
-# The platform's poses alone, taken only on request, and what is known of a robot's modes.
+# The platform's poses alone, taken on request, or with joints held, and what is known of a robot's
+# modes.
 PLATFORM_ALONE = "P"
