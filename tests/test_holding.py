@@ -12,7 +12,7 @@ import pytest
 import nag
 from nag.cli import main
 from nag.files.json_schema import schema
-from nag.kinematics.driven import Drive, hold
+from nag.kinematics.driven import Drive, hold, isolated_assemblies
 from nag.kinematics.joint_values import joint_coordinates, joint_errors
 from nag.kinematics.motion import Motion, held_motion
 from nag.kinematics.poses import turn_product, turn_vectors
@@ -439,13 +439,34 @@ def test_a_rod_on_a_universal_joint_reaches_its_places_in_two_ways() -> None:
     assert abs(firsts[0] - firsts[1]) > 0.1
 
 
+def wrist_robot() -> nag.Mechanism:
+    """A platform on a universal joint, and two rods of given length from universal joints to it."""
+    joints = [nag.Joint("B", "universal", ("base", "platform"), ORIGIN, UP, (1, 0, 0))]
+    for k, low, top in ((1, (3, 0, -1), (2, 1, 1)), (2, (-1, 3, -1), (-1, 2, 1))):
+        along = tuple(x - y for x, y in zip(top, low, strict=True))
+        joints += [
+            nag.Joint(f"U{k}", "universal", ("base", f"low{k}"), low, (1, 0, 0), (0, 1, 0)),
+            nag.Joint(f"P{k}", "prismatic", (f"low{k}", f"up{k}"), None, along),
+            nag.Joint(f"S{k}", "spherical", (f"up{k}", "platform"), top),
+        ]
+    return nag.Mechanism("base", tuple(joints))
+
+
 def test_assemblies_by_poses_are_those_by_joints() -> None:
-    drive = {"P1": 0.1, "P2": 0.0, "P3": 0.0}
-    by_joints = nag.motion(rps_robot(), drive=drive)
-    by_poses = nag.motion(rps_robot(), drive=drive, formulation="P")
-    assert by_poses.complete and len(by_poses.assemblies) == len(by_joints.assemblies)
-    for one, other in zip(by_joints.assemblies, by_poses.assemblies, strict=True):
-        assert np.allclose(one.values, other.values, atol=1e-9)
+    problem = problem_of(wrist_robot())
+    drives = (Drive("P1", 0.1), Drive("P2", 0.05))
+    found = []
+    for formulation in ("P", "H"):
+        left, scene = hold(problem, drives, (), formulation)
+        assert left.formulation == formulation
+        points = [c for c in left.decompose().components if c.dimension == 0]
+        own, notes = isolated_assemblies(scene, points, Run())
+        assert not notes
+        found.append(np.array([each.values for each in own]))
+    # Two poses of the platform, which each of both legs reaches in two ways.
+    assert len(found[0]) == len(found[1]) == 8
+    gaps = np.abs(found[0][:, None] - found[1][None]).max(axis=2)
+    assert gaps.min(axis=0).max() < FIT and gaps.min(axis=1).max() < FIT
 
 
 def test_a_hexapods_platform_is_solved_for_with_all_slides_held() -> None:
@@ -463,4 +484,4 @@ def test_a_hexapods_platform_is_solved_for_with_all_slides_held() -> None:
 
 def test_a_platform_that_moves_is_not_taken_by_its_poses() -> None:
     with pytest.raises(nag.NagError, match="formulation P: the platform moves"):
-        nag.motion(rps_robot(), drive={"P1": 0.0, "P2": 0.0}, formulation="P")
+        nag.motion(wrist_robot(), drive={"P1": 0.1}, pose=None, formulation="P")

@@ -202,7 +202,7 @@ def model(
         formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
             components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
             for half-angles and other joint coordinates, ``"S"`` for rods as distances, ``"auto"``;
-            ``"P"`` for the poses of a robot's platform, which are not taken by themselves here: their
+            ``"P"`` for the poses of a robot's platform, which are not taken by themselves: their
             components need not be those of the joints.
         modes: assembly modes (`nag.mechanism.assembly_modes`), of the mechanism in space.
         space: ``"spatial"`` to take a planar or spherical mechanism as one in space.
