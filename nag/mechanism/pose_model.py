@@ -121,7 +121,7 @@ class PoseModel:
             Which of the points each configuration is above; all of them, entry by entry; and what
             is not known.
         """
-        model, rng = self.platform, run.random(48)
+        model, rng = self.platform, run.random(52)
         counts = [None if _idle(leg) else count_ways(leg.middle, run) for leg in model.legs]
         missing: dict[str, int] = {}
         index: list[int] = []
