@@ -12,10 +12,11 @@ import pytest
 import nag
 from nag.cli import main
 from nag.files.json_schema import schema
-from nag.kinematics.driven import Drive, hold, isolated_assemblies
+from nag.kinematics.driven import Drive, hold
 from nag.kinematics.joint_values import joint_coordinates, joint_errors
 from nag.kinematics.motion import Motion, held_motion
 from nag.kinematics.poses import turn_product, turn_vectors
+from nag.kinematics.rigid_assemblies import isolated_assemblies
 from nag.mechanism.leg_ways import count_ways, find_leg_ways
 from nag.mechanism.legs import Leg
 from nag.mechanism.linkage import Link, Linkage, linkage_model

@@ -28,7 +28,7 @@ from nag.kinematics.driven import (
 )
 from nag.kinematics.joint_values import joint_coordinates
 from nag.kinematics.path import Curve, Path, sample_path, singular_places
-from nag.kinematics.poses import SAME, Poses, pose_distances
+from nag.kinematics.poses import SAME, Poses, join_poses, pose_distances
 from nag.kinematics.rigid_assemblies import (
     Configurations,
     RigidAssemblies,
@@ -955,11 +955,7 @@ def _same_poses(passages: Sequence[_Passage]) -> np.ndarray:
     if not passages:
         return np.zeros((0, 0), dtype=bool)
     scene = passages[0].made.path.curve.scene
-    turns, places = (
-        np.concatenate([getattr(p.pose, name) for p in passages], axis=1)
-        for name in ("turns", "places")
-    )
-    every = Poses(turns, places)
+    every = join_poses([p.pose for p in passages])
     rows = []
     for i in range(len(passages)):
         alone = every.at(np.full(len(passages), i))
@@ -990,7 +986,7 @@ def _with_crossings(
         others = None
         if through is not None:
             itself = configurations.classes[own[circuit.component]]
-            others = tuple(i for i in through if i != itself)
+            others = tuple(k for k in through if k != itself)
         step = float(circuit.arc[1] - circuit.arc[0])
         crossings[circuit.number].append(
             Crossing(round(here.arc / step), here.arc, tuple(sorted(numbers)), others)
