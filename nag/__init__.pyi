@@ -161,7 +161,7 @@ def driven_motion(
 ) -> DrivenMotion: ...
 def eliminate(
     given: Decomposed,
-    onto: Sequence[str] | str | None = None,
+    onto: Names | None = None,
     component: int | None = None,
     *,
     point: Point | None = None,
@@ -273,7 +273,7 @@ def plot(
     given: Decomposed,
     path: File,
     *,
-    onto: Sequence[str] | str | None = None,
+    onto: Names | None = None,
     joints: Sequence[str] | str | None = None,
     point: str | None = None,
     graph: bool = False,

@@ -1063,7 +1063,7 @@ def intersect(
 @takes_run
 def eliminate(
     given: Any,
-    onto: Sequence[str] | str | None = None,
+    onto: Any = None,
     component: int | None = None,
     *,
     point: Any = None,
@@ -1076,8 +1076,8 @@ def eliminate(
 
     Args:
         given: components that were found, a file of them, or what is decomposed now.
-        onto: names of the variables, or a text of them with commas; by default essential ones, from
-            which all others follow.
+        onto: names of the variables, sympy's symbols, or a text of them; by default essential ones,
+            from which all others follow.
         component: its number, from 1, in the order of `nag.decompose`; by default 1, and of a
             mechanism the one through its reference configuration, for which nothing is decomposed.
         point: a point, as for `nag.member`, that the component goes through, instead of its number:
@@ -1100,13 +1100,14 @@ def eliminate(
     """
     from nag.interpolation.image_ideal import eliminate_component
 
+    if degree is not None:
+        check_whole(degree, "degree", 1)
     if point is not None and component is not None:
         raise NagError("point: component names one already; give one of the two")
     given = asked_of_component(given, component, formulation)
     chosen = choose_component(given, component, point, run)
-    names = onto.split(",") if isinstance(onto, str) else onto
-    system = chosen.cloud.ambient.system
-    places = None if names is None else place_variables([n.strip() for n in names], system)
+    names = _listed_names(onto)
+    places = None if names is None else place_variables(names, chosen.cloud.ambient.system)
     return eliminate_component(chosen.cloud, chosen.alike, places, degree, polynomial, run.tell)
 
 
@@ -1309,6 +1310,8 @@ def place_variables(names: Sequence[str], system: Any) -> tuple[int, ...]:
             raise NagError(f"onto: {quote(name)} is not one of the variables{nearest(name, known)}")
     if len(set(names)) < len(names):
         raise NagError("onto: a variable is given twice")
+    if not names:
+        raise NagError("onto: no variable is given; leave it out, or name one")
     return tuple(known.index(name) for name in names)
 
 
@@ -1461,7 +1464,7 @@ def plot(
     given: Any,
     path: str | os.PathLike[str],
     *,
-    onto: Sequence[str] | str | None = None,
+    onto: Any = None,
     joints: Sequence[str] | str | None = None,
     point: str | None = None,
     graph: bool = False,
@@ -1478,7 +1481,7 @@ def plot(
         given: anything that describes a problem, see `nag.problem`, or components
             that were found.
         path: the file, ending in .svg, .png or .pdf.
-        onto: two variables or three, names or a text of them with commas: the real points of the
+        onto: two variables or three, names, symbols or a text of them: the real points of the
             components of dimension one, or where there is none, in three variables, of dimension
             two; beside ``point`` two of x, y and z.
         joints: two joints, whose angles or slides are drawn against each other along the motion.
@@ -1536,10 +1539,14 @@ def plot(
     return plot_components(found, kind, onto, title, target, run, chosen)
 
 
-def _listed_names(names: Sequence[str] | str | None) -> tuple[str, ...] | None:
+def _listed_names(names: Any) -> tuple[str, ...] | None:
+    """Names, or sympy's symbols, one by one or in a text with commas or blanks between."""
     if names is None:
         return None
-    return tuple(n.strip() for n in (names.split(",") if isinstance(names, str) else names))
+    if isinstance(names, str):
+        names = names.split(",") if "," in names else names.split()
+    listed = names if isinstance(names, Iterable) else [names]
+    return tuple(filter(None, (str(name).strip() for name in listed)))
 
 
 # --- Proofs

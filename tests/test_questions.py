@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import sympy
 from linkages import CASES
 
 import nag
@@ -468,3 +469,26 @@ def test_a_command_adds_the_option_that_mends_an_error(capsys: pytest.CaptureFix
 
 def test_what_is_listed_at_the_prompt_can_be_asked() -> None:
     assert not {"Any", "import_module"} & {*dir(nag)}
+
+
+def test_variables_are_named_by_texts_and_symbols() -> None:
+    x, y, z = sympy.symbols("x y z")
+    found = nag.eliminate([y - x**2, z - x**3], "y, z")
+    for onto in ("y z", "y,z", ["y", "z"], (y, z), [y, "z"]):
+        assert nag.eliminate([y - x**2, z - x**3], onto) == found
+    assert found.to_sympy() == [y**3 - z**2]
+    for unit in (1, sympy.I):
+        maps = nag.eliminate([y - unit * x**2, z - x**3], [y, z]).maps_to_sympy()
+        assert sympy.simplify(maps[x].subs({y: unit * x**2, z: x**3})) == x
+    for degree in (0, -3, True, 2.0):
+        with pytest.raises(nag.NagError, match=r"degree: .* give a whole number from 1 up"):
+            nag.eliminate("x - y", "x, y", degree=degree)
+    with pytest.raises(nag.NagError, match="onto: no variable is given"):
+        nag.eliminate("x - y", "")
+
+
+@pytest.mark.parametrize("text", ["x^2 - 1, x - y", "x^2 - 1; x - y;", "x[1,2] - 1, x[1,2] - y"])
+def test_several_equations_in_one_text_are_asked_for_in_a_list(text: str) -> None:
+    with pytest.raises(nag.NagError, match=r"equations: several equations in one text; give a l"):
+        nag.system(text)
+    assert nag.system("x_{1,2}^2 - 1").variables == ("x_{1,2}",)

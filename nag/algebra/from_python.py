@@ -40,6 +40,9 @@ __all__ = ["exact_number", "exact_vector", "system"]
 
 # What iterates, as sequences of equations do, and holds none: results.
 ANSWERS = ("nag.numerics.read_only", "Several")
+# What stands between equations of a list; commas in brackets stand between indices.
+_SEVERAL = re.compile(r"[,;]\s*\S")
+_IN_BRACKETS = re.compile(r"[\[{(][^\[{(\]})]*[\]})]")
 
 
 def exact_number(value: Any, place: str = "the number") -> Number:
@@ -196,6 +199,10 @@ def _is_complex(equation: Any, unit: str | None) -> bool:
 def _list_equations(equations: Any, place: str) -> list[Any]:
     """Equations as a list; a single one is a list of one."""
     matrix = getattr(equations, "is_Matrix", False)
+    if isinstance(equations, str) and _SEVERAL.search(_IN_BRACKETS.sub("", equations)):
+        raise ExpressionError(
+            f"{place}: several equations in one text; give a list of texts: ['x^2 - 1', 'x - y']"
+        )
     if isinstance(equations, str | Polynomial) or (is_sympy(equations) and not matrix):
         return [equations]
     if hasattr(equations, "ravel"):

@@ -158,6 +158,20 @@ class ImageIdeal(Several[Polynomial]):
         """
         return to_sympy_polynomials(self.generators, self.letters, bool(self.imaginary))
 
+    def maps_to_sympy(self) -> dict[sympy.Symbol, sympy.Expr]:
+        """The maps as sympy has them: quotients by the symbols of the variables that they give.
+
+        Raises:
+            nag.NagError: if sympy is not installed.
+        """
+        symbols = to_sympy_polynomials(Polynomial.variables(len(self.variables)), self.variables)
+        found = {}
+        for m in self.maps:
+            parts = m.whole_fraction()
+            above, below = to_sympy_polynomials(parts, self.letters, bool(self.imaginary))
+            found[symbols[m.variable]] = above / below
+        return found
+
     def to_dataframe(self) -> pandas.DataFrame:
         """A row for each generator: its text, its degree, and what proves it.
 
