@@ -68,7 +68,7 @@ ODD: dict[str, list[Callable[[], Any]]] = {
     "mechanism": [
         lambda: nag.model(graph()),
         lambda: nag.model(None),
-        lambda: nag.model("bennett"),
+        lambda: nag.model(3),
         lambda: nag.gruebler_kutzbach(None),
         lambda: nag.gruebler_kutzbach(graph()),
         lambda: nag.mobility(graph()),

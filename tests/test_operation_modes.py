@@ -822,3 +822,9 @@ def test_legs_reach_the_modes_of_a_robot_in_any_unit(factor: Fraction) -> None:
     found = nag.modes(replace(made, joints=joints))
     assert found.complete
     assert [(m.dimension, m.degree) for m in found.modes] == [(3, 7), (3, 7)]
+
+
+def test_frames_of_modes_hold_texts_and_numbers() -> None:
+    frame = nag.modes(CASES / "robots" / "tripteron.toml").to_dataframe()
+    assert frame[["motion", "reality"]].to_numpy().tolist() == [["translation", "real"]]
+    assert {type(x) for x in frame["motion"]} == {type(x) for x in frame["reality"]} == {str}

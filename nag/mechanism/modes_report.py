@@ -253,9 +253,12 @@ class OperationModes(Several[OperationMode]):
         Raises:
             nag.NagError: if pandas is not installed.
         """
-        names = ("dimension", "degree", "motion", "reality", "through_reference")
+        names = ("dimension", "degree", "through_reference")
         columns = {name: [getattr(mode, name) for mode in self.modes] for name in names}
-        return data_frame(columns)
+        texts = {
+            name: [str(getattr(m, name)) for m in self.modes] for name in ("motion", "reality")
+        }
+        return data_frame(columns | texts)
 
     @property
     def complete(self) -> bool:
