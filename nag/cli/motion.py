@@ -157,7 +157,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
             if name in names[:i]:
                 raise UsageError(f"{option}: {name[:40]!r} is given twice; give it once")
     given = tie_placed_bodies(case, (split_place(body)[0] for body, _ in options.pose or ()))
-    problem = problem_of_case(given, options.formulation or "auto", CLOSE_A_LOOP)
+    advice = f"{CLOSE_A_LOOP} (--pose BODY=X,Y,Z; --hold LINK)"
+    problem = problem_of_case(given, options.formulation or "auto", advice)
     drives = _with_radians(problem, options.drive or ())
     ranges = [each for each in drives if len(each[1]) > 1]
     if len(ranges) > 1:

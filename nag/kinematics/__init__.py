@@ -14,6 +14,6 @@ another).
 MOST_VALUES = 1_000
 # What is said to whoever gives an open arm.
 CLOSE_A_LOOP = (
-    "hold a body to close a loop: the hand at a place (--pose BODY=X,Y,Z), or a link where it "
-    "stands (--hold LINK, of a robot in URDF or MJCF)"
+    "hold a body to close a loop: the hand at a pose, or, of a robot in URDF or MJCF, a link where "
+    "it stands"
 )

@@ -203,7 +203,7 @@ def problem_to_move(mechanism: Any, poses: Sequence[Pose], formulation: str) -> 
     try:
         return in_real_coordinates(problem_of(given, formulation=formulation))
     except NoLoopError as error:
-        raise NoLoopError(f"{error}; {CLOSE_A_LOOP}") from None
+        raise NoLoopError(f"{error}; {CLOSE_A_LOOP}").mended_by("pose") from None
 
 
 def check_drive(scene: Scene, drive: Drive) -> int:

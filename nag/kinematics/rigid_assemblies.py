@@ -97,7 +97,7 @@ def find_rigid_assemblies(
     along = configurations.count(i for i in others if components[i].dimension == 1)
     larger = configurations.count(i for i in others if components[i].dimension > 1)
     if along:
-        elsewhere.append(f"on {count_text(along, 'other curve')} (--circuit all)")
+        elsewhere.append(f"on {count_text(along, 'other curve')} (circuit: all)")
     if larger:
         elsewhere.append(f"on {count_text(larger, 'component')} of dimension 2 or more")
     assemblies = _each_once(scene, [*found, *on_curves])

@@ -143,7 +143,7 @@ def rigid_text(motion: Motion) -> str:
         more = len(motion.assemblies) - MOST_BESIDES
         texts.append(f"{count} besides that cannot move, on no circuit")
         if more > 0:
-            texts[-1] += f" (the first {MOST_BESIDES} are shown, --json has all)"
+            texts[-1] += f" (the first {MOST_BESIDES} are shown)"
     if motion.not_looked_for:
         what = "others" if texts else "real assemblies that cannot move"
         texts.append(f"{what} were not looked for {motion.not_looked_for}")
