@@ -492,3 +492,26 @@ def test_several_equations_in_one_text_are_asked_for_in_a_list(text: str) -> Non
     with pytest.raises(nag.NagError, match=r"equations: several equations in one text; give a l"):
         nag.system(text)
     assert nag.system("x_{1,2}^2 - 1").variables == ("x_{1,2}",)
+
+
+def test_a_solution_is_a_point_that_is_known_to_doubles() -> None:
+    found, roots = nag.decompose(CIRCLE_AND_LINE), nag.solve(["x^2 + y^2 - 1", "x - y"])
+    for root in roots:
+        assert len(nag.member(found, root).on) == 2 and found[0].contains(root)
+        assert nag.local(CIRCLE_AND_LINE, root).dimension == 1
+    assert (
+        nag.local(
+            nag.system("x^2 - 2*I*y", imaginary="I"),
+            nag.solve(["x^2 - 2*I*y", "y - 1"], imaginary="I")[0],
+        ).dimension
+        == 1
+    )
+
+
+def test_a_component_meets_equations_however_they_are_given() -> None:
+    x = sympy.Symbol("x")
+    circle = nag.decompose(CIRCLE_AND_LINE)[1]
+    met = circle.intersect(nag.system("x", "x y"))
+    assert met == circle.intersect("x = 0") == circle.intersect([x]) and len(met) == 2
+    with pytest.raises(nag.NagError, match=r"equations.*'z'"):
+        circle.intersect("z")

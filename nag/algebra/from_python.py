@@ -369,12 +369,15 @@ def coordinates(
     """A point's coordinates: exact numbers where they are real, others in doubles.
 
     Args:
-        point: a number for each variable, in their order, or a mapping from names to numbers.
+        point: a number for each variable, in their order, or a mapping from names to numbers; or a
+            solution that was found, which is known to doubles.
         imaginary: whether the last variable is the imaginary unit, which need not be given.
 
     Raises:
         ValueError: if there are more or fewer than variables, or one is no finite number.
     """
+    if is_a(point, "nag.solving.solutions", "Solution"):
+        point = point.point
     n, is_text = len(variables), isinstance(point, str)
     units = ("I", *variables[-1:]) if imaginary else ("I",)
     if imaginary and hasattr(point, "__len__") and len(point) == n - 1 and not is_text:

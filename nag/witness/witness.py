@@ -392,24 +392,29 @@ class WitnessSet(FixedArrays):
         return real_points_near(self._known_system(), self, near, run=run, **options)
 
     @takes_run
-    def intersect(
-        self, other: WitnessSet | PolynomialSystem, *, run: Run = DEFAULT_RUN
-    ) -> Decomposition:
+    def intersect(self, other: Any, *, run: Run = DEFAULT_RUN) -> Decomposition:
         """The components of the intersection with another component, or with what equations cut.
 
+        Equations are a `nag.PolynomialSystem`, or what `nag.system` takes, in the same variables.
         See `nag.decomposition.intersect_components` and `nag.decomposition.intersect_equations`.
 
         >>> import nag
         >>> plane, bowl = nag.decompose(["(x^2 + y^2 - z)*(x - y)"]).components
         >>> [(c.dimension, c.degree) for c in plane.intersect(bowl).components]
         [(1, 2)]
-        >>> [(c.dimension, c.degree) for c in bowl.intersect(nag.system("z", "x y z")).components]
+        >>> [(c.dimension, c.degree) for c in bowl.intersect("z = 0").components]
         [(1, 1), (1, 1)]
         """
+        from nag.algebra.from_python import system
         from nag.decomposition.intersection import intersect_components, intersect_equations
 
-        met = intersect_components if isinstance(other, WitnessSet) else intersect_equations
-        return met(self._known_system(), self, other, run=run)
+        own = self._known_system()
+        if isinstance(other, WitnessSet):
+            return intersect_components(own, self, other, run=run)
+        if not isinstance(other, PolynomialSystem):
+            unit = own.variables[-1] if own.imaginary else None
+            other = system(other, own.own_variables, imaginary=unit)
+        return intersect_equations(own, self, other, run=run)
 
     @takes_run
     def genus(self, *, run: Run = DEFAULT_RUN) -> Genus:
