@@ -111,7 +111,8 @@ class Samples(Several[ComplexArray]):
             "residual": self.residual,
             "accuracy": self.accuracy,
             "points": pairs(self.points),
-        } | ({"real_dimensions": known} if self.real else {})
+            "real_dimensions": known if self.real else None,
+        }
 
     __repr__ = one_line
 
