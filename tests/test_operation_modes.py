@@ -22,6 +22,7 @@ from nag.cli import main
 from nag.decomposition.intersection import intersect_components
 from nag.errors import MechanismError, NagError
 from nag.files.cases import read_case
+from nag.mechanism import operation_modes
 from nag.mechanism.axes import cross
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.inverse_kinematics import REACHED, multiply_poses, reach_poses
@@ -691,6 +692,23 @@ def test_the_command_prints_modes_and_transitions(capsys: pytest.CaptureFixture[
     assert "transition  1 and 2: dimension 2, degree 4" in text
     assert "agrees with what is known" in text
     assert COORDINATES[0] in text
+
+
+def test_modes_are_printed_before_transitions_are_looked_for_and_once(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = str(CASES / "robots" / "3-rps.toml")
+    assert main(["modes", case, "--quiet"]) == 0
+    whole = capsys.readouterr().out
+
+    def ended(*_: object) -> OperationModes:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(operation_modes, "find_transitions", ended)
+    assert main(["modes", case, "--quiet"]) == 130
+    early = capsys.readouterr().out
+    assert whole.startswith(early)
+    assert "2 operation modes" in early and "\nmode 2 " in early and "transition" not in early
 
 
 def test_what_is_not_found_is_said_only_of_modes_without_a_real_pose_that_is_known() -> None:

@@ -124,7 +124,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         # At once there is nothing to say before the answer.
         if not options.local and not is_so_far(said):
             said = report.early_rows()
-            say_first(options, name_case(case), said, WIDTH)
+            say_first(options, name_case(case), said, width=WIDTH)
     rows = report.rows()
     if is_so_far(said):
         rows = [*said, *(row for row in rows if row not in said)]

@@ -15,13 +15,22 @@ from nag.cli.arguments import (
     only_assembled,
     read_given_case,
 )
-from nag.cli.running import CommandAnswer, answer_document, answer_of, chosen_run, name_case
+from nag.cli.running import (
+    CommandAnswer,
+    answer_document,
+    answer_of,
+    chosen_run,
+    name_case,
+    say_first,
+)
 from nag.mechanism import MODES_BUDGET
 
 if TYPE_CHECKING:
     from nag.mechanism.modes_report import OperationModes
 
 FORMAT = "nag-operation-modes"
+# Of the labels: what is printed first is aligned with what comes later.
+WIDTH = len("transition")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -51,7 +60,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.errors import MechanismError
     from nag.interpolation.vanishing import InterpolationError
     from nag.mechanism import PLATFORM_ALONE
-    from nag.mechanism.operation_modes import modes
+    from nag.mechanism.operation_modes import modes_in_steps
     from nag.report.agreement import agreement_text, compare
     from nag.witness.shown import paths_text
 
@@ -63,12 +72,14 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         return answer_document(options, name_case(case), _fields(early), False)
 
     how = chosen_run(options, document_of)
+    given = case.mechanism, options.platform
     try:
-        found = modes(case.mechanism, options.platform, budget=options.budget, run=how)
+        for found in modes_in_steps(*given, budget=options.budget, run=how):
+            blocks = found.rows(), found.table(), found.mode_rows()
+            say_first(options, name_case(case), *blocks, width=WIDTH)
     except (MechanismError, InterpolationError) as error:
         raise error_in_file(options.case, error) from None
     decomposition = found.decomposition
-    blocks = found.rows(), found.table(), found.mode_rows()
     tail = [*case.note_rows, *found.tail()]
     known = [t for t in case.truth if t.formulation]
     # Of modes that were not looked for nothing is compared.
@@ -77,7 +88,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if agreement is not None:
         tail.append(("known", agreement_text(agreement)))
     tail.append(("paths", paths_text(decomposition.paths)))
-    return answer_of(options, name_case(case), blocks, tail, _fields(found), found.complete)
+    fields, complete = _fields(found), found.complete
+    return answer_of(options, name_case(case), blocks, tail, fields, complete, width=WIDTH)
 
 
 def _fields(found: OperationModes) -> dict[str, Any]:

@@ -92,17 +92,17 @@ def answer_document(
 
 
 def say_first(
-    options: argparse.Namespace, case: tuple[str, str], rows: Sequence[Row], width: int
+    options: argparse.Namespace, case: tuple[str, str], *blocks: Block, width: int
 ) -> None:
     """Print the first lines of an answer as soon as they are known; they are not printed again.
 
     Args:
-        rows: of an answer of labelled texts without blocks.
+        blocks: what is printed below the title.
         width: of labels, the same as of the whole answer.
     """
     from nag.text.table import sheet
 
-    lines = sheet(case[0], list(rows), width=width)
+    lines = sheet(case[0], *blocks, width=width)
     if lines[: len(options.said)] != options.said:
         return
     if options.progress is not None:

@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     variables = whole.system.variables
     # Their singular points may take longer than the components did.
     early = [("of", _components_text(whole))]
-    say_first(options, found.case, early, WIDTH)
+    say_first(options, found.case, early, width=WIDTH)
 
     def fields_of(locus: SingularLocus) -> dict[str, Any]:
         return {

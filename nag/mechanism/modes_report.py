@@ -299,7 +299,8 @@ class OperationModes(Several[OperationMode]):
         text = f"{equations} in {system.n} unknowns, the platform alone"
         found.append(("model", text))
         found.append(("answer", self.answer))
-        if not self.complete:
+        # Transitions have lines of their own, which come later.
+        if len(self.notes) > sum(bool(t.note) for t in self.transitions):
             found.append(("", "INCOMPLETE, see below"))
         return found
 

@@ -121,6 +121,26 @@ def modes(
     >>> [(mode.dimension, mode.degree, str(mode.motion)) for mode in found.modes]
     [(3, 1, 'translation')]
     """
+    *_, found = modes_in_steps(mechanism, platform, budget=budget, run=run)
+    return found
+
+
+@takes_run
+def modes_in_steps(
+    mechanism: Any,
+    platform: str | None = None,
+    *,
+    budget: float = MODES_BUDGET,
+    run: Run = DEFAULT_RUN,
+) -> Iterator[OperationModes]:
+    """The same, first without transitions, which may take longer than all else.
+
+    Args:
+        mechanism, platform, budget, run: as of `modes`, which raises the same.
+
+    Yields:
+        What is known of the modes, and the whole.
+    """
     given = mechanism_in(mechanism)
     check_mechanism(given)
     check_size(budget, "budget")
@@ -133,7 +153,8 @@ def modes(
             f"{ceil(paths * LEAST_SECONDS)} s or more tracks them, and nag mobility says "
             "without them what moves at the reference"
         )
-        return OperationModes(model, _no_answer(model, run, note), (), (), (), (note,))
+        yield OperationModes(model, _no_answer(model, run, note), (), (), (), (note,))
+        return
     run.tell("modes", 1, 4)
     inner = run.without_found
 
@@ -146,7 +167,9 @@ def modes(
 
     heard = inner if run.found is None else replace(inner, found=lambda d: tell(d, {}))
     components = decompose(model.system, run=heard)
-    return _told(describe_modes(model, components, inner, partial(tell, components)))
+    described = describe_modes(model, components, inner, partial(tell, components))
+    yield _told(described)
+    yield _told(find_transitions(described, inner))
 
 
 def _told(found: OperationModes) -> OperationModes:
@@ -217,7 +240,7 @@ def describe_modes(
     run: Run,
     tell: Callable[[Mapping[int, OperationMode]], None],
 ) -> OperationModes:
-    """What is to be said of the components of a platform's poses.
+    """What is to be said of the components of a platform's poses, each by itself.
 
     Args:
         tell: called with the modes that are described, by the indices of their components.
@@ -266,11 +289,14 @@ def describe_modes(
         for i, r in enumerate(mode.residuals)
         if not r < REACHED and i not in mode.limits
     ]
-    transitions = _transitions(model, described, run)
-    notes += [t.open_text for t in transitions if t.note]
-    return OperationModes(
-        model, found, described, tuple(spurious), tuple(transitions), tuple(notes)
-    )
+    return OperationModes(model, found, described, tuple(spurious), (), tuple(notes))
+
+
+def find_transitions(found: OperationModes, run: Run) -> OperationModes:
+    """The same modes, and where they meet."""
+    transitions = _transitions(found.model, found.modes, run)
+    notes = (*found.notes, *(t.open_text for t in transitions if t.note))
+    return replace(found, transitions=tuple(transitions), notes=notes)
 
 
 def _rank(mode: OperationMode) -> tuple[Any, ...]:
