@@ -410,7 +410,7 @@ def decompose(
     [(1, 1, 2), (1, 2, 1)]
     """
     from nag.algebra.symmetry import SymmetryError
-    from nag.mechanism.problem import problem_of, read_symmetries
+    from nag.mechanism.problem import problem_of, problem_within_reach, read_symmetries
 
     check_choice(method, "method", get_args(Method))
     if starts is not None and method != "sampling":
@@ -418,6 +418,8 @@ def decompose(
     asked = problem_of(system, variables, imaginary=imaginary, formulation=formulation)
     if coordinates is not None:
         asked = _in_coordinates(asked, coordinates, formulation)
+    elif formulation == "auto" and method != "sampling":
+        asked = problem_within_reach(asked)
     kept = read_symmetries(symmetries, asked)
     try:
         found = _decompose_by(asked, method, starts, kept, run)

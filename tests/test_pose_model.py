@@ -12,7 +12,7 @@ from nag.cli import main
 from nag.errors import MechanismError
 from nag.files.cases import read_case
 from nag.mechanism.graph import Joint, Mechanism
-from nag.mechanism.model import Model, ModelError
+from nag.mechanism.model import Model, ModelError, find_pose_model
 from nag.mechanism.operation_modes import decompose_poses
 from nag.mechanism.problem import problem_of
 from nag.tracking.run import DEFAULT_RUN
@@ -154,6 +154,24 @@ def test_poses_are_taken_only_where_they_are_asked_for() -> None:
     assert nag.model(robot.mechanism).formulation != "P"
     assert robot.alternatives[-1].formulation == "P"
     assert robot.alternatives[-1].paths == 5
+
+
+def test_components_are_those_of_poses_where_all_others_are_out_of_reach(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    case = CASES / "robots" / "3-upu-tsai.toml"
+    model = nag.model(case)
+    assert model.formulation == "E" and find_pose_model(model).formulation == "P"
+    # Those of the tripteron and of the 3-RPS robot are within reach, in joints as well.
+    assert all(
+        find_pose_model(nag.model(poses(n).mechanism)) is None for n in ("tripteron", "3-rps")
+    )
+    assert find_pose_model(find_pose_model(model)) is None
+    found = nag.decompose(case)
+    assert [(c.dimension, c.degree) for c in found.components] == [(3, 1)] * 4 + [(3, 11)]
+    assert main(["decompose", str(case), "--quiet"]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert "components of its poses, above each of which the joints may have several" in text
 
 
 @pytest.mark.parametrize(

@@ -119,6 +119,11 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, problem: Problem)
         raise only_assembled(case, "--modes")
     if problem.formulation is None:
         return problem
+    asked = (arguments.formulation, arguments.coordinates, arguments.modes)
+    if asked == (None, None, "reference") and arguments.method != "sampling":
+        from nag.mechanism.problem import problem_within_reach
+
+        problem = problem_within_reach(problem)
     others = {
         "--expand": arguments.expand,
         "--method sampling": arguments.method == "sampling",

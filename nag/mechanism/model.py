@@ -35,6 +35,7 @@ from nag.mechanism.path_estimates import (
     Alternative,
     ModelError,
     NoLoopError,
+    estimated_paths,
     path_bound,
 )
 from nag.mechanism.planar import PlanarModel
@@ -194,7 +195,7 @@ def model(
     Parts that may be assembled in any way have one as well, an `AssemblyModel`.
 
     The smallest is the one with the fewest estimated paths, Euler parameters where these are more
-    than ten million.
+    than a million.
 
     Args:
         mechanism: a `nag.Mechanism`, or a `nag.Case` or a model of one; at least one of its joints
@@ -233,13 +234,43 @@ def model(
     if space is None:
         space = "spatial" if modes else space_of(structure.joints)
     chosen = _choose(structure, space, formulation, modes)
+    return _model_of(mechanism, structure, space, chosen, formulation, modes)
+
+
+def find_pose_model(made: Model) -> Model | None:
+    """The model of a mechanism's platform alone, where no other's paths are within reach.
+
+    Components of poses need not be those of the joints; but those are not found then.
+
+    Args:
+        made: the model that was chosen.
+
+    Returns:
+        None where it is no model of a parallel robot, or has too many paths as well.
+    """
+    if made.formulation == PLATFORM_ALONE or estimated_paths(made.system) <= MOST_TRACKED:
+        return None
+    chosen = alternative(made.structure, made.space, PLATFORM_ALONE, made.modes)
+    if chosen.form is None or chosen.paths > MOST_TRACKED:
+        return None
+    return _model_of(made.mechanism, made.structure, made.space, chosen, "auto", made.modes)
+
+
+def _model_of(
+    mechanism: Mechanism,
+    structure: LoopStructure,
+    space: Space,
+    chosen: Alternative,
+    asked: str,
+    modes: Modes,
+) -> Model:
     form = chosen.form
     symmetries = form.symmetries if isinstance(form, EulerModel) else ()
     return Model(
         mechanism=mechanism,
         formulation=chosen.formulation,
         space=space,
-        reason=_reason(structure, space, chosen, formulation) + _outside_text(structure),
+        reason=_reason(structure, space, chosen, asked) + _outside_text(structure),
         system=form.system,
         reference=form.reference,
         sign_group=2 ** len(symmetries),

@@ -23,8 +23,9 @@ from nag.errors import MechanismError
 MOST_STATES = 2_000
 # Seconds that a path of a decomposition takes at least.
 LEAST_SECONDS = 1e-4
-# More paths than these, a quarter of an hour at the least, do not decide which equations are taken.
-MOST_TRACKED = 10**7
+# More paths than these, minutes at the least, are out of reach: they do not decide which equations
+# a mechanism gets.
+MOST_TRACKED = 10**6
 
 
 class ModelError(MechanismError):

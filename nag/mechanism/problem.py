@@ -271,6 +271,16 @@ def _of_model(made: Model) -> Problem:
     return Problem(made.system, tuple(made.symmetries), points, model=made)
 
 
+def problem_within_reach(problem: Problem) -> Problem:
+    """What is decomposed: a robot's poses where the paths of all other equations are too many."""
+    if problem.mechanism is None:
+        return problem
+    from nag.mechanism.model import find_pose_model
+
+    poses = find_pose_model(problem.mechanism)
+    return problem if poses is None else _of_model(poses)
+
+
 def _of_parts(parts: AssemblyModel, formulation: str) -> Problem:
     parts = parts_in_formulation(parts, formulation)
     known = () if parts.reference is None else (NamedPoint("placement", parts.reference),)
