@@ -1,6 +1,7 @@
 """Formulation P: what a platform's poses say is true of the joints, or it is not said."""
 
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 
 import numpy as np
@@ -172,6 +173,24 @@ def test_components_are_those_of_poses_where_all_others_are_out_of_reach(
     assert main(["decompose", str(case), "--quiet"]) == 0
     text = " ".join(capsys.readouterr().out.split())
     assert "components of its poses, above each of which the joints may have several" in text
+
+
+def test_a_robot_whose_paths_are_out_of_reach_has_short_equations() -> None:
+    joints = []
+    for i, (c, s) in enumerate(((1, 0), (Fraction(-3, 5), Fraction(4, 5)), (0, -1))):
+        along, out = (-s, c, 0), (c, s, 0)
+        places = ((3 * c, 3 * s, 0), (4 * c, 4 * s, 1), (3 * c, 3 * s, 2))
+        links = ("base", f"low{i}", f"high{i}", "platform")
+        axes = ((out, along), (along, None), (along, out))
+        for k, (place, (axis, second)) in enumerate(zip(places, axes, strict=True)):
+            kind = "revolute" if second is None else "universal"
+            joint = Joint(f"{k}{i}", kind, links[k : k + 2], place, axis, second_axis=second)
+            joints.append(joint)
+    model = nag.model(Mechanism("base", tuple(joints)))
+    assert model.formulation == "E"
+    assert "short equations, as paths are out of reach" in model.reason
+    # Half-angles have fewer of them, as do those of loops that are tracked apart.
+    assert model.alternatives[0].formulation == "H"
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ from nag.mechanism.axes import Space
 from nag.mechanism.euler import EulerModel, estimated_euler_paths, euler_model
 from nag.mechanism.graph import Joint
 from nag.mechanism.half_angles import ChoiceStopped, HalfAngleModel, LoopClosures, half_angle_model
+from nag.mechanism.legs import is_parallel_robot
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.path_estimates import MOST_TRACKED, Alternative
 from nag.mechanism.planar import PlanarModel, planar_model
@@ -61,8 +62,9 @@ def smallest_alternative(
     Its equations are made, and those of no other: half-angles and Euler parameters are estimated
     from the graph. Where rods are few, distances are the smallest. In the plane several loops may
     take fewer paths at once, which only equations show; those of Euler parameters are short there.
-    Where there are more paths than are tracked, what is asked at a point is left, which the short
-    equations of Euler parameters answer soonest.
+    Of a parallel robot that has more paths than are tracked what is asked at a point is left, which
+    the short equations of Euler parameters answer soonest. (Loops of others may be tracked apart
+    from each other, so that there are fewer.)
     """
     rods = alternative(structure, space, "S", modes)
     if rods.form is not None and rods.paths <= 4 ** (len(structure.loops) + 1):
@@ -80,7 +82,8 @@ def smallest_alternative(
     most = paths if closures is None else closures.estimated_paths(space)
     if rods.form is not None and rods.paths <= min(most, paths):
         return replace(rods, stopped=stopped)
-    if closures is not None and most <= min(paths, MOST_TRACKED):
+    reached = most <= MOST_TRACKED or not is_parallel_robot(structure.mechanism)
+    if closures is not None and most <= paths and reached:
         return Alternative("H", closures.model, stopped=stopped)
     chosen = euler or alternative(structure, space, "E", modes)
     return replace(chosen, stopped=stopped, fewer=most if most < paths else 0)

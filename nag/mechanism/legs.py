@@ -153,6 +153,15 @@ def parallel_robot(
     return ParallelRobot(merged, merged.ground, platform, legs, aside)
 
 
+def is_parallel_robot(mechanism: Mechanism) -> bool:
+    """Whether all joints of a mechanism are those of the legs of one platform."""
+    try:
+        robot = parallel_robot(mechanism)
+    except MechanismError:
+        return False
+    return not robot.aside
+
+
 def _platform_of(mechanism: Mechanism) -> str:
     """The body of the most legs."""
     joints = Counter(b for j in mechanism.joints for b in j.bodies)

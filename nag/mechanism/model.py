@@ -194,8 +194,8 @@ def model(
 
     Parts that may be assembled in any way have one as well, an `AssemblyModel`.
 
-    The smallest is the one with the fewest estimated paths, Euler parameters where these are more
-    than a million.
+    The smallest is the one with the fewest estimated paths; of a parallel robot for which these are
+    more than a million, Euler parameters.
 
     Args:
         mechanism: a `nag.Mechanism`, or a `nag.Case` or a model of one; at least one of its joints
@@ -343,8 +343,10 @@ def _reason(structure: LoopStructure, space: Space, chosen: Alternative, asked: 
     unknowns = count_text(chosen.system.n, "unknown")
     how = "at most" if chosen.at_once is None else "at once"
     if chosen.fewer:
-        text += f": {unknowns} and short equations; {how} {chosen.paths} paths, half-angles "
-        text += f"{chosen.fewer}, and more than {MOST_TRACKED} are not tracked"
+        text += (
+            f": {unknowns} and short equations, as paths are out of reach, {how} {chosen.paths} "
+        )
+        text += f"and {chosen.fewer} in half-angles"
     else:
         text += f": {unknowns} and the fewest paths, {how} {chosen.paths}"
     return f"{text}; {chosen.stopped}" if chosen.stopped else text

@@ -24,7 +24,7 @@ MOST_STATES = 2_000
 # Seconds that a path of a decomposition takes at least.
 LEAST_SECONDS = 1e-4
 # More paths than these, minutes at the least, are out of reach: they do not decide which equations
-# a mechanism gets.
+# a parallel robot gets.
 MOST_TRACKED = 10**6
 
 
