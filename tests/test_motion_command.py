@@ -31,6 +31,15 @@ def test_circuits_ranges_and_dead_points_are_said(capsys) -> None:
     )
 
 
+def test_circuits_through_the_reference_are_not_told_as_all_of_a_component(capsys) -> None:
+    # The rod is longer than the crank: the slider stays on either side of it.
+    case = str(CASES / "planar" / "slider-crank.toml")
+    assert ask(case) == 0
+    assert "1 circuit through the reference configuration\n" in capsys.readouterr().out
+    assert ask(case, "--circuit", "all") == 0
+    assert "degree 4; 2 circuits\n" in capsys.readouterr().out
+
+
 def test_a_motion_that_crosses_itself_says_where(capsys) -> None:
     assert ask(str(CASES / "planar" / "four-bar-folding.toml")) == 0
     printed = capsys.readouterr().out
