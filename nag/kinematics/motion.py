@@ -42,7 +42,7 @@ from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem
 from nag.mechanism.real_assemblies import obstacle, of_real_assemblies
-from nag.numerics.local_dimension import local_dimension
+from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.read_only import RealArray, Several, equal_values
 from nag.real.curve import RealCurve
 from nag.text.table import count_text, data_frame, one_line
@@ -467,6 +467,8 @@ def motion(
     if poses or len(drives) > 1 or (drives and has_several_freedoms(problem, run)):
         return held_motion(problem, drives, poses, samples=samples, run=run)
     held = drives[0] if drives else None
+    if held is None and circuit == "reference":
+        _check_freedoms(problem, run)
     try:
         return motion_of(problem, circuit=circuit, samples=samples, drive=held, run=run)
     except FreedomsError:
@@ -477,9 +479,28 @@ def motion(
 
 def has_several_freedoms(problem: Problem, run: Run) -> bool:
     """Whether a mechanism has two freedoms or more at its reference configuration."""
+    at = _dimension_at_reference(problem, run)
+    return at is not None and at.lower > 1
+
+
+def _dimension_at_reference(problem: Problem, run: Run) -> LocalDimension | None:
+    """The local dimension at a mechanism's reference configuration; None where there is none."""
     if not isinstance(problem.model, Model) or not problem.reference:
-        return False
-    return local_dimension(problem.system, problem.reference, seed=run.seed).lower > 1
+        return None
+    return local_dimension(problem.system, problem.reference, seed=run.seed)
+
+
+def _check_freedoms(problem: Problem, run: Run) -> None:
+    """Refuse a mechanism with several freedoms before its components are looked for.
+
+    At a regular point there is one component alone, so that its dimension decides.
+
+    Raises:
+        FreedomsError: if the reference configuration is on a component of several freedoms alone.
+    """
+    at = _dimension_at_reference(problem, run)
+    if at is not None and 1 < at.lower == at.upper == at.tangent_dimension:
+        raise _several_freedoms(at.lower + problem.free, "at the reference configuration")
 
 
 def held_motion(
@@ -733,15 +754,19 @@ def _choose_components(
     largest = max((components[i].dimension for i in own), default=0)
     if not curves and not notes and not (holding and largest <= 1):
         if largest > 1:
-            raise FreedomsError(
-                f"it moves with {count_text(largest + problem.free, 'freedom')} {where}".rstrip()
-                + "; a motion is that of a mechanism with one: drive joints to values"
-            ).mended_by("drive")
+            raise _several_freedoms(largest + problem.free, where)
         advice = "see nag mobility, with tolerance 1e-3 if its numbers are rounded"
         raise MotionError(f"it does not move {where}".rstrip() + f"; {advice}")
     larger = sum(components[i].dimension > 1 for i in own)
     left_out = f"{count_text(larger, 'component')} of dimension 2 or more" if larger else ""
     return curves, left_out
+
+
+def _several_freedoms(number: int, where: str) -> FreedomsError:
+    return FreedomsError(
+        f"it moves with {count_text(number, 'freedom')} {where}".rstrip()
+        + "; a motion is that of a mechanism with one: drive joints to values"
+    ).mended_by("drive")
 
 
 def _no_motion(rigid: int, not_looked_for: str) -> str:
