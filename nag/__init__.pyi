@@ -18,6 +18,7 @@ from nag.algebra.polynomial import Polynomial as Polynomial
 from nag.algebra.surd import Surd
 from nag.algebra.symmetry import SignedPermutation as SignedPermutation
 from nag.algebra.system import PolynomialSystem as PolynomialSystem
+from nag.decomposition.singular_members import SingularParameters
 from nag.decomposition.singular_points import SingularLocus
 from nag.errors import ComponentError as ComponentError
 from nag.errors import EquationError as EquationError
@@ -319,13 +320,19 @@ def sample(
     formulation: Formulation = "auto",
     **options: Unpack[Options],
 ) -> Samples: ...
+@overload
 def singular(
     given: Decomposed,
     component: int | None = None,
     *,
+    free: None = None,
     formulation: Formulation = "auto",
     **options: Unpack[Options],
 ) -> SingularLocus: ...
+@overload
+def singular(
+    given: File | Case | Problem | Equations, *, free: Names, **options: Unpack[Options]
+) -> SingularParameters: ...
 def solve(
     system: Solvable,
     variables: Names | None = None,

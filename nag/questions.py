@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from nag.algebra.number import Number
     from nag.algebra.symmetry import SignedPermutation
     from nag.algebra.system import PolynomialSystem
+    from nag.decomposition.singular_members import SingularParameters
     from nag.decomposition.singular_points import SingularLocus
     from nag.files.cases import Case
     from nag.interpolation.image_ideal import ImageIdeal
@@ -83,9 +84,12 @@ ENDINGS = {
     ".jl": "hc",
     ".txt": "text",
     ".tex": "latex",
+    ".py": "sympy",
 }
 # Endings of what is read, and is neither a case nor equations when it is written.
 NOT_WRITTEN = (".json", ".urdf", ".xml")
+# How many names of variables are listed where another one is asked for.
+MOST_NAMES = 12
 # What is said of a component of an export on which paths fail.
 UNTESTED = "the trace of its points could not be tested"
 
@@ -185,7 +189,7 @@ def write(
         format: of equations, ``"toml"``, or of another program: ``"bertini"``, ``"phc"``,
             ``"m2"``, ``"singular"``, ``"hc"``, ``"text"``, ``"sympy"`` or ``"latex"``; by default
             told by the ending (``.m2``, ``.sing``, ``.phc``, ``.bertini``, ``.jl``, ``.txt``,
-            ``.tex``), else TOML.
+            ``.tex``, ``.py``), else TOML.
         title: of a case.
 
     Raises:
@@ -999,14 +1003,17 @@ def singular(
     given: Any,
     component: int | None = None,
     *,
+    free: Any = None,
     formulation: str = "auto",
     run: Run = DEFAULT_RUN,
-) -> SingularLocus:
+) -> SingularLocus | SingularParameters:
     """Singular points of components, and where components meet.
 
     Args:
         given: components that were found, a file of them, or what is decomposed now.
         component: the number of the one that is asked about, from 1; all by default.
+        free: names of parameters of a case, or of unknowns of equations, which are parameters then:
+            for which of their values are there singular points?
         formulation: of a mechanism's model, as for `nag.model`.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
@@ -1016,13 +1023,65 @@ def singular(
     >>> import nag
     >>> nag.singular("y^2 - x^2*(x + 1)").sets[0].dimension
     0
+    >>> nag.singular("x^2 + a*x + b", free="a, b").texts()
+    ['a^2 - 4*b = 0']
     """
+    if free is not None:
+        from nag.decomposition.singular_members import singular_parameters
+
+        for name, unfit in (("component", component), ("formulation", formulation != "auto")):
+            if unfit:
+                raise NagError(f"{name}: is of components; with free= equations are given")
+        system, count = free_parameters(given, free)
+        return singular_parameters(system, count, run=run)
     from nag.decomposition.singular_points import singular_locus
 
     found = find_components(given, run, formulation)
     if component is not None:
         component_numbered(found, component)
     return singular_locus(found, only=None if component is None else [component - 1], run=run)
+
+
+def free_parameters(given: Any, free: Any) -> tuple[PolynomialSystem, int]:
+    """The equations of a case or others, whose last variables are these parameters, and how many.
+
+    Raises:
+        nag.NagError: if there are none of these names, or coefficients are complex.
+    """
+    from nag.algebra.system import PolynomialSystem
+    from nag.algebra.tokens import nearest, quote
+    from nag.files.cases import freed_system
+    from nag.solving.family_members import list_names
+
+    names = list_names(free)
+    if len({*names}) < len(names) or not names:
+        raise NagError("free: give names of parameters, each once: 'L1, L2'")
+    if is_a(given, "nag.files.cases", "Case") and not {*names} & {*_variables_of(given)}:
+        system = freed_system(given, names)
+    else:
+        from nag.mechanism.problem import problem_of
+
+        system = problem_of(given).system
+        known = system.own_variables
+        for name in names:
+            if name not in known:
+                raise NagError(f"free: {quote(name)} does not occur{nearest(name, known)}")
+        order = (*(v for v in known if v not in names), *names)
+        if not system.imaginary:
+            places = [order.index(v) for v in known]
+            parts = (
+                tuple(f.with_variables(len(order), places) for f in each)
+                for each in (system.polynomials, system.nonzero)
+            )
+            system = PolynomialSystem(order, *parts)
+    if system.imaginary:
+        raise NagError("free: is for equations with real coefficients")
+    return system, len(names)
+
+
+def _variables_of(case: Case) -> tuple[str, ...]:
+    """The unknowns of a case's equations; none of a mechanism."""
+    return case.system.own_variables if case.system is not None else ()
 
 
 @takes_components
@@ -1309,7 +1368,11 @@ def place_variables(names: Sequence[str], system: Any) -> tuple[int, ...]:
     names = [name for name in names if name not in system.variables[len(known) :]]
     for name in names:
         if name not in known:
-            raise NagError(f"onto: {quote(name)} is not one of the variables{nearest(name, known)}")
+            listed = ", ".join(known[:MOST_NAMES]) + ", ..." * (len(known) > MOST_NAMES)
+            raise NagError(
+                f"onto: {quote(name)} is not one of the variables{nearest(name, known)}; they are "
+                f"{listed}; of a mechanism another formulation has others"
+            ).mended_by("formulation")
     if len(set(names)) < len(names):
         raise NagError("onto: a variable is given twice")
     if not names:

@@ -57,6 +57,17 @@ def test_systems_mechanisms_and_models_are_read_again(tmp_path: Path) -> None:
     assert nag.model(again(nag.model(mechanism), tmp_path)) == nag.model(mechanism)
 
 
+def test_what_has_no_title_is_titled_by_what_it_is(tmp_path: Path) -> None:
+    assert again(nag.system("x^2 - 1"), tmp_path).title == "a polynomial system"
+    assert again(nag.problem("x^2 - 1"), tmp_path).title == "a polynomial system"
+    assert again(nag.model(CASES / "bennett.toml"), tmp_path).title == "a mechanism"
+
+
+def test_an_ending_of_pythons_names_sympy(tmp_path: Path) -> None:
+    nag.write(["x^2 - 1"], tmp_path / "a.py")
+    assert "from sympy import" in (tmp_path / "a.py").read_text()
+
+
 @pytest.mark.parametrize("ending", ["m2", "sing", "phc", "bertini", "jl", "txt"])
 def test_an_ending_names_another_program(ending: str, tmp_path: Path) -> None:
     system, path = nag.system(["x^2 - 1/3*y", "x*y - 2"]), tmp_path / f"a.{ending}"

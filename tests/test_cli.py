@@ -255,6 +255,11 @@ def test_the_model_of_a_system_is_the_system(case, capsys) -> None:
     [
         (["frobnicate"], "is no command and no file"),
         ([], "say what to do"),
+        (["--seed", "3", "decompose", "{case}"], "--seed: options stand behind a command"),
+        (
+            ["init", "linkage", "/nowhere/case.toml"],
+            "nag: /nowhere/case.toml: there is no directory",
+        ),
         (["decompse"], "did you mean 'decompose'"),
         (["decompose"], "CASE"),
         (["decompose", "{case}", "extra"], "unrecognized arguments: extra (see nag decompose -"),

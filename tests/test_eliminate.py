@@ -232,7 +232,11 @@ def test_a_double_curve_is_proved_by_a_power(tmp_path) -> None:
 @pytest.mark.parametrize(
     ("equations", "argv", "part"),
     [
-        (["y - x^2", "z - x^3"], ["--onto", "x,w"], "'w' is not one of the variables"),
+        (
+            ["y - x^2", "z - x^3"],
+            ["--onto", "x,w"],
+            "'w' is not one of the variables; they are x, y",
+        ),
         (["y - x^2", "z - x^3"], ["--onto", "x,x"], "a variable is given twice"),
         (["y - x^2", "z - x^3"], ["--onto", ""], "is not one of the variables"),
         (["y - x^2", "z - x^3"], ["--degree", "0"], "is not between 1 and 100"),
@@ -241,7 +245,7 @@ def test_a_double_curve_is_proved_by_a_power(tmp_path) -> None:
         (["y - x^2", "z - x^3"], ["--at", "x = 1"], "no value for y"),
         (["y - x^2", "z - x^3"], ["--at", "beside"], "does not satisfy the equations"),
         (["y - x^2", "z - x^3"], ["--at", "crossing", "--component", "1"], "one of the two"),
-        (["x*y", "z"], ["--at", "crossing"], "it is singular; name a component"),
+        (["x*y", "z"], ["--at", "crossing"], "it is singular; name a component (--comp"),
         (["x - 1", "y", "z"], [], "the component is a point"),
         (["x^2 - cos(1)*y", "z"], [], "coefficients other than rational numbers and sums of"),
     ],

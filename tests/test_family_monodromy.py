@@ -294,7 +294,7 @@ def test_what_algebra_decides_needs_no_number_of_solutions_that_a_case_claims(
 
 
 def test_loops_of_parameters_are_refused_where_there_is_no_family() -> None:
-    with pytest.raises(StartError, match=r"the system has no \[family\]; leave out start"):
+    with pytest.raises(StartError, match=r"^start: 'parameter' is for a case with"):
         nag.solve(["x^2 - 2"], start="parameter")
 
 

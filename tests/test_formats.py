@@ -703,6 +703,7 @@ def test_what_is_plainly_an_ideal_in_singular_is_read(tmp_path: Path, text: str)
         ("ideal i = ;", "line 2, column 10", "'i' is nothing; write what it is"),
         ("ideal i = " + "std(" * 9 + "x" + ")" * 9 + ";", "line 2", "lists in lists"),
         ("ideal i = minor(m, 2);", "line 2, column 11", "'minor' is not worked out here"),
+        ("ideal i;\nfor (int k=1; k<3; k++) { i[k] = x; }", "line 3, column 1", "'for' is not run"),
         ("list l = minAss(x);", "line 2, column 1", "'list l = minAss(x)' is not read"),
     ],
 )

@@ -38,6 +38,7 @@ RESULTS = {
     "member": lambda: nag.member(found(), [0, 1]),
     "sample": lambda: nag.sample(found()),
     "singular": lambda: nag.singular(found()),
+    "singular parameters": lambda: nag.singular("x^2 - a", free="a"),
     "intersect": lambda: nag.intersect(found(), 1, 2),
     "eliminate": lambda: nag.eliminate(["y - x^2", "z - x^3"], "y, z"),
     "certified components": lambda: nag.certify(found()),

@@ -118,7 +118,10 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
             lambda: nag.write(3, "file"),
             "3 is given; give what nag.decompose, nag.intersect or nag.solve",
         ),
-        (lambda: nag.eliminate("x - y", onto="z"), "'z' is not one of the variables"),
+        (
+            lambda: nag.eliminate("x - y", onto="z"),
+            "'z' is not one of the variables; they are x, y",
+        ),
         (lambda: nag.eliminate(["x", "y"]), "nothing to eliminate from"),
         (lambda: nag.eliminate("x*y", point=(0, 0)), "it is singular; name a component"),
         (lambda: nag.eliminate("x*y", point=(1, 2)), "point: it does not satisfy the equations"),

@@ -111,6 +111,27 @@ def test_it_is_said_what_conditions_rest_on(tmp_path: Path, capsys) -> None:
     assert "singular  27*a^2 - 4 = 0\n          dimension 0, degree 2; proved by reduction" in out
 
 
+def test_parameters_are_freed_as_the_command_frees_them(tmp_path: Path) -> None:
+    file = tmp_path / "family.toml"
+    file.write_text(
+        'title = "a family"\nkind = "system"\nvariables = ["x", "y"]\n'
+        'equations = ["y^2 - x^3 + x - a"]\n[parameters]\na = 1\n'
+    )
+    of_case = nag.singular(file, free="a")
+    assert of_case.texts() == ["27*a^2 - 4 = 0"] and len(of_case) == 1
+    assert nag.singular("a + x^3 - x - y^2", free=["a"]).texts() == of_case.texts()
+    assert repr(of_case) == "<SingularParameters: singular 27*a^2 - 4 = 0>"
+    assert list(of_case.to_dataframe().degree) == [2] and of_case[0] == of_case.sets[0]
+    for given, how, said in (
+        (file, {"free": "b"}, "'b' is no parameter"),
+        ("x^2 - a", {"free": "b"}, "free: 'b' does not occur"),
+        ("x^2 - a", {"free": "a", "component": 1}, "component: is of components"),
+        ("x^2 - a", {"free": "a, a"}, "each once"),
+    ):
+        with pytest.raises(nag.NagError, match=said):
+            nag.singular(given, **how)
+
+
 def test_a_groebner_basis_proves_that_no_set_is_missing() -> None:
     found = singular_parameters(nag.system("y^2 - x^5 + 2*x^2 - a", "x y a"), 1)
     assert found.proved and {each.proof for each in found.sets} == {"reduction"}

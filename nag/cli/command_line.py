@@ -255,6 +255,9 @@ def check_command(words: Sequence[str]) -> None:
             "say what to do: `nag FILE` says what can be asked of a case, `nag init linkage` "
             "writes one, `nag --help` lists the commands"
         )
+    if words[0].startswith("-") and words[0] not in ("-h", "--help", "--version"):
+        option = words[0].partition("=")[0]
+        raise UsageError(f"{option}: options stand behind a command: nag COMMAND ... {option}")
     known = [row[0] for row in COMMANDS]
     if not words[0].startswith("-") and words[0] not in known:
         from nag.algebra.tokens import nearest, quote

@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from nag.questions import ChosenComponent
 
 MOST_DEGREE = 100
-# Of more variables a message names the first.
-MOST_NAMES = 12
 
 
 def _degree(text: str) -> int:
@@ -89,6 +87,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     complete = not found.note and not tail
     tail = [*([("open", found.note)] if found.note else []), *tail, checked_row(found)]
     if options.onto is None and not found.generators:
+        from nag.questions import MOST_NAMES
+
         names = ",".join(cloud.ambient.system.own_variables[:MOST_NAMES])
         tail.append(("hint", f"--onto {names} gives equations in these variables"))
     blocks = [*top, *found.rows()], elimination_lines(found)
@@ -105,11 +105,7 @@ def _read_names(text: str | None, system: PolynomialSystem) -> tuple[int, ...] |
     try:
         return place_variables([name.strip() for name in text.split(",")], system)
     except NagError as error:
-        names = ", ".join(system.own_variables[:MOST_NAMES])
-        more = f"; they are {names}{', ...' if system.n > MOST_NAMES else ''} (of a mechanism "
-        more += "--formulation E has Euler parameters)"
-        unknown = "is not one of the variables" in str(error)
-        raise UsageError(f"--{error}{more if unknown else ''}") from None
+        raise UsageError(f"--{error}").mended_by(error.keyword) from None
 
 
 Labelled = list[tuple[str, str]]

@@ -7,7 +7,7 @@ import os
 from importlib.resources import files
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import STANDARD_OUTPUT, CommandAnswer, check_option_target
+from nag.cli.running import STANDARD_OUTPUT, CommandAnswer
 
 KINDS = ("linkage", "mechanism", "framework", "dh", "system")
 
@@ -35,8 +35,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         return CommandAnswer(text.splitlines())
     if os.path.lexists(options.file):
         raise UsageError(f"{options.file}: is there already; name a file that is not")
-    check_option_target("file", options.file)
-    from nag.files.written_file import write_target
+    from nag.files.written_file import check_target, write_target
 
+    check_target(options.file)
     write_target(options.file, text)
     return CommandAnswer([f"{options.file} is written; edit it, and ask: nag {options.file}"])

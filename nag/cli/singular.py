@@ -97,23 +97,26 @@ def _components_text(whole: Decomposition) -> str:
 def _for_parameters(options: argparse.Namespace) -> CommandAnswer:
     """For which parameters there are singular points: they are solved for as well."""
     from nag.decomposition.singular_members import singular_parameters
-    from nag.files.cases import freed_system
+    from nag.errors import InputError, NagError
+    from nag.questions import free_parameters
+    from nag.solving.family_members import list_names
     from nag.witness.shown import paths_text
 
     if is_export(options.case) or options.component is not None:
         raise UsageError("--free: needs a case file, and no --component")
-    names = [name.strip() for name in options.free.split(",")]
-    if len(set(names)) < len(names) or not all(names):
-        raise UsageError("--free: write names of parameters, each once: 'L1, L2'")
+    names = list_names(options.free)
     for name, _ in options.set:
         if name in names:
             raise UsageError(f"--set {name}: is an unknown by --free; give it no value")
     case = read_given_case(options)
-    system = freed_system(case, names)
-    if system.imaginary:
-        raise UsageError(f"{options.case}: --free: is for cases with real coefficients")
     try:
-        found = singular_parameters(system, len(names), run=chosen_run(options))
+        system, count = free_parameters(case, names)
+    except InputError:
+        raise
+    except NagError as error:
+        raise UsageError(f"--{error}") from None
+    try:
+        found = singular_parameters(system, count, run=chosen_run(options))
     except ValueError as reason:
         raise UsageError(f"{options.case}: --free: {reason}") from None
     rows = [*found.rows(), ("paths", paths_text(found.paths))]

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import groupby
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -47,11 +47,16 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import bits_of
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.numerics.precise_point import POINT_DIGITS
+from nag.numerics.read_only import Several, equal_values
+from nag.text.table import data_frame, lines_of, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.given_component import check_system
 from nag.witness.projection import ProjectionError, project
 from nag.witness.witness import PathCounts, WitnessSet
+
+if TYPE_CHECKING:
+    import pandas
 
 Proof = Literal["reduction", "points", "dimension"]
 
@@ -80,8 +85,8 @@ class ParameterSet:
         return " and ".join(f"{f.text(names)} = 0" for f in self.equations) or "all values"
 
 
-@dataclass(frozen=True)
-class SingularParameters:
+@dataclass(frozen=True, eq=False)
+class SingularParameters(Several[ParameterSet]):
     """Where in the space of parameters there are singular points.
 
     Attributes:
@@ -101,6 +106,33 @@ class SingularParameters:
     complete: bool
     notes: tuple[str, ...]
     proved: bool = False
+
+    __eq__ = equal_values
+
+    @property
+    def entries(self) -> tuple[ParameterSet, ...]:
+        """The sets."""
+        return self.sets
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each set: its equations in one text, dimension, degree and proof.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        return data_frame(
+            {
+                "equations": self.texts(),
+                "dimension": [one.dimension for one in self.sets],
+                "degree": [one.degree for one in self.sets],
+                "proof": [one.proof for one in self.sets],
+            }
+        )
+
+    __repr__ = one_line
+
+    def __str__(self) -> str:
+        return lines_of("SingularParameters", self.rows())
 
     @property
     def conditions(self) -> tuple[tuple[Polynomial, ...], ...]:

@@ -43,11 +43,13 @@ def case_text(given: Any, title: str = "") -> str:
         if own is not None:
             return own
         title = given.title
-    return _toml({"title": title or f"a {_kind_name(given)}", **_tables_of(given)})
+    tables = _tables_of(given)
+    return _toml({"title": title or _title_of_kind(tables["kind"]), **tables})
 
 
-def _kind_name(given: Any) -> str:
-    return type(given).__name__.removesuffix("Model").lower() or "mechanism"
+def _title_of_kind(kind: str) -> str:
+    """What a case of a kind describes, in words."""
+    return {"system": "a polynomial system", "dh": "a loop of joints"}.get(kind, f"a {kind}")
 
 
 def _text_of_case(case: Case) -> str | None:

@@ -181,6 +181,6 @@ def samples(source: Source, count: int, rng: np.random.Generator, run: Run) -> l
             raise SourceError(
                 "some equations hold at the point alone and not on what moves through it: it is "
                 "singular; name a component"
-            )
+            ).mended_by("component")
         found.append(Sample(source.natural, fibre))
     return found

@@ -184,7 +184,8 @@ class Problem:
             from nag.solving.parameter import solve_member
 
             if family is None:
-                raise StartError("parameter: the system has no [family]; leave out start")
+                said = "start: 'parameter' is for a case with a [family]; take another one"
+                raise StartError(said).mended_by("start")
             return solve_member(self.system, family, exact_first=start == "auto", run=run)
         from nag.solving.solve import solve as solve_system
 

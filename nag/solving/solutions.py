@@ -423,6 +423,9 @@ class SolveResult(Several[Solution]):
     def to_numpy(self, real: Literal[False] = False) -> ComplexArray: ...
 
     @overload
+    def to_numpy(self, real: Literal[True]) -> RealArray: ...
+
+    @overload
     def to_numpy(self, real: bool) -> ComplexArray | RealArray: ...
 
     def to_numpy(self, real: bool = False) -> ComplexArray | RealArray:

@@ -20,6 +20,8 @@ _ASSIGNED = re.compile(r"\s*([A-Za-z]\w*(?:\([0-9]{1,6}\))*)(?:\[([0-9]{1,6})\])
 _ASSIGNMENT = re.compile(r"[^=<>!]=[^=]")
 # What Singular's answers look like, not what they are.
 _SHOWN = re.compile(r"\s*(?:short|printlevel|echo|timer|rtimer|TRACE)\s*=")
+# Words of programs, which make what they make where Singular runs them.
+_PROGRAM = re.compile(r"(?:^|[;{}])\s*(for|while|if|proc)\b")
 _CALL = re.compile(r"([A-Za-z]\w*)\s*\(")
 # Names, and those of which entries are named; not an entry itself.
 _NAME = re.compile(r"(?<!\w)([A-Za-z]\w*(?:\([0-9]{1,6}\))*)(?![\w\[])")
@@ -53,6 +55,10 @@ def read(source: SourceFile) -> GivenSystem:
     """
     source = source.without(_COMMENT)
     source.refuse_towers()
+    program = _PROGRAM.search(source.text)
+    if program is not None:
+        message = f"{quote(program[1])} is not run here; write the polynomials that Singular prints"
+        source.fail(program.start(1), message)
     statements = source.statements()
     rings = [(s, m) for s in statements if (m := _RING.match(s.text))]
     if not rings:
