@@ -1371,7 +1371,8 @@ def place_variables(names: Sequence[str], system: Any) -> tuple[int, ...]:
             listed = ", ".join(known[:MOST_NAMES]) + ", ..." * (len(known) > MOST_NAMES)
             raise NagError(
                 f"onto: {quote(name)} is not one of the variables{nearest(name, known)}; they are "
-                f"{listed}; of a mechanism another formulation has others"
+                f"{listed}; of a mechanism formulation E has Euler "
+                "parameters, H half-angles"
             ).mended_by("formulation")
     if len(set(names)) < len(names):
         raise NagError("onto: a variable is given twice")

@@ -383,7 +383,10 @@ def test_a_rounded_point_is_looked_for_on_all_components() -> None:
 def test_an_unknown_variable_of_a_mechanism_names_the_formulation(capsys) -> None:
     case = str(CASES / "bricard-cube.toml")
     assert main(["eliminate", case, "--quiet", "--formulation", "H", "--onto", "a0"]) == 2
-    assert "--formulation E has Euler parameters" in capsys.readouterr().err
+    assert (
+        "formulation E has Euler parameters, H half-angles (--formulation)"
+        in capsys.readouterr().err
+    )
 
 
 def test_the_model_says_whose_the_variables_are(capsys) -> None:
