@@ -283,6 +283,16 @@ def test_membership_and_local_dimension_take_complex_points() -> None:
     assert nag.member("x^2 + y^2", [1j, 1]).complete
 
 
+def test_singular_points_of_complex_equations_are_told_without_the_unit(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "cusp.txt").write_text("imaginary I\ny^2 - I*x^3\n")
+    assert main(["singular", str(tmp_path / "cusp.txt"), "--quiet"]) == 0
+    out = capsys.readouterr().out
+    assert "point   x = 0, y = 0\n" in out and "tangent cone y^2 = 0" in out
+    assert "tangent space" not in out
+
+
 def test_components_of_complex_equations_meet_and_have_singular_points() -> None:
     found = nag.decompose(complex_system("x - I*y + z^2", "(x + y + I*z)*(x - I*y + 2)"))
     conic = next(i for i, c in enumerate(found.components, 1) if c.degree == 2)

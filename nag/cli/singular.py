@@ -80,7 +80,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     )
     fields = fields_of(locus)
     known = [*early, *locus.rows(len(whole.components))]
-    blocks = [known, *(one.rows(variables) for one in locus.sets)]
+    blocks = [known, *(one.rows(whole.system.own_variables) for one in locus.sets)]
     tail = [("open", note) for note in locus.notes] + doubt_rows(found.decomposition)
     tail.append(("paths", paths_text(locus.paths)))
     complete = locus.complete and whole.complete

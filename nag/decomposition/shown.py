@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from nag.text.table import count_text
@@ -80,8 +81,14 @@ def locus_rows(locus: SingularLocus, count: int) -> list[tuple[str, str]]:
 
 
 def set_rows(one: SingularSet, variables: Sequence[str]) -> list[tuple[str, str]]:
-    """One singular point or set, as labelled texts."""
-    values = zip(variables, one.points[0].tolist(), strict=True)
+    """One singular point or set, as labelled texts.
+
+    Args:
+        variables: names of the coordinates, without that of an imaginary unit, the last one.
+    """
+    n = one.points.shape[1]
+    every = (*variables, *[""] * (n - len(variables)))
+    values = zip(variables, one.points[0].tolist(), strict=False)
     at = ", ".join(f"{name} = {coordinate_text(z)}" for name, z in values)
     if one.dimension:
         head = ("set", f"dimension {one.dimension}, degree {one.degree}, through {at}")
@@ -89,9 +96,12 @@ def set_rows(one: SingularSet, variables: Sequence[str]) -> list[tuple[str, str]
         head = ("point", at)
     rows = [head, ("", _kind_text(one))]
     if one.cone is not None:
-        rows.append(("", _cone_text(one, one.cone, variables)))
-        if one.cone.linear:
-            rows.append(("", f"tangent space {one.cone.tangent_text(variables)}"))
+        rows.append(("", _cone_text(one, one.cone, every)))
+        # That the unit is constant is no equation of the user's.
+        linear = [f for f in one.cone.linear if any(any(e[: len(variables)]) for e in f)]
+        if linear:
+            space = replace(one.cone, linear=tuple(linear)).tangent_text(every)
+            rows.append(("", f"tangent space {space}"))
     elif not one.dimension:
         rows.append(("", "tangent cone not found"))
     return rows

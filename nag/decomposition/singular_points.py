@@ -102,7 +102,11 @@ class SingularSet(Several[ComplexArray]):
         return len(self.multiplicities) > 1
 
     def rows(self, variables: Sequence[str]) -> list[tuple[str, str]]:
-        """The point or set as labelled texts; components are numbered from 1."""
+        """The point or set as labelled texts; components are numbered from 1.
+
+        Args:
+            variables: names of the coordinates, without that of an imaginary unit, the last one.
+        """
         from nag.decomposition.shown import set_rows
 
         return set_rows(self, variables)
