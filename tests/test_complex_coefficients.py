@@ -291,6 +291,8 @@ def test_singular_points_of_complex_equations_are_told_without_the_unit(
     out = capsys.readouterr().out
     assert "point   x = 0, y = 0\n" in out and "tangent cone y^2 = 0" in out
     assert "tangent space" not in out
+    points = nag.singular(tmp_path / "cusp.txt")[0].to_numpy()
+    assert points.shape == (1, 2) and not points.any()
 
 
 def test_components_of_complex_equations_meet_and_have_singular_points() -> None:

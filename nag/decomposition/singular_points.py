@@ -64,6 +64,7 @@ class SingularSet(Several[ComplexArray]):
         local: tangent and local dimension of the whole zero set at a generic point.
         cone: the tangent cone of the whole zero set at an isolated point; None where it was not
             found, or the set is not isolated.
+        imaginary: whether the last coordinate is the imaginary unit's, as of the system.
     """
 
     dimension: int
@@ -72,6 +73,7 @@ class SingularSet(Several[ComplexArray]):
     multiplicities: Mapping[int, int]
     local: LocalDimension
     cone: TangentCone | None
+    imaginary: bool = False
 
     __eq__ = equal_values
 
@@ -85,8 +87,12 @@ class SingularSet(Several[ComplexArray]):
         return self.points
 
     def to_numpy(self) -> ComplexArray:
-        """The points, complex, shape ``(degree, n)``, to be written to."""
-        return self.points.copy()
+        """The points, complex, shape ``(degree, n)``, to be written to.
+
+        As in frames, without the imaginary unit, which is the last variable of a system with
+        complex coefficients.
+        """
+        return self.points[:, : self.points.shape[1] - self.imaginary].copy()
 
     def __repr__(self) -> str:
         return f"SingularSet(dimension={self.dimension}, degree={self.degree})"
@@ -465,7 +471,8 @@ def _judge_candidate(
     points = found.points
     if found.dimension == 0:
         cone, points = tangent_cone(whole.system, x, accuracy=error), x[None]
-    return SingularSet(found.dimension, found.degree, points, multiplicities, local, cone)
+    unit = whole.system.imaginary
+    return SingularSet(found.dimension, found.degree, points, multiplicities, local, cone, unit)
 
 
 def _outside_hull(system: PolynomialSystem, x: np.ndarray, accuracy: float) -> bool:
