@@ -297,8 +297,8 @@ def add_formulation(parser: argparse.ArgumentParser) -> None:
         choices=(*FORMULATIONS, PLATFORM_ALONE),
         help="model of a mechanism (default: the one with the fewest paths): "
         + "; ".join(f"{name} {text}" for name, text in FORMULATIONS.items())
-        + f"; {PLATFORM_ALONE} the poses of a robot's platform, by itself only where none of these "
-        + "is within reach",
+        + f"; {PLATFORM_ALONE} the poses of a robot's platform, which `nag decompose` takes by "
+        + "itself where these have very many paths",
     )
 
 

@@ -31,7 +31,7 @@ from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
 from nag.mechanism.parts import PARTS, mechanism_in, parts_in_formulation
 from nag.mechanism.path_estimates import (
-    MOST_TRACKED,
+    MOST_FOR_JOINTS,
     Alternative,
     ModelError,
     NoLoopError,
@@ -238,9 +238,9 @@ def model(
 
 
 def find_pose_model(made: Model) -> Model | None:
-    """The model of a mechanism's platform alone, where no other's paths are within reach.
+    """The model of a mechanism's platform alone, where all others have very many paths.
 
-    Components of poses need not be those of the joints; but those are not found then.
+    Components of poses need not be those of the joints; but these are not found in time then.
 
     Args:
         made: the model that was chosen.
@@ -248,10 +248,10 @@ def find_pose_model(made: Model) -> Model | None:
     Returns:
         None where it is no model of a parallel robot, or has too many paths as well.
     """
-    if made.formulation == PLATFORM_ALONE or estimated_paths(made.system) <= MOST_TRACKED:
+    if made.formulation == PLATFORM_ALONE or estimated_paths(made.system) < MOST_FOR_JOINTS:
         return None
     chosen = alternative(made.structure, made.space, PLATFORM_ALONE, made.modes)
-    if chosen.form is None or chosen.paths > MOST_TRACKED:
+    if chosen.form is None or chosen.paths >= MOST_FOR_JOINTS:
         return None
     return _model_of(made.mechanism, made.structure, made.space, chosen, "auto", made.modes)
 

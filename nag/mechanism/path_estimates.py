@@ -26,6 +26,8 @@ LEAST_SECONDS = 1e-4
 # More paths than these, minutes at the least, are out of reach: they do not decide which equations
 # a parallel robot gets.
 MOST_TRACKED = 10**6
+# From so many on, which take minutes, a robot is decomposed by its platform's poses.
+MOST_FOR_JOINTS = 10**5
 
 
 class ModelError(MechanismError):

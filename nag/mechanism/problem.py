@@ -273,7 +273,7 @@ def _of_model(made: Model) -> Problem:
 
 
 def problem_within_reach(problem: Problem) -> Problem:
-    """What is decomposed: a robot's poses where the paths of all other equations are too many."""
+    """What is decomposed: a robot's poses where the paths of all other equations are very many."""
     if problem.mechanism is None:
         return problem
     from nag.mechanism.model import find_pose_model
