@@ -112,6 +112,12 @@ def rows_of(data: dict, circuit: dict) -> np.ndarray:
     return np.array([s * (f + next(moving)) if s else f * still for f, s in data["grids"]])
 
 
+def test_a_page_says_that_its_circuits_are_those_through_the_reference(moved) -> None:
+    data = data_of(motion_page(moved("bennett"), "title", "case.toml"))
+    (component,) = (text for name, text in data["facts"] if name == "component")
+    assert component == "dimension 1, degree 2; 1 circuit through the reference configuration"
+
+
 def test_frames_are_the_samples(moved) -> None:
     motion = moved("bennett")
     (own,) = motion.circuits

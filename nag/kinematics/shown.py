@@ -108,16 +108,19 @@ def circuit_text(motion: Motion, circuit: Circuit) -> str:
     return f"{text}; length {circuit.length:.4g}"
 
 
+def circuits_text(motion: Motion, number: int) -> str:
+    """How many circuits there are; a component may have others, which were not asked for."""
+    where = " through the reference configuration" if motion.which == "reference" else ""
+    return f"{count_text(number, 'circuit')}{where}"
+
+
 def motion_rows(motion: Motion) -> list[tuple[str, str]]:
     """Labelled lines of the whole."""
     rows = [("model", motion.reason), ("mobility", motion.sentence)]
-    # A component may have circuits besides, which were not asked for.
-    where = " through the reference configuration" if motion.which == "reference" else ""
     for i, component in enumerate(motion.components):
         text = f"dimension {component.dimension}, degree {component.degree}"
         own = [c for c in motion.circuits if c.component == i]
-        circuits = f"{count_text(len(own), 'circuit')}{where}"
-        text += f"; {circuits if own else 'no real motion of its own'}"
+        text += f"; {circuits_text(motion, len(own)) if own else 'no real motion of its own'}"
         rows.append(("component" if len(motion.components) == 1 else f"component {i + 1}", text))
     if motion.left_out:
         rows.append(("left out", f"{motion.left_out}, whose motions have more freedoms"))

@@ -18,7 +18,13 @@ from nag.kinematics.driven_motion import DrivenMotion
 from nag.kinematics.motion import Circuit, Crossing, Motion
 from nag.kinematics.poses import Poses, turn_back, turn_vectors
 from nag.kinematics.scene import Scene
-from nag.kinematics.shown import crossing_text, range_text, turning_text, value_text
+from nag.kinematics.shown import (
+    circuits_text,
+    crossing_text,
+    range_text,
+    turning_text,
+    value_text,
+)
 from nag.kinematics.turning_points import STILL
 from nag.page.link_shapes import BodyShape, Shapes, link_shapes, typical_length
 from nag.text.table import count_text
@@ -256,7 +262,7 @@ def subtitle(motion: Motion, held: _Held | None = None) -> str:
     counts = [count_text(sum(j.type == kind for j in joints), f"{kind} joint") for kind in kinds]
     degrees = sorted({c.degree for c in motion.components})
     curve = f"curve of degree {degrees[0]}" if len(degrees) == 1 else "curves"
-    circuits = count_text(len(motion.circuits), "circuit")
+    circuits = circuits_text(motion, len(motion.circuits))
     if held is not None:
         circuits += f" at {count_text(len(held.values), 'value')} of {held.name}"
     return f"{', '.join(counts)}; {circuits}; {curve}"
@@ -345,7 +351,7 @@ def facts(motion: Motion) -> list[list[str]]:
         text = f"dimension {component.dimension}, degree {component.degree}"
         if component.multiplicity > 1:
             text += f", multiplicity {component.multiplicity}"
-        rows.append([name, f"{text}; {count_text(on, 'circuit')}"])
+        rows.append([name, f"{text}; {circuits_text(motion, on)}"])
     if motion.idle:
         rows.append(["idle", motion.idle])
     if motion.left_out:
