@@ -333,6 +333,15 @@ def singular(
 def singular(
     given: File | Case | Problem | Equations, *, free: Names, **options: Unpack[Options]
 ) -> SingularParameters: ...
+@overload
+def singular(
+    given: Decomposed,
+    component: int | None = None,
+    *,
+    free: Names | None = None,
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
+) -> SingularLocus | SingularParameters: ...
 def solve(
     system: Solvable,
     variables: Names | None = None,

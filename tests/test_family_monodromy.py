@@ -251,7 +251,7 @@ def test_the_command_solves_by_way_of_the_family(
     assert main(["solve", str(path), "--start", "total"]) == 0
     path.write_text(CASE.partition("[family]")[0])
     assert main(["solve", str(path), "--start", "parameter"]) == 2
-    assert "has no [family]" in capsys.readouterr().err
+    assert "is for a case with a [family]" in capsys.readouterr().err
 
 
 THREE_QUADRICS = """

@@ -83,6 +83,7 @@ SEVERAL = {
     "circuit": np.ndarray,
     "singular set": np.ndarray,
     "singular": object,
+    "singular parameters": object,
     "real curve": object,
     "motion": object,
     "motion of a linkage": object,
