@@ -385,7 +385,7 @@ def decompose(
         variables: of equations, their names in order; see `nag.system`.
         imaginary: of equations, what the imaginary unit is called, as for `nag.system`.
         formulation: of a mechanism's model, as for `nag.model`; by itself also ``"P"``, the poses
-            of a robot's platform, where the others have a hundred thousand paths or more.
+            of a robot's platform, where the others have more than a hundred thousand paths.
         method: ``"complete"``, or ``"sampling"`` for the components that Newton's method finds from
             random points, of systems that are too large; that is never complete
             (`nag.decomposition.discover`).

@@ -379,7 +379,7 @@ def equations_of_image(
 
 def _cuts(cloud: Cloud, known: Interpolated, dimension: int) -> bool:
     """Whether the generators' gradients at a random point leave the image's tangents alone."""
-    k = len(known.own)
+    k = len(known.own_coordinates)
     if dimension == k or len(known.generators) < k - dimension:
         return dimension == k
     point = cloud.samples(1)[0].x
@@ -395,7 +395,7 @@ def common_zeros(known: Interpolated) -> tuple[int, int]:
     Those of the leading monomials that are known. The zeros lie in no smaller dimension than the
     image; where the dimensions agree, their degree is at most that of these monomials.
     """
-    return dimension_and_degree(known.leading, len(known.own))
+    return dimension_and_degree(known.leading_monomials, len(known.own_coordinates))
 
 
 def is_self_conjugate(cloud: Cloud, known: Interpolated, dimension: int) -> bool | None:
@@ -410,7 +410,7 @@ def is_self_conjugate(cloud: Cloud, known: Interpolated, dimension: int) -> bool
     Returns:
         None where there are too many monomials, or the degree of the zeros is not known.
     """
-    if cloud.source.exact is not None or dimension == len(known.own) or known.unit:
+    if cloud.source.exact is not None or dimension == len(known.own_coordinates) or known.unit:
         return True
     zeros = common_zeros(known)
     half = zeros[1] // 2 if zeros[0] == dimension else known.degree
@@ -448,7 +448,7 @@ def _defines(known: Interpolated, dimension: int) -> bool:
     least degree has no other factors. The degree of a curve is at least the number of functions
     that one degree more adds (its hyperplane section has no fewer conditions).
     """
-    k, zeros = len(known.own), common_zeros(known)
+    k, zeros = len(known.own_coordinates), common_zeros(known)
     if zeros[0] != dimension:
         return False
     if dimension >= k - 1 or zeros[1] == 1:

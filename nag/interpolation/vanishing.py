@@ -98,23 +98,23 @@ class Interpolated:
     unit: bool = False
 
     @property
-    def own(self) -> tuple[int, ...]:
+    def own_coordinates(self) -> tuple[int, ...]:
         """The coordinates without the imaginary unit."""
         return self.coordinates[: len(self.coordinates) - self.unit]
 
     @property
-    def leading(self) -> list[Exponents]:
+    def leading_monomials(self) -> list[Exponents]:
         """The leading monomials of the basis, in the coordinates without the imaginary unit."""
         leading = (leading_monomial(f, self.unit) for f in self.basis)
-        return [e[: len(self.own)] for e in leading]
+        return [e[: len(self.own_coordinates)] for e in leading]
 
     def up_to(self, degree: int) -> list[Exponents]:
         """The standard monomials up to a degree."""
-        return [e for e in self.standard if sum(e[: len(self.own)]) <= degree]
+        return [e for e in self.standard if sum(e[: len(self.own_coordinates)]) <= degree]
 
     def candidates(self, degree: int) -> list[Exponents]:
         """The monomials of a degree that no leading one divides."""
-        leading, k = self.leading, len(self.own)
+        leading, k = self.leading_monomials, len(self.own_coordinates)
         found = [
             e for e in monomials_of_degree(k, degree) if not any(divides(m, e) for m in leading)
         ]
@@ -175,7 +175,7 @@ def next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
 
 
 def _next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
-    k, degree = len(known.own), known.degree + 1
+    k, degree = len(known.own_coordinates), known.degree + 1
     total = len(known.standard) + comb(k + degree - 1, degree)
     if comb(k + degree - 1, degree) > 100 * MOST_MONOMIALS:
         raise _too_many(total, degree, k, MOST_MONOMIALS)

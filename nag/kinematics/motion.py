@@ -20,7 +20,6 @@ from nag.kinematics.driven import (
     find_doubts_of_held,
     has_value,
     hold,
-    is_same_assembly,
     place_frames,
     problem_to_move,
     read_drives,
@@ -32,6 +31,7 @@ from nag.kinematics.poses import SAME, Poses, join_poses, pose_distances
 from nag.kinematics.rigid_assemblies import (
     Configurations,
     RigidAssemblies,
+    distinct_assemblies,
     find_components_through,
     find_rigid_assemblies,
 )
@@ -617,11 +617,8 @@ def _at_value(
             notes += rest.notes
         except NagError as error:
             notes.append(f"assemblies beyond where circuits to infinity are followed: {error}")
-    scene, assemblies = motion.scene, list[DrivenAssembly]()
-    for each in candidates:
-        if not any(is_same_assembly(scene, each, other) for other in assemblies):
-            assemblies.append(each)
-    return replace(motion, drive=drive, assemblies=tuple(assemblies), notes=tuple(notes))
+    assemblies = tuple(distinct_assemblies(motion.scene, candidates))
+    return replace(motion, drive=drive, assemblies=assemblies, notes=tuple(notes))
 
 
 def _motion_on(

@@ -100,11 +100,11 @@ def find_rigid_assemblies(
         elsewhere.append(f"on {count_text(along, 'other curve')} (circuit: all)")
     if larger:
         elsewhere.append(f"on {count_text(larger, 'component')} of dimension 2 or more")
-    assemblies = _each_once(scene, [*found, *on_curves])
+    assemblies = distinct_assemblies(scene, [*found, *on_curves])
     return RigidAssemblies(_in_order(assemblies), join_words(elsewhere), tuple(doubts))
 
 
-def _each_once(scene: Scene, assemblies: Sequence[DrivenAssembly]) -> list[DrivenAssembly]:
+def distinct_assemblies(scene: Scene, assemblies: Sequence[DrivenAssembly]) -> list[DrivenAssembly]:
     """Those that are the same configuration as none before them."""
     if not assemblies:
         return []

@@ -17,7 +17,8 @@ says how one moves, `moving_parts` (on `joint_chains`, of parts on `assembled`) 
 how it would if it were not rigid as it is given; `operation_modes` with `modes_report` how the
 platform of a parallel robot does, by `legs`, `leg_image`, `isotropic_limits`, `platform`,
 `inverse_kinematics` and `motions`, and `pose_model` makes a formulation of its poses, taken on
-request, or with joints held where `leg_ways` says all that a leg can do at each; `shown` is what is
+request, where all others have very many paths, or with joints held where `leg_ways` says all that
+a leg can do at each; `shown` is what is
 seen at the prompt.
 
 To add a type of joint, write its record in `joint_types.JOINT_TYPES`, by the rules at the head of
@@ -37,6 +38,6 @@ FORMULATIONS = {
     "H": "half-angles, slides and quaternions of the joints",
     "S": "rods between spherical joints as distances, free bodies in Study coordinates",
 }
-# The platform's poses alone, taken on request, or with joints held, and what is known of a robot's
-# modes.
+# The platform's poses alone, taken on request, with joints held, or to decompose a robot with very
+# many paths; and what is known of a robot's modes.
 PLATFORM_ALONE = "P"

@@ -31,7 +31,7 @@ from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
 from nag.mechanism.parts import PARTS, mechanism_in, parts_in_formulation
 from nag.mechanism.path_estimates import (
-    MOST_FOR_JOINTS,
+    MOST_DECOMPOSED,
     Alternative,
     ModelError,
     NoLoopError,
@@ -248,10 +248,10 @@ def find_pose_model(made: Model) -> Model | None:
     Returns:
         None where it is no model of a parallel robot, or has too many paths as well.
     """
-    if made.formulation == PLATFORM_ALONE or estimated_paths(made.system) < MOST_FOR_JOINTS:
+    if made.formulation == PLATFORM_ALONE or estimated_paths(made.system) <= MOST_DECOMPOSED:
         return None
     chosen = alternative(made.structure, made.space, PLATFORM_ALONE, made.modes)
-    if chosen.form is None or chosen.paths >= MOST_FOR_JOINTS:
+    if chosen.form is None or chosen.paths > MOST_DECOMPOSED:
         return None
     return _model_of(made.mechanism, made.structure, made.space, chosen, "auto", made.modes)
 

@@ -198,11 +198,11 @@ def _poses_at(poses: Poses, at: np.ndarray) -> Poses:
 
     As the page's script has them.
     """
-    turns, places = (_between(x, at, axis=1) for x in (poses.turns, poses.places))
+    turns, places = (_interpolate(x, at, axis=1) for x in (poses.turns, poses.places))
     return Poses(turns / np.linalg.norm(turns, axis=-1, keepdims=True), places)
 
 
-def _between(samples: np.ndarray, at: np.ndarray, axis: int) -> np.ndarray:
+def _interpolate(samples: np.ndarray, at: np.ndarray, axis: int) -> np.ndarray:
     """Samples along an axis, at places between them, by cubics through four of them."""
     first = np.clip(at.astype(int) - 1, 0, samples.shape[axis] - 4)
     t = at - first - 1
@@ -490,7 +490,7 @@ def _circuit_data(
     motion: Motion, circuit: Circuit, frames: int, grids: np.ndarray
 ) -> dict[str, Any]:
     at = np.linspace(0, len(circuit) - 1, frames)
-    values = _between(circuit.values.values.T, at, axis=1)
+    values = _interpolate(circuit.values.values.T, at, axis=1)
     rows = _rows_of(circuit, _poses_at(circuit.poses, at), values)
     return {
         "number": circuit.number,
