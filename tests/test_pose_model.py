@@ -149,8 +149,8 @@ def test_a_pose_is_no_configuration_to_ask_for_the_mobility_at() -> None:
         nag.mobility(model, model.reference)
 
 
-def test_poses_are_taken_only_where_they_are_asked_for() -> None:
-    # Their equations take 5 paths, the fewest of all.
+def test_what_is_asked_at_a_configuration_is_asked_of_the_joints() -> None:
+    # The equations of poses take 5 paths, the fewest of all.
     robot = poses("tripteron")
     assert nag.model(robot.mechanism).formulation != "P"
     assert robot.alternatives[-1].formulation == "P"
@@ -163,10 +163,8 @@ def test_components_are_those_of_poses_where_all_others_are_out_of_reach(
     case = CASES / "robots" / "3-upu-tsai.toml"
     model = nag.model(case)
     assert model.formulation == "E" and find_pose_model(model).formulation == "P"
-    # Those of the tripteron and of the 3-RPS robot are within reach, in joints as well.
-    assert all(
-        find_pose_model(nag.model(poses(n).mechanism)) is None for n in ("tripteron", "3-rps")
-    )
+    # Those of three PRS legs are within reach, in joints as well.
+    assert find_pose_model(nag.model(CASES / "robots" / "3-prs.toml")) is None
     assert find_pose_model(find_pose_model(model)) is None
     found = nag.decompose(case)
     assert [(c.dimension, c.degree) for c in found.components] == [(3, 1)] * 4 + [(3, 11)]

@@ -238,7 +238,7 @@ def model(
 
 
 def find_pose_model(made: Model) -> Model | None:
-    """The model of a mechanism's platform alone, where all others have very many paths.
+    """The model of a mechanism's platform alone, where it has the fewest paths of what has many.
 
     Components of poses need not be those of the joints; but these are not found in time then.
 
@@ -246,12 +246,13 @@ def find_pose_model(made: Model) -> Model | None:
         made: the model that was chosen.
 
     Returns:
-        None where it is no model of a parallel robot, or has too many paths as well.
+        None where it is no model of a parallel robot, or has few paths, or fewer than poses have.
     """
-    if made.formulation == PLATFORM_ALONE or estimated_paths(made.system) <= MOST_DECOMPOSED:
+    paths = estimated_paths(made.system)
+    if made.formulation == PLATFORM_ALONE or paths <= MOST_DECOMPOSED:
         return None
     chosen = alternative(made.structure, made.space, PLATFORM_ALONE, made.modes)
-    if chosen.form is None or chosen.paths > MOST_DECOMPOSED:
+    if chosen.form is None or chosen.paths >= paths:
         return None
     return _model_of(made.mechanism, made.structure, made.space, chosen, "auto", made.modes)
 

@@ -23,8 +23,9 @@ from nag.errors import MechanismError
 MOST_STATES = 2_000
 # Seconds that a path of a decomposition takes at least.
 LEAST_SECONDS = 1e-4
-# More paths take minutes to hours, so that a parallel robot is decomposed by its platform's poses.
-MOST_DECOMPOSED = 10**5
+# More paths take from half a minute to hours, so that a parallel robot is decomposed by its
+# platform's poses, where these take fewer.
+MOST_DECOMPOSED = 10**4
 # Of still more not even the component through a reference is found from there: they do not decide
 # which equations a parallel robot gets. (That of 3-RRS legs, of 171,000 paths, is, of degree 432.)
 MOST_TRACKED = 10**6
