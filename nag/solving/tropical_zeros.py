@@ -109,10 +109,7 @@ def _lifts(logs: Sequence[np.ndarray], rng: np.random.Generator) -> list[np.ndar
     """Lifting values of the terms: the larger a coefficient, the lower."""
     spread = max(float(own.max() - own.min()) for own in logs)
     units = min(UNITS, (LARGEST_LIFT - 2 * RANDOM) / max(spread, 1.0))
-    return [
-        np.rint(units * (own.max() - own)).astype(np.int64) + rng.integers(0, RANDOM, len(own))
-        for own in logs
-    ]
+    return [units * (own.max() - own) + RANDOM * rng.random(len(own)) for own in logs]
 
 
 def _sizes(cells: MixedCells, logs: Sequence[np.ndarray]) -> np.ndarray:

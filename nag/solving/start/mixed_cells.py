@@ -5,6 +5,10 @@ the cells are followed through the lifting values on the way. A cell is given by
 support; it changes when a further point comes to lie on the same face of the lower hull, which is
 a flip of the circuit of these 2 n + 1 points.
 
+Volumes tell whether a cell was lost or found twice. Where support i lies in d simplices, the hull
+of both is that of d simplices, so that all cells' volumes, those with corners of the simplices as
+well, are together d times what they were before support i came in.
+
 References:
     Jensen, Tropical homotopy continuation, 2016; Huber & Sturmfels, A polyhedral method for
     solving sparse polynomial systems, 1995.
@@ -24,7 +28,8 @@ from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import aligned_zeros, any_less, load, select_less, splat, store
 from nag.machine_code.records import Reals, Wholes
 
-# Lifting values are integers below this; equal crossing times are then as good as impossible.
+# Lifting values are below this, with all digits of doubles: whole numbers would let points enter at
+# the same time, where cells are lost or found twice (of some 10^7 steps one or two).
 LARGEST_LIFT = 1 << 22
 MOST_STEPS = 3_000_000
 MOST_CELLS = 200_000
@@ -88,8 +93,9 @@ class Lifted(NamedTuple):
 class Followed(NamedTuple):
     """Results and scratch of `follow_cells`.
 
-    ``found``: the cells at t = infinity, at most ``most_cells``; ``numbers``: how many there are,
-    and a code: 0, 1 for too many steps or cells, 2 for a degenerate cell. ``stack, times``: at most
+    ``found, volumes``: the cells at t = infinity, at most ``most_cells``; ``numbers``: how many
+    there are, and a code: 0, 1 for too many steps or cells, 2 for a degenerate cell. ``stack,
+    times``: at most
     ``depth`` cells to be followed, and from when. ``cell``: the present one. ``matrix,
     pivots, right``: the factors of its edges, and two right-hand sides. ``wide``: the points eight
     by eight, those of support i from number ``blocks[i]`` on: n vectors of coordinates, one of
@@ -99,6 +105,7 @@ class Followed(NamedTuple):
     most_cells: int
     depth: int
     found: Wholes
+    volumes: Reals
     numbers: Wholes
     stack: Wholes
     times: Reals
@@ -276,6 +283,10 @@ def follow_cells(s: Lifted, w: Followed) -> None:
                         numbers[1] = 1
                         return
                     _copy(w.found, 2 * n * numbers[0], cell, 0, 2 * n)
+                    volume = 1.0
+                    for k in range(n):
+                        volume *= abs(w.matrix[n * k + k])
+                    w.volumes[numbers[0]] = volume
                     numbers[0] += 1
                     break
                 share = _share(s, w, which, enters)
@@ -314,6 +325,7 @@ def _scratch(n: int, points: int) -> Followed:
         most_cells=MOST_CELLS,
         depth=DEPTH,
         found=np.empty((MOST_CELLS, n, 2), dtype=np.int64),
+        volumes=np.empty(MOST_CELLS),
         numbers=np.zeros(2, dtype=np.int64),
         stack=np.empty((DEPTH, n, 2), dtype=np.int64),
         times=np.empty(DEPTH),
@@ -327,13 +339,17 @@ def _scratch(n: int, points: int) -> Followed:
     )
 
 
-def _follow(lifted: Lifted, room: Followed) -> np.ndarray:
-    """The cells at t = infinity, shape ``(cells, n, 2)``; they are overwritten by the next ones."""
+def _follow(lifted: Lifted, room: Followed) -> tuple[np.ndarray, np.ndarray]:
+    """The cells at t = infinity, shape ``(cells, n, 2)``, and their volumes.
+
+    The cells are overwritten by the next ones.
+    """
     room.numbers[:] = 0
     _kernel(lifted, room)
     if room.numbers[1]:
         raise StartError("mixed volume: too many cells")
-    return room.found[: room.numbers[0]]
+    count = room.numbers[0]
+    return room.found[:count], np.rint(room.volumes[:count]).astype(np.int64)
 
 
 def mixed_cells(
@@ -346,10 +362,10 @@ def mixed_cells(
     Args:
         supports: ``n`` arrays of non-negative exponents, each shape ``(terms, n)``.
         rng: where the lifting values come from.
-        lifts: whole numbers from 0 to `LARGEST_LIFT` for each point, generic.
+        lifts: from 0 to `LARGEST_LIFT` for each point, generic.
 
     Raises:
-        StartError: if there are too many cells.
+        StartError: if there are too many cells, or their volumes show that some were lost.
     """
     n = len(supports)
     order = sorted(range(n), key=lambda i: (len(supports[i]), i))
@@ -363,10 +379,10 @@ def mixed_cells(
         values[1 + i] = heights[i]
         simplex_lifts.append(values)
     if lifts is None:
-        lifts = [rng.integers(0, LARGEST_LIFT, len(s)) for s in supports]
-    lifts = [lift.astype(float) for lift in lifts]
+        lifts = [LARGEST_LIFT * rng.random(len(s)) for s in supports]
     points, values = [simplex] * n, list(simplex_lifts)
     cells = np.array([[[0, 1 + i] for i in range(n)]], dtype=np.int64)
+    volumes = np.ones(1, dtype=np.int64)
     room = _scratch(n, sum(map(len, supports)) + (n + 1) ** 2)
     for stage, i in enumerate(order):
         degree, count = max(1, int(supports[i].sum(axis=1).max())), len(supports[i])
@@ -393,16 +409,11 @@ def mixed_cells(
             slope=slope,
             begin=begin,
         )
-        found = _follow(lifted, room)
-        cells = found[(found[:, stage] < first[stage] + count).all(axis=1)] - shift
+        found, reached = _follow(lifted, room)
+        if reached.sum() != degree * volumes.sum():
+            raise StartError("mixed volume: cells were lost to rounding")
+        own = (found[:, stage] < first[stage] + count).all(axis=1)
+        cells, volumes = found[own] - shift, reached[own]
     edges = np.zeros_like(cells)
     edges[:, order] = cells
-    return MixedCells(tuple(supports), tuple(lifts), edges, _volumes(supports, edges))
-
-
-def _volumes(supports: Sequence[np.ndarray], edges: np.ndarray) -> np.ndarray:
-    n = len(supports)
-    ends = [s[edges[:, i]] for i, s in enumerate(supports)]
-    vectors = np.array([e[:, 1] - e[:, 0] for e in ends]).reshape(n, len(edges), n)
-    vectors = vectors.transpose(1, 0, 2)
-    return np.rint(np.abs(np.linalg.det(vectors.astype(float)))).astype(np.int64)
+    return MixedCells(tuple(supports), tuple(lifts), edges, volumes)
