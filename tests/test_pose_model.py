@@ -3,6 +3,7 @@
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -170,7 +171,8 @@ def test_components_are_those_of_poses_where_all_others_are_out_of_reach(
     assert [(c.dimension, c.degree) for c in found.components] == [(3, 1)] * 4 + [(3, 11)]
     assert main(["decompose", str(case), "--quiet"]) == 0
     text = " ".join(capsys.readouterr().out.split())
-    assert "components of its poses, above each of which the joints may have several" in text
+    assert "components of its poses; the joints may have several above one" in text
+    assert "not seen components are those of the platform's poses, closed" in text
 
 
 def test_a_robot_whose_paths_are_out_of_reach_has_short_equations() -> None:
@@ -222,7 +224,8 @@ def test_the_command_says_that_components_are_those_of_poses(
     case = str(CASES / "robots" / "3-rps.toml")
     assert main(["decompose", case, "--formulation", "P", "--quiet"]) == 0
     text = " ".join(capsys.readouterr().out.split())
-    assert "components of its poses, above each of which the joints may have several" in text
+    assert "components of its poses; the joints may have several above one" in text
+    assert "not seen components are those of the platform's poses, closed" in text
     assert "agrees with what is known" in text
 
 
@@ -237,3 +240,20 @@ def test_poses_have_fewer_components_than_configurations_where_legs_move_in_one_
         for name in ("E", "P")
     }
     assert kinds == {"E": [(1, 4, 1), (1, 4, 1), (2, 4, 1)], "P": [(1, 1, 1)]}
+
+
+def test_poses_that_a_leg_reaches_in_the_limit_are_no_doubt() -> None:
+    # Two planes of complex poses, to which the legs come as near as one likes.
+    found = nag.decompose(CASES / "robots" / "4-upu-upright.toml")
+    assert found.complete
+    assert [(c.dimension, c.degree) for c in found.components] == [(4, 2)] * 2 + [(3, 1)] * 2
+
+
+def test_poses_do_not_tell_the_mobility_where_a_leg_is_singular(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = tmp_path / "folded.toml"
+    nag.write(folded(), case)
+    assert main(["decompose", str(case), "--formulation", "P", "--quiet"]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert "mobility not known from poses, as a leg or its equations are singular" in text

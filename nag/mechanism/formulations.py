@@ -96,9 +96,12 @@ def description(alternative: Alternative, space: Space) -> str:
     form = alternative.form
     if alternative.formulation == PLATFORM_ALONE:
         place = ", ".join(f"{float(c):.6g}" for c in form.platform.origin)
+        kept = [e.factor.joint for leg in form.platform.legs for e in leg.kept if e.factor]
+        but = f" but for {join_words(list(dict.fromkeys(kept)))}" if kept else ""
         return (
             f"Study coordinates of {form.platform.robot.platform} about ({place}), its legs "
-            "eliminated: components of its poses, above each of which the joints may have several"
+            f"eliminated{but}: components of its poses; the joints may have several above one, and "
+            "others where it stands still"
         )
     if isinstance(form, RodModel):
         free = sum(f.kind == "free" for f in form.charts.plain)

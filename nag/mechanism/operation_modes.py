@@ -12,7 +12,7 @@ References:
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations
 from math import ceil
@@ -207,24 +207,21 @@ def _no_answer(model: PlatformModel, run: Run, note: str) -> Decomposition:
 
 
 def decompose_poses(model: PlatformModel, run: Run) -> Decomposition:
-    """The components of a platform's poses that every leg reaches.
+    """The components of a platform's poses that legs reach, or come as near to as one likes.
 
     Those that a leg is not known to reach are kept, and said to be open.
     """
     found = decompose(model.system, run=run)
-    poses = np.array([model.study(c.points)[0] for c in found.components]).reshape(-1, 8)
-    rng = run.random(42)
-    residuals = _residuals(model, poses, model.length, rng)
     kept, notes = [], []
-    for component, pose, own in zip(found.components, poses, residuals, strict=True):
-        missing = [i for i, r in enumerate(own) if not r < REACHED]
-        if any(_misses(model, i, pose, model.length, rng) for i in missing):
+    reaches = _judge_reach(model, found, run)
+    for component, reach in zip(found.components, reaches, strict=True):
+        if reach.wrong:
             continue
         kept.append(component)
         kind = f"dimension {component.dimension}, degree {component.degree}"
         notes += [
             f"whether leg {model.legs[i].leg.name} reaches a component of {kind} is not known"
-            for i in missing
+            for i in reach.open
         ]
     return replace(
         found,
@@ -232,6 +229,40 @@ def decompose_poses(model: PlatformModel, run: Run) -> Decomposition:
         complete=found.complete and not notes,
         notes=(*found.notes, *notes),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Reach:
+    """Which legs reach the general poses of a component.
+
+    Attributes:
+        pose: one of these, shape ``(8,)``.
+        residuals: how near each leg comes to it; infinite for those of ``limits``.
+        limits: the legs that come as near to it as one likes, and do not reach it.
+        wrong: those that do not come near.
+        open: those of which neither is known.
+    """
+
+    pose: np.ndarray
+    residuals: tuple[float, ...]
+    limits: tuple[int, ...]
+    wrong: tuple[int, ...]
+    open: tuple[int, ...]
+
+
+def _judge_reach(model: PlatformModel, found: Decomposition, run: Run) -> list[_Reach]:
+    """Which legs reach each component."""
+    rng, length = run.random(42), model.length
+    poses = np.array([model.study(c.points)[0] for c in found.components]).reshape(-1, 8)
+    limits = _find_limits(model, poses, run)
+    residuals = _residuals_beside(model, poses, limits, rng)
+    judged = []
+    for pose, near, own in zip(poses, limits, residuals.tolist(), strict=True):
+        missing = [i for i, r in enumerate(own) if not r < REACHED and i not in near]
+        wrong = tuple(i for i in missing if _misses(model, i, pose, length, rng))
+        left = tuple(i for i in missing if i not in wrong)
+        judged.append(_Reach(pose, tuple(own), near, wrong, left))
+    return judged
 
 
 def describe_modes(
@@ -250,10 +281,7 @@ def describe_modes(
     if not found.complete and not notes:
         notes.append("a component is undecided")
     run.tell("legs' reach", 2, 4)
-    rng, length = run.random(42), model.length
-    poses = np.array([model.study(c.points)[0] for c in found.components]).reshape(-1, 8)
-    limits = _find_limits(model, poses, run)
-    residuals = _residuals_beside(model, poses, limits, rng)
+    reaches = _judge_reach(model, found, run)
     through, doubt = _through_reference(model, found, run)
     notes += [doubt] if doubt else []
     mirrored = [_conjugate(found, k, run) for k in range(len(found.components))]
@@ -261,19 +289,18 @@ def describe_modes(
     known: dict[int, OperationMode] = {}
     spurious = []
     for k, component in enumerate(found.components):
-        own = tuple(residuals[k].tolist())
-        missing = [i for i, r in enumerate(own) if not r < REACHED and i not in limits[k]]
-        wrong = [i for i in missing if _misses(model, i, poses[k], length, rng)]
-        if wrong:
-            name = model.legs[wrong[0]].leg.name
+        reach = reaches[k]
+        if reach.wrong:
+            name = model.legs[reach.wrong[0]].leg.name
             spurious.append(SpuriousComponent(component.dimension, component.degree, name))
             continue
-        mode = _describe(model, component, mirrored[k], k, through and through[k], length, run)
+        at = through and through[k]
+        mode = _describe(model, component, mirrored[k], k, at, model.length, run)
         singular: tuple[int, ...] = ()
         if mode.multiplicity > 1:
             pairs = enumerate(model.legs)
-            singular = tuple(i for i, leg in pairs if leg.is_singular_at(poses[k]))
-        mode = replace(mode, residuals=own, limits=limits[k], singular_legs=singular)
+            singular = tuple(i for i, leg in pairs if leg.is_singular_at(reach.pose))
+        mode = replace(mode, residuals=reach.residuals, limits=reach.limits, singular_legs=singular)
         if not any(_same_poses(model, mode, other, run) for other in known.values()):
             known[k] = mode
             tell(known)

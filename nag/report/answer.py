@@ -11,6 +11,7 @@ from nag.decomposition.decompose import METHODS, ONE_EQUATION
 from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
+from nag.mechanism import PLATFORM_ALONE
 from nag.report.agreement import agreement_text, compare
 from nag.report.assemblies import assembly_rows
 from nag.report.model import body_rows, eliminated_lines, formulation_lines, model_rows
@@ -23,6 +24,10 @@ if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.problem import Problem
 
+NO_REGULAR_POSE = (
+    "not known from poses, as a leg or its equations are singular at the reference configuration; "
+    "`nag mobility` asks the joints there"
+)
 # Irrational equations that are longer than some lines are told in decimals.
 LONGEST_EQUATION, EQUATION_DIGITS = 1000, 15
 
@@ -72,6 +77,19 @@ def _unreal_text(unreal: int, dimension: int, moves: bool) -> str:
     return f"; by terms of second order real ones have dimension {dimension - unreal} at most"
 
 
+def _pose_rows(problem: Problem) -> list[tuple[str, str]]:
+    """What components of a platform's poses do not tell of the joints."""
+    if problem.formulation != PLATFORM_ALONE:
+        return []
+    text = (
+        "components are those of the platform's poses, closed: of the joints there may be several "
+        "above one, and others, also larger ones, where the platform stands still or a leg is "
+        "singular"
+    )
+    rows = [] if problem.reference is not None else [("mobility", NO_REGULAR_POSE)]
+    return [*rows, ("not seen", text)]
+
+
 def _orbit_rows(decomposition: Decomposition) -> list[tuple[str, str]]:
     sizes = [component.orbit for component in decomposition.components]
     if max(sizes, default=1) == 1:
@@ -91,7 +109,7 @@ def answer_lines(
     head: list[Row] = [("answer", title_line(decomposition))]
     if not decomposition.complete:
         head.append(("", "INCOMPLETE, see below"))
-    head += _mobility_rows(decomposition, problem, points)
+    head += _mobility_rows(decomposition, problem, points) + _pose_rows(problem)
     head += assembly_rows(problem, decomposition)
     tail: list[Row] = [("open", line) for line in remarks(decomposition)]
     tail += [*case.note_rows, *model_rows(problem)]

@@ -10,6 +10,7 @@ from nag.errors import MechanismError
 from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.legs import parallel_robot
+from nag.mechanism.path_estimates import MOST_DECOMPOSED
 from nag.text.table import align, count_text, printable
 
 if TYPE_CHECKING:
@@ -104,7 +105,7 @@ def formulation_lines(problem: Problem) -> list[str]:
 
 
 def _platform_lines(problem: Problem) -> list[str]:
-    """What may be asked of a robot's platform alone, which is taken on request only."""
+    """What may be asked of a robot's platform alone, and when it is."""
     if problem.mechanism is None:
         return []
     try:
@@ -114,8 +115,10 @@ def _platform_lines(problem: Problem) -> list[str]:
     if not all(leg.is_serial for leg in robot.legs):
         return []
     return [
-        f"  {PLATFORM_ALONE}: on request, the poses of {printable(robot.platform)} alone, by its "
-        f"{count_text(len(robot.legs), 'leg')}; nag modes tells its operation modes"
+        f"  {PLATFORM_ALONE}: the poses of {printable(robot.platform)} alone, by its "
+        f"{count_text(len(robot.legs), 'leg')}; nag modes tells its operation modes",
+        f"     nag decompose takes it where the others have more than {MOST_DECOMPOSED} paths, and "
+        "it has fewer; elsewhere it is on request",
     ]
 
 
