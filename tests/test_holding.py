@@ -486,3 +486,171 @@ def test_a_hexapods_platform_is_solved_for_with_all_slides_held() -> None:
 def test_a_platform_that_moves_is_not_taken_by_its_poses() -> None:
     with pytest.raises(nag.NagError, match="formulation P: the platform moves"):
         nag.motion(wrist_robot(), drive={"P1": 0.1}, pose=None, formulation="P")
+
+
+def turned_points(quaternions: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Where turns of any length take points, scaled by their squared lengths: ``(k, m, 3)``."""
+    w, v = quaternions[:, None, :1], quaternions[:, None, 1:]
+    across = np.cross(v, points)
+    return (w * w - (v * v).sum(-1, keepdims=True)) * points + 2 * (
+        v * (v * points).sum(-1, keepdims=True) + w * across
+    )
+
+
+def count_poses(low: np.ndarray, high: np.ndarray, lengths: np.ndarray, slides: bool) -> int:
+    """Poses of a body with points at distances from others, by Newton's method from many starts."""
+    rng = np.random.default_rng(1)
+    size = np.abs(low).max()
+    x = np.hstack([rng.normal(size=(1000, 4)), size * rng.uniform(-2, 2, size=(1000, 3))])
+    x = x[:, : 7 if slides else 4]
+
+    def errors(x: np.ndarray) -> np.ndarray:
+        ends = turned_points(x[:, :4], high) + (x[:, None, 4:] if slides else 0)
+        own = ((ends - low) ** 2).sum(-1) - lengths**2
+        return np.hstack([own, (x[:, :4] ** 2).sum(-1, keepdims=True) - 1])
+
+    for _ in range(60):
+        values, step = errors(x), 1e-6
+        slopes = np.stack(
+            [
+                (errors(x + step * unit) - errors(x - step * unit)) / (2 * step)
+                for unit in np.eye(x.shape[1])
+            ],
+            axis=-1,
+        )
+        move = np.linalg.pinv(slopes, rcond=1e-9) @ values[..., None]
+        x = x - np.clip(move[..., 0], -1, 1)
+    x = x[np.abs(errors(x)).max(axis=1) < 1e-9]
+    found: list[np.ndarray] = []
+    for own in x:
+        own = own * np.where(np.arange(len(own)) < 4, np.sign(own[np.abs(own[:4]).argmax()]), 1)
+        if all(np.abs(own - other).max() > 1e-5 for other in found):
+            found.append(own)
+    return len(found)
+
+
+def turn_around(axis: np.ndarray, at: np.ndarray, angle: float, points: np.ndarray) -> np.ndarray:
+    unit = axis / np.linalg.norm(axis)
+    half = np.array([[math.cos(angle / 2), *(math.sin(angle / 2) * unit)]])
+    return at + turned_points(half, points - at)[0]
+
+
+def test_a_delta_whose_arms_are_held_has_the_assemblies_that_newtons_method_finds() -> None:
+    # Each rod turns about itself in all of them, which leaves them as they are.
+    case = nag.read_case(CASES / "mobility" / "delta.toml")
+    drive = {"R1": math.radians(20), "R2": math.radians(10), "R3": 0.0}
+    motion = nag.motion(case, drive=drive)
+    assert motion.complete and not motion.circuits
+    assert motion.sentence.startswith("nothing moves but idly, with 6 freedoms")
+    assert "rod1l" in motion.idle and motion.idle_count == 6
+    assert max(joint_errors(motion.scene, a.poses).max() for a in motion.assemblies) < FIT
+    joints = {j.name: np.array([float(x) for x in j.point]) for j in case.mechanism.joints}
+    axes = {j.name: j.axis for j in case.mechanism.joints}
+    low, high = [], []
+    for arm, angle in drive.items():
+        axis = np.array([float(x) for x in axes[arm]])
+        for side in "lr":
+            own = joints[f"S{arm[1]}{side}a"][None]
+            low.append(turn_around(axis, joints[arm], angle, own)[0])
+            high.append(joints[f"S{arm[1]}{side}b"])
+    rods = [joints[f"S{k}{s}a"] - joints[f"S{k}{s}b"] for k in "123" for s in "lr"]
+    lengths = np.linalg.norm(rods, axis=1)
+    number = count_poses(np.array(low), np.array(high), lengths, True)
+    assert len(motion.assemblies) == number == 8
+
+
+def test_a_leg_with_a_held_slide_between_two_balls_is_a_rod_of_that_length() -> None:
+    case = nag.read_case(CASES / "robots" / "3-sps-s.toml")
+    motion = nag.motion(case, drive={"P1": 0.1, "P2": 0.0, "P3": -0.2})
+    assert motion.complete and not motion.circuits and motion.freedoms == motion.idle_count == 3
+    assert "link1a with link1b" in motion.idle
+    assert max(joint_errors(motion.scene, a.poses).max() for a in motion.assemblies) < FIT
+    joints = {j.name: j.point for j in case.mechanism.joints if j.type == "spherical"}
+    middle = np.array(next(p for n, p in joints.items() if n[-1] not in "ab"), dtype=float)
+    low, high = (np.array([joints[f"S{k}{e}"] for k in "123"], dtype=float) for e in "ab")
+    lengths = np.linalg.norm(high - low, axis=1) + np.array([0.1, 0.0, -0.2])
+    number = count_poses(low - middle, high - middle, lengths, False)
+    assert len(motion.assemblies) == number > 0
+
+
+def test_a_held_rssc_moves_along_its_rods_sphere() -> None:
+    crank, rod_end = np.array([1.0, 0, 0.5]), np.array([3.0, 3, 2])
+    at, along = np.array([5.0, 1, 0]), np.ones(3) / math.sqrt(3)
+    mechanism = nag.Mechanism(
+        "base",
+        (
+            nag.Joint("A", "revolute", ("base", "crank"), ORIGIN, UP),
+            nag.Joint("B", "spherical", ("crank", "rod"), (1, 0, Fraction(1, 2))),
+            nag.Joint("C", "spherical", ("rod", "rocker"), (3, 3, 2)),
+            nag.Joint("D", "cylindrical", ("base", "rocker"), (5, 1, 0), (1, 1, 1)),
+        ),
+    )
+    motion = nag.motion(mechanism, drive={"A": math.radians(30)}, samples=60)
+    assert motion.complete and motion.freedoms == 2 and motion.idle == "rod turns about itself"
+    (circuit,) = motion.circuits
+    assert joint_errors(motion.scene, circuit.poses).max() < FIT
+    # The rocker reaches the sphere about the crank's end as far as the line along its slide does.
+    end = turn_around(np.array(UP), np.zeros(3), math.radians(30), crank[None])[0]
+    length = np.linalg.norm(rod_end - crank)
+    angles = np.linspace(-math.pi, math.pi, 20001)
+    places = np.array([turn_around(along, at, x, rod_end[None])[0] for x in angles])
+    gap = places - end
+    across = (gap**2).sum(1) - (gap @ along) ** 2
+    reached = angles[across <= length**2]
+    column = names_of(motion).index("D.angle")
+    assert np.allclose(circuit.values.ranges[column], [reached[0], reached[-1]], atol=1e-3)
+
+
+def rod_on_a_four_bar() -> nag.Mechanism:
+    """A four-bar in the plane whose rocker moves another one, across it, by a rod."""
+    joints = [
+        nag.Joint("A", "revolute", ("base", "crank"), (0, 0, 0), UP),
+        nag.Joint("B", "revolute", ("crank", "coupler"), (1, 0, 0), UP),
+        nag.Joint("C", "revolute", ("coupler", "rocker"), (3, 3, 0), UP),
+        nag.Joint("D", "revolute", ("base", "rocker"), (5, 0, 0), UP),
+        nag.Joint("S1", "spherical", ("rocker", "rod"), (4, 2, 1)),
+        nag.Joint("S2", "spherical", ("rod", "lever"), (6, 3, 3)),
+        nag.Joint("E", "revolute", ("base", "lever"), (7, 1, 2), (1, 0, 0)),
+    ]
+    return nag.Mechanism("base", tuple(joints))
+
+
+def test_a_rod_beside_a_loop_without_rods_is_a_distance_too() -> None:
+    crank, limit = math.radians(-20), 2 * math.pi
+    held = held_motion(problem_of(rod_on_a_four_bar()), [Drive("A", crank)])
+    assert held.complete and not held.circuits and "as distances" in held.reason
+    assert held.freedoms == held.idle_count == 1
+    assert max(joint_errors(held.scene, a.poses).max() for a in held.assemblies) < FIT
+
+    def place(axis: tuple, at: tuple, angle: float, point: tuple) -> np.ndarray:
+        whole = (np.array(x, dtype=float) for x in (axis, at))
+        return turn_around(*whole, angle, np.array([point], dtype=float))[0]
+
+    def zeros(gap) -> list[float]:
+        values = np.array([gap(x) for x in np.linspace(0, limit, 4001)])
+        return [limit * i / 4000 for i in np.flatnonzero(values[:-1] * values[1:] < 0)]
+
+    # The four-bar closes in two ways, and each time the lever in some.
+    end = place(UP, ORIGIN, crank, (1, 0, 0))
+    closed = zeros(lambda x: ((place(UP, (5, 0, 0), x, (3, 3, 0)) - end) ** 2).sum() - 13)
+    found = []
+    for x in closed:
+        ball = place(UP, (5, 0, 0), x, (4, 2, 1))
+        levers = zeros(
+            lambda y, at=ball: ((place((1, 0, 0), (7, 1, 2), y, (6, 3, 3)) - at) ** 2).sum() - 9
+        )
+        found += [(x, y) for y in levers]
+    own = [names_of(held).index(name) for name in "DE"]
+    values = np.array([each.values[own] for each in held.assemblies]) % limit
+    assert len(closed) == 2 and len(found) == len(values) == 4
+    gaps = np.abs(values[:, None] - np.array(found)[None]).max(axis=2)
+    assert gaps.min(axis=0).max() < 2e-3 and gaps.min(axis=1).max() < 2e-3
+
+
+def test_a_rod_alone_between_what_is_held_fits_or_does_not() -> None:
+    case = nag.read_case(CASES / "spatial" / "rssr.toml")
+    drawn = nag.motion(case, drive={"A": 0.0, "D": 0.0})
+    assert drawn.complete and len(drawn.assemblies) == 1 and not drawn.circuits
+    assert drawn.freedoms == drawn.idle_count == 1
+    other = nag.motion(case, drive={"A": 0.0, "D": 0.1})
+    assert not other.assemblies and "more than there are freedoms" in other.notes[0]

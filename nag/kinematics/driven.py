@@ -378,6 +378,8 @@ def find_doubts_of_held(
         assemblies: the real ones that do not move.
         components: of dimension 0, all of them.
     """
+    if not problem.system.n:
+        return []
     points = [x for component in components for x in np.asarray(component.points)]
     known = [each.point for each in assemblies if each.point is not None]
     near = [

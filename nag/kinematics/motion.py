@@ -42,6 +42,7 @@ from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem
 from nag.mechanism.real_assemblies import obstacle, of_real_assemblies
+from nag.mechanism.rods import RodModel
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.read_only import RealArray, Several, equal_values
 from nag.real.curve import RealCurve
@@ -247,6 +248,7 @@ class Motion(Several[Circuit]):
             if they were everywhere.
         held: joints that are held at values, if the circuits are those of what is left.
         poses: bodies that are held at places.
+        idle_count: how many of the freedoms are those of parts that turn idly.
     """
 
     scene: Scene
@@ -265,6 +267,7 @@ class Motion(Several[Circuit]):
     not_looked_for: str = ""
     held: tuple[Drive, ...] = ()
     poses: tuple[Pose, ...] = ()
+    idle_count: int = 0
 
     __eq__ = equal_values
 
@@ -291,6 +294,10 @@ class Motion(Several[Circuit]):
         freedoms = count_text(self.freedoms, "freedom")
         if not self.freedoms:
             return f"it does not move, counting predicts {self.counted}"
+        if self.freedoms == self.idle_count:
+            return f"nothing moves but idly, with {freedoms}, counting predicts {self.counted}"
+        if self.idle_count:
+            freedoms += f", {self.idle_count} of them idle"
         return f"it moves with {freedoms}, counting predicts {self.counted}"
 
     def table(self, circuit: int = 1, *, angles: str = "degrees") -> dict[str, np.ndarray]:
@@ -500,7 +507,7 @@ def _check_freedoms(problem: Problem, run: Run) -> None:
     """
     at = _dimension_at_reference(problem, run)
     if at is not None and 1 < at.lower == at.upper == at.tangent_dimension:
-        raise _several_freedoms(at.lower + problem.free, "at the reference configuration")
+        raise _several_freedoms(problem, at.lower, "at the reference configuration")
 
 
 def held_motion(
@@ -541,7 +548,7 @@ def held_motion(
         left, scene = hold(problem, drives, poses, "H")
         found, _ = _motion_on(left, scene, "all", samples, told, holding=True)
     notes = list(found.notes)
-    if not found.circuits and not found.assemblies and found.counted < 0:
+    if not found.circuits and not found.assemblies and found.counted < found.idle_count:
         notes.append(
             "what is held asks for more than there are freedoms, and its numbers are taken as they "
             "are written: rounded ones leave nothing"
@@ -640,7 +647,7 @@ def _motion_on(
     if not isinstance(samples, int) or not LEAST_SAMPLES <= samples <= MOST_SAMPLES:
         raise NagError(f"samples: give a whole number from {LEAST_SAMPLES} to {MOST_SAMPLES}")
     alone = problem.formulation == PLATFORM_ALONE
-    if not problem.system.n:
+    if not problem.system.n and not holding:
         raise MotionError("no equation has an unknown: nothing moves but what is in no loop")
     inner = run.without_found
     decomposition = problem.decompose(run=inner)
@@ -656,7 +663,7 @@ def _motion_on(
     )
     found = [configurations.everything.components[i] for i in own]
     curve_of = curve_of or (lambda component: _real_curve(component, inner))
-    made, idle = problem.model, _idle(problem, inner)
+    made, (idle, idle_count) = problem.model, _find_idle(problem, inner)
     curves: list[RealCurve] = []
     walks: list[_FoundCircuit] = []
     freedoms = 0 if holding else 1
@@ -678,6 +685,7 @@ def _motion_on(
             tuple(notes),
             assemblies=() if rigid is None else rigid.assemblies,
             not_looked_for="" if rigid is None else rigid.not_looked_for,
+            idle_count=idle_count,
         )
 
     for i, component in enumerate(found):
@@ -751,7 +759,7 @@ def _choose_components(
     largest = max((components[i].dimension for i in own), default=0)
     if not curves and not notes and not (holding and largest <= 1):
         if largest > 1:
-            raise _several_freedoms(largest + problem.free, where)
+            raise _several_freedoms(problem, largest, where)
         advice = "see nag mobility, with tolerance 1e-3 if its numbers are rounded"
         raise MotionError(f"it does not move {where}".rstrip() + f"; {advice}")
     larger = sum(components[i].dimension > 1 for i in own)
@@ -759,9 +767,14 @@ def _choose_components(
     return curves, left_out
 
 
-def _several_freedoms(number: int, where: str) -> FreedomsError:
+def _several_freedoms(problem: Problem, dimension: int, where: str) -> FreedomsError:
+    freedoms = count_text(dimension + problem.free, "freedom")
+    form = problem.model.form if isinstance(problem.model, Model) else None
+    idle = sum(count for _, count in form.idle) if isinstance(form, RodModel) else 0
+    if idle:
+        freedoms += f", {idle} of them idle,"
     return FreedomsError(
-        f"it moves with {count_text(number, 'freedom')} {where}".rstrip()
+        f"it moves with {freedoms} {where}".rstrip(" ,")
         + "; a motion is that of a mechanism with one: drive joints to values"
     ).mended_by("drive")
 
@@ -1018,16 +1031,27 @@ def _with_crossings(
     ]
 
 
-def _idle(problem: Problem, run: Run) -> str:
-    """Which parts of a mechanism turn idly near its reference configuration, in words."""
-    if not isinstance(problem.model, Model) or problem.reference is None:
-        return ""
-    from nag.mechanism.joint_chains import NotClear
-    from nag.mechanism.moving_parts import find_moving_parts
+def _find_idle(problem: Problem, run: Run) -> tuple[str, int]:
+    """Which parts of a mechanism turn idly, in words, and with how many freedoms.
 
+    Near its reference configuration; where joints are held and there is none, those that turn so
+    in all configurations, which its equations leave out.
+    """
+    made = problem.model
+    if not isinstance(made, Model):
+        return "", 0
+    from nag.mechanism.joint_chains import NotClear
+    from nag.mechanism.moving_parts import IdleFreedom, describe_parts, find_moving_parts
+
+    if isinstance(made.form, RodModel) and made.form.displacements:
+        parts = [IdleFreedom(bodies, count, True) for bodies, count in made.form.idle]
+        return describe_parts(parts), sum(each.count for each in parts)
+    if problem.reference is None:
+        return "", 0
     try:
-        found = find_moving_parts(problem.model.mechanism, 1 + problem.free, run.random(46))
+        found = find_moving_parts(made.mechanism, 1 + problem.free, run.random(46))
     except NotClear:
-        return ""
+        return "", 0
     # What moves alone where nothing else does is the motion itself.
-    return found.idle_text if found.idle_count < 1 + problem.free else ""
+    known = found.idle_count < 1 + problem.free
+    return (found.idle_text, found.idle_count) if known else ("", 0)

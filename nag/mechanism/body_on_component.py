@@ -142,7 +142,7 @@ def _spins(
     """The twist of a rod's turn about itself, of length one; none of other bodies."""
     found = []
     for rod in made.form.rods if isinstance(made.form, RodModel) else ():
-        if rod.body != body:
+        if body not in rod.frames:
             continue
         ends = []
         for joint, neighbour in zip(rod.ends, rod.neighbours, strict=True):

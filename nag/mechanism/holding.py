@@ -3,7 +3,8 @@
 A joint that is held keeps of its factors those that are not, after a constant displacement; a body
 that is held by the ground has one all of its own. Such a mechanism has no configuration that is
 known: its loops are products in which the constants stand (formulation H), and its assemblies are
-what is to be found.
+what is to be found. Rods between two spherical joints turn about themselves whatever is held: they
+are distances (formulation S), which say nothing of that, where such equations can be made.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from nag.algebra.number import Number, square_root
 from nag.errors import MechanismError
 from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.axes import Space, cross, dot, space_of
+from nag.mechanism.formulations import description
 from nag.mechanism.given_rotation import GivenFrame, turn_about
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.half_angles import LoopClosures
@@ -25,6 +27,7 @@ from nag.mechanism.loops import LoopStructure, loop_structure
 from nag.mechanism.model import Model, check_loops
 from nag.mechanism.path_estimates import Alternative, ModelError, path_bound
 from nag.mechanism.quaternion import DualQuaternion, dual_multiply, multiply
+from nag.mechanism.rods import RodModel, rod_model
 from nag.text.table import count_text
 
 # Estimated paths up to which a platform's legs are not asked for their equations: these take as
@@ -161,12 +164,13 @@ def place_body(given: HeldMechanism, body: str, place: GivenFrame) -> HeldMechan
 def held_model(given: HeldMechanism, formulation: str = "auto") -> Model:
     """The equations of a mechanism that is held: the joints' coordinates, or a platform's poses.
 
-    Those with the fewest estimated paths. Poses are taken by themselves only where no leg moves
+    Those of its rods' distances, if it has any and nothing else needs joints' coordinates; else
+    those with the fewest estimated paths. Poses are taken by themselves only where no leg moves
     while the platform stands still: each stands for finitely many configurations then.
 
     Args:
         given: the mechanism.
-        formulation: ``"H"`` or ``"P"``, as for `nag.model`, or ``"auto"``.
+        formulation: ``"S"``, ``"H"`` or ``"P"``, as for `nag.model`, or ``"auto"``.
 
     Raises:
         ModelError: if it has no loop, what is held is in none, or a loop has nothing to eliminate.
@@ -184,6 +188,8 @@ def held_model(given: HeldMechanism, formulation: str = "auto") -> Model:
     loops = count_text(len(structure.loops), "loop")
     unknowns = count_text(form.system.n, "unknown")
     what = "joint coordinates"
+    if isinstance(form, RodModel):
+        what = description(chosen, space)
     if chosen.formulation == PLATFORM_ALONE:
         what = f"poses of {form.platform.robot.platform}, its legs eliminated"
     return Model(
@@ -204,7 +210,13 @@ def held_model(given: HeldMechanism, formulation: str = "auto") -> Model:
 def _choose_form(
     given: HeldMechanism, structure: LoopStructure, space: Space, formulation: str
 ) -> Alternative:
-    """The equations with the fewest estimated paths, or those that are asked for."""
+    """The rods' distances, the equations with the fewest paths, or those that are asked for."""
+    if formulation in ("auto", "S"):
+        try:
+            return Alternative("S", rod_model(structure, displacements=given.displacements))
+        except ValueError as error:
+            if formulation == "S":
+                raise ModelError(f"formulation {formulation}: {error}") from None
     closures, problem = None, ""
     if formulation != PLATFORM_ALONE:
         try:

@@ -117,7 +117,7 @@ class Model:
     @cached_property
     def alternatives(self) -> tuple[Alternative, ...]:
         """All formulations of the mechanism, by rising number of paths, and this one."""
-        if self.formulation in ("H", PLATFORM_ALONE) and self.form.displacements:
+        if self.formulation in ("H", "S", PLATFORM_ALONE) and self.form.displacements:
             return (Alternative(self.formulation, self.form),)
         found = alternatives(self.structure, self.space, self.modes)
         if self.formulation in FORMULATIONS:

@@ -124,7 +124,7 @@ class MovingParts:
     @property
     def idle_text(self) -> str:
         """Which parts are idle; empty where none is."""
-        return _describe_parts(self.idle)
+        return describe_parts(self.idle)
 
     def rows(self) -> list[tuple[str, str]]:
         """Labelled lines of what there is to be said."""
@@ -132,7 +132,7 @@ class MovingParts:
         if self.idle:
             rows.append(("idle", f"{count_text(self.idle_count, 'freedom')}: {self.idle_text}"))
         if self.hanging:
-            rows.append(("hanging", _describe_parts(self.hanging)))
+            rows.append(("hanging", describe_parts(self.hanging)))
         if self.locked and self.freedoms:
             rows.append(("locked", f"{', '.join(self.locked)}: never moving"))
         if self.freedoms:
@@ -153,7 +153,7 @@ class MovingParts:
         }
 
 
-def _describe_parts(parts: Sequence[IdleFreedom]) -> str:
+def describe_parts(parts: Sequence[IdleFreedom]) -> str:
     """Which parts move by themselves, and how."""
     texts = []
     for count, turns, bodies, joint in sorted({e.alike for e in parts}):
