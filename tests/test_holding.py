@@ -17,6 +17,7 @@ from nag.kinematics.joint_values import joint_coordinates, joint_errors
 from nag.kinematics.motion import Motion, held_motion
 from nag.kinematics.poses import turn_product, turn_vectors
 from nag.kinematics.rigid_assemblies import isolated_assemblies
+from nag.mechanism.joint_chains import JointChains
 from nag.mechanism.leg_ways import count_ways, find_leg_ways
 from nag.mechanism.legs import Leg
 from nag.mechanism.linkage import Link, Linkage, linkage_model
@@ -654,3 +655,15 @@ def test_a_rod_alone_between_what_is_held_fits_or_does_not() -> None:
     assert drawn.freedoms == drawn.idle_count == 1
     other = nag.motion(case, drive={"A": 0.0, "D": 0.1})
     assert not other.assemblies and "more than there are freedoms" in other.notes[0]
+
+
+def test_values_are_reached_from_the_drawing_or_are_not() -> None:
+    five = JointChains.of(nag.read_case(CASES / "planar" / "five-bar.toml").mechanism, None)
+    reached = five.reach({("A", 0): 0.5})
+    assert reached is not None
+    q, freedoms = reached
+    assert freedoms == 1 and q[0] == 0.5 and np.abs(five.equations(q)[0]).max() < FIT
+    # The crank of this one turns by 153 degrees.
+    rssr = JointChains.of(nag.read_case(CASES / "spatial" / "rssr.toml").mechanism, None)
+    assert rssr.reach({("A", 0): math.radians(150)}) is not None
+    assert rssr.reach({("A", 0): math.radians(160)}) is None

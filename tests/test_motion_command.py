@@ -112,6 +112,8 @@ def test_bars_in_space_have_no_table_of_joints(capsys) -> None:
         (["spherical/five-bar.toml"], "it moves with 2 freedoms"),
         # Its components take long to find, and are not needed for this.
         (["robots/3-rps.toml"], "it moves with 3 freedoms at the reference configuration"),
+        (["robots/3-rps.toml", "--drive", "P1=0.1"], "it moves with 2 freedoms with P1 held"),
+        (["mobility/delta.toml", "--drive", "R1=20"], "8 freedoms, 6 of them idle, with R1 held"),
         (["planar/four-bar.toml", "--formulation", "H"], "--formulation is for assembled"),
     ],
 )

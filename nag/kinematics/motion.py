@@ -46,7 +46,7 @@ from nag.mechanism.rods import RodModel
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.read_only import RealArray, Several, equal_values
 from nag.real.curve import RealCurve
-from nag.text.table import count_text, data_frame, one_line
+from nag.text.table import count_text, data_frame, join_words, one_line
 from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
 from nag.witness.frame import count_expanded, expand_orbits
 from nag.witness.witness import Decomposition, WitnessSet
@@ -540,6 +540,8 @@ def held_motion(
     told = run.convert_found(with_held)
     asked = problem.formulation == PLATFORM_ALONE
     left, scene = hold(problem, drives, poses, PLATFORM_ALONE if asked else "auto")
+    if not poses:
+        _check_held_freedoms(problem, left, drives)
     try:
         found, _ = _motion_on(left, scene, "all", samples, told, holding=True)
     except PosesError:
@@ -554,6 +556,44 @@ def held_motion(
             "are written: rounded ones leave nothing"
         )
     return replace(with_held(found), notes=tuple(notes))
+
+
+def _check_held_freedoms(problem: Problem, left: Problem, drives: Sequence[Drive]) -> None:
+    """Refuse what keeps several freedoms in all of its configurations before these are looked for.
+
+    Loops cost as many freedoms as displacements have, at the most (Gruebler and Kutzbach): what
+    counting leaves, all configurations have at least. That there is one is seen where the values
+    are reached from the drawing, if it is regular.
+
+    Args:
+        problem: the mechanism.
+        left: with the joints held.
+        drives: these.
+
+    Raises:
+        FreedomsError: if all its configurations, and there are some, move with two or more.
+    """
+    made = problem.model
+    if not isinstance(made, Model) or left.model is None:
+        return
+    counted = left.model.gruebler_kutzbach
+    if counted - left.free < 2:
+        return
+    from nag.mechanism.joint_chains import JointChains, NotClear
+
+    coordinates = joint_coordinates(scene_of(problem))
+    held = {}
+    for drive in drives:
+        each = next(c for c in coordinates if c.name == drive.coordinate)
+        own = [c.name for c in coordinates if c.joint == each.joint]
+        held[each.joint, own.index(each.name)] = drive.value
+    try:
+        reached = JointChains.of(made.mechanism, None).reach(held)
+    except NotClear:
+        return
+    if reached is not None and reached[1] == counted:
+        names = join_words([drive.coordinate for drive in drives])
+        raise _several_freedoms(left, counted - left.free, f"with {names} held")
 
 
 def motion_of(

@@ -31,6 +31,8 @@ from nag.numerics.doubles import ARRIVED
 # Steps that lead to a generic configuration, and their length; how often one is shortened; and
 # Newton's steps.
 STEPS, LENGTH, SHORTER, NEWTON = 3, 0.15, 4, 25
+# Steps of that length to a configuration with joints at values, at most.
+MOST_STEPS = 100
 # Decides: Sizes, beside the distance from the origin, that are errors of rounding.
 ROUNDED = 1e-13
 # Screws of a turn or slide, as 3 + 3 coordinates: turning, and velocity at the origin.
@@ -312,6 +314,56 @@ class JointChains:
             if step < ARRIVED or (step < SINGULAR and step >= last):
                 # Conditions that depend on the others are not among those that led there.
                 left = float(np.abs(self._conditions(q, singular)[0]).max(initial=0.0))
+                return q if left < SINGULAR else None
+        return None
+
+    def reach(self, held: Mapping[tuple[str, int], float]) -> tuple[np.ndarray, int] | None:
+        """A configuration with joints at values, and the freedoms that the others have there.
+
+        It is followed from the given one, the values changing evenly, by Newton's method.
+
+        Args:
+            held: angles in radians and slides from the given configuration, by the joint's name and
+                the number of its turn or slide.
+
+        Returns:
+            None if it is not reached, or is no regular one.
+
+        Raises:
+            NotClear: if the rank of the others' rates is not clear.
+        """
+        names = [joint.name for joint in self.mechanism.joints]
+        goal, free = np.zeros(self.n), np.ones(self.n, dtype=bool)
+        for (name, number), value in held.items():
+            i = names.index(name)
+            k = self.columns[i].start + number
+            slides = not self.screws[i][number][TURNING].any()
+            goal[k], free[k] = value / self.size if slides else value, False
+        steps = int(np.ceil(np.abs(goal).max(initial=0.0) / LENGTH))
+        if steps > MOST_STEPS:
+            return None
+        q = np.zeros(self.n)
+        for step in range(1, steps + 1):
+            q = np.where(free, q, goal * step / steps)
+            arrived = self._close_loops(q, free)
+            if arrived is None:
+                return None
+            q = arrived
+        rows = self.equations(q)[1][:, free]
+        return q, corank(rows if len(rows) else np.zeros((1, rows.shape[1])))
+
+    def _close_loops(self, q: np.ndarray, free: np.ndarray) -> np.ndarray | None:
+        """The configuration next to joint coordinates, of which some are free to change."""
+        q = q.copy()
+        for _ in range(NEWTON):
+            gaps, rows, _ = self.equations(q)
+            delta = np.linalg.lstsq(rows[:, free], gaps, rcond=NEARLY_SINGULAR)[0]
+            q[free] -= delta
+            size = float(np.abs(delta).max(initial=0.0))
+            if size > 1:
+                return None
+            if size < SINGULAR:
+                left = float(np.abs(self.equations(q)[0]).max(initial=0.0))
                 return q if left < SINGULAR else None
         return None
 
