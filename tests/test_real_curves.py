@@ -338,6 +338,19 @@ def test_critical_points_are_as_many_as_the_determinant_has_zeros() -> None:
     assert Evaluator.of(equations, 2).residuals(found.points).max() < 1e-13
 
 
+def test_critical_points_are_found_whatever_the_equations_are_multiplied_by() -> None:
+    plain = ["x^4 + y^4 + z^2*x - 2*y - 1", "x*y*z^2 + z - 3*x + y^3 + 1/2"]
+    answer = nag.decompose(plain)
+    (component,) = answer.components
+    form, found = np.array([0.7, -0.6, 0.9]), []
+    for size in (1, 10**14):
+        equations = [f * size for f in answer.system.polynomials]
+        rng = np.random.default_rng(0)
+        own = find_critical_points(component.fibres, equations, (), form, rng, DEFAULT_RUN)
+        found.append(sorted(own.points[own.real].real.round(6).tolist()))
+    assert found[0] and found[0] == found[1]
+
+
 def test_a_shaft_between_universal_joints_has_all_of_its_circuits() -> None:
     answer = nag.decompose(nag.read_case(CASES / "spatial/universal-shaft.toml"))
     (curve,) = real_curves(answer)

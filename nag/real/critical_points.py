@@ -168,10 +168,13 @@ def find_critical_points(
     ]
     for i, (f, own) in enumerate(zip(equations, layout.degrees, strict=True)):
         forms = [(layout.coordinates(g), c) for (j, g, _), c in factors.items() if j == i]
-        start = _multiply_forms([*forms, (layout.vector, kernels[i])], layout.size)
         goal: Terms = {}
         for v in range(n):
             goal |= layout.homogenize(f.derivative(v), own, v)
+        # Of one size with the goal: else a row is all but the goal's as soon as a path begins.
+        size = max(abs(complex(c)) for c in goal.values())
+        product = _multiply_forms([*forms, (layout.vector, kernels[i])], layout.size)
+        start = {e: size * c for e, c in product.items()}
         rows.append([(1, start), (2, goal)])
     critical = np.zeros((1, layout.size), dtype=complex)
     critical[0, list(layout.vector)] = form
