@@ -385,7 +385,7 @@ def _of_table(made: DHModel | DHEulerModel) -> Scene:
         False,
         {},
         made.system.variables,
-        partial(_lift_table, made),
+        partial(_lift_table, made, rotations, places),
     )
 
 
@@ -395,9 +395,13 @@ def _about_third(c: Any, s: Any, count: int) -> np.ndarray:
     return turn / np.linalg.norm(turn, axis=1, keepdims=True)
 
 
-def _lift_table(made: DHModel | DHEulerModel, points: np.ndarray) -> Poses:
+def _lift_table(
+    made: DHModel | DHEulerModel,
+    rotations: Sequence[np.ndarray],
+    places: Sequence[np.ndarray],
+    points: np.ndarray,
+) -> Poses:
     rows = [made.loop.rows[i] for i in made.loop.open]
-    rotations, places = _link_transforms(made)
     count, k = len(rows), len(points)
     if isinstance(made, DHModel):
         angles = made.turns(as_entries(_columns(points)), float)
