@@ -15,6 +15,7 @@ from nag.kinematics.scene import scene_of
 from nag.mechanism.problem import in_real_coordinates, problem_of
 from nag.pictures import plane_curves
 from nag.pictures.curve_picture import draw_real_curves
+from nag.pictures.mechanism_picture import draw_mechanism
 from nag.pictures.motion_picture import draw_joint_values, draw_point_paths
 from nag.pictures.plane_curves import Axis, CurvesInStyle
 from nag.pictures.surface_picture import find_lines
@@ -246,6 +247,8 @@ def test_each_circuit_has_a_panel_where_links_are_not_in_line(tmp_path) -> None:
     assert ask(case, "--mechanism", "--circuit", "all", "--out", picture) == 0
     text = picture.read_text()
     assert all(f">circuit {k}<" in text for k in range(1, 5)) and ">circuit 5<" not in text
+    # A pin of three bodies is two joints in one place.
+    assert text.count(">D:left, D:right<") == 4
 
 
 def test_lines_of_a_surface_are_zeros_of_its_equation_in_planes() -> None:
@@ -264,3 +267,19 @@ def test_a_surface_is_drawn_in_three_variables_by_the_equation_of_its_image(tmp_
     assert ask(given, "--onto", "x,y,z", "--out", picture) == 0
     assert ">component 1<" in picture.read_text()
     assert ask(given, "--onto", "x,y", "--out", picture) == 2
+
+
+@pytest.mark.parametrize(("case", "one"), [("mobility/delta", "R1"), ("spatial/rssr", "A")])
+def test_names_of_joints_are_beside_each_other(case: str, one: str, monkeypatch) -> None:
+    figures = []
+    monkeypatch.setattr(
+        "nag.pictures.mechanism_picture.save", lambda own, path: figures.append(own)
+    )
+    problem = in_real_coordinates(problem_of(nag.read_case(CASES / f"{case}.toml")))
+    scene = scene_of(problem)
+    poses = scene.lift(np.array([[float(x) for x in problem.reference]]))
+    draw_mechanism(scene, [("", poses)], "title", "nowhere.svg")
+    (axes,) = figures[0].axes
+    assert {one} < {text.get_text() for text in axes.texts}
+    boxes = [text.get_window_extent() for text in axes.texts]
+    assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])

@@ -22,6 +22,13 @@ AXIS = 0.09
 WIDE, THIN = 3.2, 1.8
 # Room round it all.
 MARGIN = 0.08
+# In points of print: marks that are one place, and how far a name is from its mark.
+NEAR, BESIDE = 2.0, 4.0
+# Ways from a mark to its name, the first that cover nothing is taken; and points along a line.
+DIRECTIONS = np.array(
+    [(1, 0.6), (1, -0.6), (-1, 0.6), (-1, -0.6), (1, 0), (-1, 0), (0, 1), (0, -1)]
+)
+ALONG = 40
 # Inches: a picture of one configuration, and each of several panels.
 WHOLE, PANEL = 5.2, 2.9
 
@@ -57,6 +64,10 @@ def draw_mechanism(scene: Scene, shown: Sequence[tuple[str, Poses]], title: str,
         handles = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
         figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4,
                       frameon=False)  # fmt: skip
+        # Where everything is on paper is known when it is laid out.
+        figure.draw_without_rendering()
+        for panel, (_, poses) in zip(figure.axes, shown, strict=True):
+            _write_names(panel, scene, poses)
         save(figure, path)
 
 
@@ -89,9 +100,63 @@ def _draw_configuration(axes: Any, scene: Scene, poses: Poses) -> None:
             axes.plot(*_show(ends, frame, flat).T, color="#777777", linewidth=0.9, zorder=2)
         axes.plot(*at[:, None], marker=MARKS.get(joint.type, "x"), markersize=6, zorder=3,
                   color="white", markeredgecolor="black", linestyle="")  # fmt: skip
-        axes.text(*at, f"  {joint.name}", fontsize=7, zorder=4)
     _set_window(axes, np.array(shown))
     axes.set_axis_off()
+
+
+def _write_names(axes: Any, scene: Scene, poses: Poses) -> None:
+    """Names of joints beside their marks, one after another where the fewest things are covered.
+
+    Joints that are drawn in one place have one text.
+    """
+    frame, flat = _frame(scene.planar), scene.planar is not None
+    places = np.array([_show(p[0], frame, flat) for p in _joint_places(scene, poses)])
+    if not flat:
+        from mpl_toolkits.mplot3d.proj3d import proj_transform
+
+        places = np.array(proj_transform(*places.T, axes.get_proj()))[:2].T
+    marks = axes.transData.transform(places)
+    dot = axes.figure.dpi / 72
+    together: list[list[int]] = []
+    for i, mark in enumerate(marks):
+        own = next((t for t in together if np.abs(marks[t[0]] - mark).max() < NEAR * dot), None)
+        if own is None:
+            together.append([i])
+        else:
+            own.append(i)
+    covered = np.vstack([marks, *map(_points_along, axes.lines)])
+    taken: list[tuple[np.ndarray, np.ndarray]] = []
+    for own in together:
+        names = ", ".join(scene.joints[i].name for i in own)
+        text = axes.annotate(names, places[own[0]], (0, 0), textcoords="offset points", fontsize=7,
+                             ha="center", va="center", zorder=4)  # fmt: skip
+        half = np.array(text.get_window_extent().size) / 2
+        best = min(
+            (direction * (half + BESIDE * dot) for direction in DIRECTIONS),
+            key=lambda way, at=marks[own[0]], half=half: _cover(at + way, half, covered, taken),
+        )
+        taken.append((marks[own[0]] + best, half))
+        text.set_position(tuple(best / dot))
+
+
+def _points_along(line: Any) -> np.ndarray:
+    """Points on paper along a line that is drawn, shape ``(k, 2)``."""
+    ends = line.get_transform().transform(line.get_xydata())
+    t = np.linspace(0, 1, ALONG)[:, None, None]
+    return ((1 - t) * ends[:-1] + t * ends[1:]).reshape(-1, 2)
+
+
+def _cover(
+    middle: np.ndarray,
+    half: np.ndarray,
+    covered: np.ndarray,
+    taken: Sequence[tuple[np.ndarray, np.ndarray]],
+) -> tuple[float, int]:
+    """What a text would cover: an area of other texts, and points of what is drawn."""
+    area = 0.0
+    for at, size in taken:
+        area += float(np.prod(np.clip(half + size - np.abs(middle - at), 0, None)))
+    return area, int((np.abs(covered - middle) < half).all(axis=1).sum())
 
 
 def _frame(normal: np.ndarray | None) -> np.ndarray:
