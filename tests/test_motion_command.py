@@ -122,3 +122,20 @@ def test_bad_input_is_one_line(words: list[str], said: str, capsys) -> None:
     assert ask(str(CASES / name), *rest) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert said in line
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["planar/five-bar.toml", "--drive", "A=30", "--drive", "E=-20"],
+        ["bennett.toml", "--drive", "J0=10:20:2"],
+    ],
+)
+def test_a_page_of_what_does_not_move_is_said_not_to_be_written(words, tmp_path, capsys) -> None:
+    name, *rest = words
+    page, document = tmp_path / "a.html", tmp_path / "a.json"
+    options = [*rest, "--html", str(page), "--json", str(document)]
+    assert ask(str(CASES / name), *options) == 1
+    assert "is not written" in capsys.readouterr().out and not page.exists()
+    # The answer itself is whole.
+    assert json.loads(document.read_text())["complete"]

@@ -201,14 +201,14 @@ def _run_once(
         write_document(_table_text(found.whole_table(angles=options.angles)), options.csv, "csv")
     tail = [*case.note_rows, *(("open", note) for note in found.notes)]
     tail += [("table", options.csv)] if options.csv is not None else []
-    if options.html is not None and not found.circuits:
-        tail.append(("page", f"{options.html} is not written: there is no motion to show"))
-    elif options.html is not None:
+    if options.html is not None and found.circuits:
         from nag.page.motion_page import motion_page
 
         page = motion_page(found, case.title, os.path.basename(case.path))
         write_document(page, options.html, "html")
         tail.append(("page", options.html))
+    elif options.html is not None:
+        tail.append(_no_page(options.html, "nothing moves"))
     blocks: list[Any] = [motion_rows(found), *_circuit_blocks(found)]
     if found.drive is not None or found.held or found.poses:
         driven = [("driven", drive_text(found))]
@@ -218,7 +218,8 @@ def _run_once(
         blocks.append(assembly_rows(found) if found.assemblies else [])
     elif found.assemblies and joint_coordinates(found.scene):
         blocks.append(assembly_rows(found))
-    return answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
+    answer = answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
+    return _with_page(answer, options, bool(found.circuits))
 
 
 def _run_through(
@@ -251,15 +252,30 @@ def _run_through(
         write_document(_table_text(found.table(angles=options.angles)), options.csv, "csv")
     tail = case.note_rows
     tail += [("open", f"value {i + 1}: {note}") for i, m in enumerate(found) for note in m.notes]
-    if options.html is not None:
+    moving = any(each.moves for each in found.continuations)
+    if options.html is not None and moving:
         from nag.page.motion_page import driven_page
 
         page = driven_page(found, case.title, os.path.basename(case.path))
         write_document(page, options.html, "html")
         tail.append(("page", options.html))
+    elif options.html is not None:
+        tail.append(_no_page(options.html, "at each value nothing moves"))
     head = [row for row in motion_rows(found[0]) if row[0] in ("model", "mobility", "idle")]
     blocks: list[Any] = [head, driven_rows(found), continuation_rows(found)]
-    return answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
+    answer = answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
+    return _with_page(answer, options, moving)
+
+
+def _no_page(path: str, why: str) -> tuple[str, str]:
+    """What is said where a page is asked for and nothing can move in it."""
+    return "page", f"{path} is not written: {why}, and pages show motions"
+
+
+def _with_page(answer: CommandAnswer, options: argparse.Namespace, written: bool) -> CommandAnswer:
+    """The answer, which is not all that was asked for where a page is missing."""
+    missing = options.html is not None and not written
+    return answer._replace(complete=answer.complete and not missing)
 
 
 def _circuit_blocks(found: Motion) -> Iterator[Any]:
