@@ -23,7 +23,7 @@ from nag.mechanism.linkage import Linkage
 from nag.mechanism.problem import in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import real_assemblies
 from nag.page.link_shapes import link_shapes, typical_length
-from nag.page.motion_page import driven_page, motion_page
+from nag.page.motion_page import _encode, driven_page, motion_page
 
 ROOT = Path(__file__).parent.parent
 # One of each kind of joint, and of space.
@@ -246,6 +246,13 @@ def test_crossings_of_a_driven_motion_name_the_circuits_at_their_value() -> None
         data = data_of(driven_page(driven, "five-bar", "five-bar"))
         texts = [c["text"] for each in data["circuits"] for c in each["crossings"]]
         assert texts and all(re.fullmatch(rf"{words}( [12])? at .* %", text) for text in texts)
+
+
+def test_frames_beyond_the_largest_sample_are_the_largest_number_there_is() -> None:
+    grids = np.array([[-5.0, 0.5], [3.0, 0.0]])
+    rows = np.array([[-2.6, -2.5, 0.0, 0.5 * (2**24 - 5)], [3.0, 3.0, 3.0, 3.0]])
+    parts = np.frombuffer(base64.b64decode(_encode(rows, grids)), np.uint8).reshape(-1, 3)
+    assert (parts @ [1, 256, 65536]).tolist() == [0, 0, 5, 2**24 - 1]
 
 
 def test_many_circuits_have_fewer_frames_and_the_page_says_how_far_places_are_off() -> None:
