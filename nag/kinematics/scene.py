@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -109,7 +109,7 @@ class Scene(FixedArrays):
             places[body].append(point)
         return np.array([np.mean(own, axis=0) if own else np.zeros(3) for own in places])
 
-    @property
+    @cached_property
     def size(self) -> float:
         """The largest distance of two joints of one body; 1 where all are in one place."""
         largest = 0.0
