@@ -22,7 +22,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.errors import NagError
 from nag.kinematics.driven import Drive, assemblies_on
 from nag.kinematics.joint_values import joint_errors, joint_values
-from nag.kinematics.motion import Motion, MotionError, motion_of
+from nag.kinematics.motion import Motion, MotionError, _real_curve, motion_of
 from nag.kinematics.path import Curve, sample_path
 from nag.kinematics.poses import Poses, pose_distances, pose_steps, turn_product
 from nag.kinematics.scene import Scene, SceneJoint, scene_of
@@ -43,6 +43,7 @@ from nag.real.curve import (
     VertexKind,
 )
 from nag.real.spherical_chart import SphericalChart
+from nag.tracking.run import DEFAULT_RUN
 
 ROOT = Path(__file__).parent.parent
 # Joints as seen from both bodies, and loops that return, in sizes and radians.
@@ -764,3 +765,11 @@ def test_a_stretched_linkage_is_shaky_and_stands_still() -> None:
     label, text = report.rows()[0]
     assert label == "mobility" and "A, B, C and D are in line" in text
     assert text.startswith("shaky") and "it does not move" in text
+
+
+def test_of_several_components_one_that_is_not_followed_leaves_the_others() -> None:
+    component = nag.decompose(["x^2 + y^2 + z^2 - 1", "x^2 + y^2 - 1"]).components[0]
+    with pytest.raises(nag.ComponentError, match="not reduced"):
+        _real_curve(component, False, DEFAULT_RUN)
+    undecided = _real_curve(component, True, DEFAULT_RUN)
+    assert not undecided.complete and "not reduced" in undecided.reason and not undecided.edges

@@ -702,7 +702,8 @@ def _motion_on(
         problem, decomposition, configurations, which, inner, notes, holding
     )
     found = [configurations.everything.components[i] for i in own]
-    curve_of = curve_of or (lambda component: _real_curve(component, inner))
+    several = len(found) > 1
+    curve_of = curve_of or (lambda component: _real_curve(component, several, inner))
     made, (idle, idle_count) = problem.model, _find_idle(problem, inner)
     curves: list[RealCurve] = []
     walks: list[_FoundCircuit] = []
@@ -753,10 +754,20 @@ def _motion_on(
     return motion_so_far(finished, notes, rigid), circuits
 
 
-def _real_curve(component: WitnessSet, run: Run) -> RealCurve:
-    from nag.real.find_curve import find_real_curve
+def _real_curve(component: WitnessSet, several: bool, run: Run) -> RealCurve:
+    """The real points of a component, of several an undecided curve where they are not found.
 
-    return find_real_curve(component, run=run)
+    Raises:
+        RealCurveError: if they are not found and there is no other component.
+    """
+    from nag.real.find_curve import RealCurveError, find_real_curve, undecided_curve
+
+    try:
+        return find_real_curve(component, run=run)
+    except RealCurveError as error:
+        if not several:
+            raise
+        return undecided_curve(component._known_system(), str(error))
 
 
 def _distinct_configurations(problem: Problem, decomposition: Decomposition) -> Configurations:

@@ -134,7 +134,13 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
                 break
             # What stopped paths says nothing of digits.
             reason = "" if level == BY_PATHS else reason
-    return RealCurve(given.variables, turns_of(given), (), (), (), PictureVerdict.UNDECIDED, reason)
+    return undecided_curve(given, reason)
+
+
+def undecided_curve(system: PolynomialSystem, reason: str) -> RealCurve:
+    """What is said of a curve of which nothing real is known, for a reason."""
+    turns = turns_of(system)
+    return RealCurve(system.variables, turns, (), (), (), PictureVerdict.UNDECIDED, reason)
 
 
 def _of_complex_equations(component: WitnessSet, run: Run) -> RealCurve:
