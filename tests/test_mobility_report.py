@@ -14,6 +14,7 @@ from linkages import CASES, case, exact, four_bar, general_loop, loop, spherical
 from local_points import sarrus
 
 import nag
+from nag.algebra.number import square_root
 from nag.cli import main
 from nag.decomposition import components_through
 from nag.decomposition.growth import grow_component
@@ -359,6 +360,23 @@ def test_where_motions_of_a_robot_meet_and_its_legs_are_regular_its_modes_are_th
     assert sorted(found.components) == modes and not found.open
     assert max(found.components)[0] == found.local_dimension
     assert found.status == "at a crossing of components"
+    assert "by the platform's poses" in dict(found.rows())["components"]
+
+
+def test_of_a_robot_of_many_paths_that_are_within_the_budget_poses_are_asked_first() -> None:
+    # Three UPR legs at 120 degrees: the joints' equations take 64,800 paths, poses 254.
+    joints, root = [], square_root(3)
+    for k, (c, s) in enumerate(((2, 0 * root), (-1, root), (-1, -root))):
+        bodies = ("base", f"low{k}", f"high{k}", "plate")
+        across, out = (-s, c, 0), (c, s, 0)
+        joints += [
+            Joint(f"U{k}", "universal", bodies[:2], (2 * c, 2 * s, 0), across, out),
+            Joint(f"P{k}", "prismatic", bodies[1:3], (0, 0, 0), (-c, -s, 5)),
+            Joint(f"R{k}", "revolute", bodies[2:], (c, s, 5), across),
+        ]
+    found = nag.mobility(Mechanism("base", tuple(joints)))
+    assert (found.tangent_dimension, found.local_dimension) == (3, 1)
+    assert sorted(found.components) == [(1, 1), (1, 2), (1, 2), (1, 2)]
     assert "by the platform's poses" in dict(found.rows())["components"]
 
 

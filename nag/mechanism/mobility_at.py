@@ -34,7 +34,7 @@ from nag.mechanism.model import Model
 from nag.mechanism.moving_parts import find_moving_parts
 from nag.mechanism.nearly_mobile import check_tolerance, find_near_motion, find_spoiled_motion
 from nag.mechanism.parts import PARTS, model_parts
-from nag.mechanism.path_estimates import LEAST_SECONDS, fewest_estimated_paths
+from nag.mechanism.path_estimates import LEAST_SECONDS, MOST_DECOMPOSED, fewest_estimated_paths
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.quaternion import R
 from nag.mechanism.real_assemblies import (
@@ -415,14 +415,19 @@ def _with_components(
         if beside is not None:
             return _with_only_component(first, problem, beside, ONE_BRANCH, budget, run)
     paths = fewest_estimated_paths(problem.system)
-    if detail == "through" and not first.local.smooth and paths * LEAST_SECONDS > budget:
+    singular = detail == "through" and not first.local.smooth
+    beyond = paths * LEAST_SECONDS > budget
+    if singular and (beyond or paths > MOST_DECOMPOSED):
+        at_reference = problem.reference is not None and tuple(at) == tuple(problem.reference)
+        known = _with_components_by_poses(first, problem, budget, of, run) if at_reference else None
+        if known is not None:
+            return known
+    if singular and beyond:
         reason = (
             f"the configuration is singular, and a decomposition takes some {paths:.0e} paths, "
             f"more than a budget of {budget:g} s allows"
         )
-        at_reference = problem.reference is not None and tuple(at) == tuple(problem.reference)
-        known = _with_components_by_poses(first, problem, budget, of, run) if at_reference else None
-        return replace(first, open=reason) if known is None else known
+        return replace(first, open=reason)
     zero = zero_at(problem.system, at, first.local)
     through, doubt = _components(problem, zero, run)
     if through is None and first.local.smooth:
