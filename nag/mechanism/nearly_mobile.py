@@ -172,7 +172,7 @@ class NearMotion:
         if self._relative(self.left_open) > ROUNDING:
             return "the change that was found does not close all of the motion"
         wider = [
-            f"the {name} is {self._relative(amount):.2g}"
+            f"the {name} is {self._relative(amount):.4g}"
             for name, amount in (("gap", self.gap), ("change", self.change))
             if self._relative(amount) > self.tolerance
         ]
