@@ -690,6 +690,46 @@ def test_what_is_plainly_an_ideal_in_singular_is_read(tmp_path: Path, text: str)
 
 
 @pytest.mark.parametrize(
+    "printed",
+    [
+        "I[1]=x2-y\nI[2]=xy-1",
+        "_[1]=x2-y\n_[2]=xy-1\n// shown",
+        "ideal I;\nI[1]=x^2-y\nI[2]=x*y-1",
+        "I[1]=x2\n-y\nI[2]=xy-\n1",
+        "I[1]=x2-y\nI[2]=xy-1;",
+    ],
+)
+def test_an_ideal_that_singular_printed_is_read_with_its_ring_and_asked_for_it_without(
+    tmp_path: Path, printed: str
+) -> None:
+    file = tmp_path / "printed"
+    file.write_text(f"ring r = 0, (x, y), dp;\n{printed.removesuffix(';')}\n")
+    assert read_case(file).system.text() == ["x^2 - y", "x*y - 1"]
+    # Without a ring x2 may be x^2, and an unknown that does not occur is not known of.
+    file.write_text(printed.removeprefix("ideal I;\n") + "\n")
+    with pytest.raises(CaseError, match=r"there is no ring|without its ring; write the ring"):
+        read_case(file)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x[1]=2\nx[2]=3",
+        "x[1]=x[2]^2\nx[2]=3",
+        "x[1]=y^2\ny=3",
+        "x[2]=y^2\nx[1]=y",
+        "variables x[1], y\nx[1]=y^2",
+    ],
+)
+def test_unknowns_with_indices_in_plain_text_are_no_entries_of_ideals(
+    tmp_path: Path, text: str
+) -> None:
+    file = tmp_path / "plain"
+    file.write_text(text)
+    assert "x[1]" in read_case(file).system.variables
+
+
+@pytest.mark.parametrize(
     ("text", "place", "said"),
     [
         ("ideal i = x;\nideal j = radical(i);", "line 3, column 11", "'radical' is not worked out"),

@@ -5,15 +5,23 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Container
+from dataclasses import replace
 from typing import NoReturn
 
-from nag.algebra.tokens import quote
+from nag.algebra.tokens import names_in, quote
 from nag.files.case_table import MAX_ENTRIES
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
 _RING = re.compile(r"\s*ring\s+\w+\s*=\s*")
 _RECOGNISED = re.compile(r"^[ \t]*ring\s+\w+\s*=", re.MULTILINE)
+# What Singular prints of an ideal: an entry a line, numbered from 1, without a semicolon; of a
+# long one the next lines begin, or the last ones end, with an operator.
+_PRINTED = re.compile(
+    r"^[ \t]*([A-Za-z_]\w*(?:\([0-9]{1,6}\))*)\[([0-9]{1,6})\][ \t]*=(?!=)[ \t]*"
+    r"((?:[^\n;]|(?<=[-+*/^(,])\n|\n(?=[ \t]*[-+*/^),;]))++)$",
+    re.MULTILINE,
+)
 _DECLARED = re.compile(r"\s*(poly|number|ideal)\s+(.+)", re.DOTALL)
 # p = ..., p(1) = ..., and I[1] = ..., an entry of an ideal.
 _ASSIGNED = re.compile(r"\s*([A-Za-z]\w*(?:\([0-9]{1,6}\))*)(?:\[([0-9]{1,6})\])?\s*=(?!=)\s*")
@@ -40,15 +48,32 @@ _LETTER = re.compile(r"([A-Za-z])([0-9]*)")
 
 
 def recognise(text: str) -> bool:
-    """Whether a text makes a ring as Singular does."""
-    return _RECOGNISED.search(_COMMENT.sub("", text)) is not None
+    """Whether a text makes a ring as Singular does, or is an ideal as Singular prints it."""
+    text = _COMMENT.sub("", text)
+    return _RECOGNISED.search(text) is not None or _is_printed(text)
+
+
+def _is_printed(text: str) -> bool:
+    """Whether every line is an entry of one ideal, ``I[1]=x2-1``, numbered from 1 on.
+
+    Entries say nothing of entries, and not all are numbers: ``x[1] = 2`` gives an unknown a value.
+    """
+    text = re.sub(r"[ \t\r;]+$", "", text, flags=re.MULTILINE)
+    found = [*_PRINTED.finditer(text)]
+    if not found or _PRINTED.sub("", text).strip():
+        return False
+    numbered = [(m[1], int(m[2])) for m in found]
+    right = [m[3] for m in found]
+    in_order = numbered == [(found[0][1], k) for k in range(1, len(found) + 1)]
+    return in_order and not any("[" in t for t in right) and any(map(names_in, right))
 
 
 def read(source: SourceFile) -> GivenSystem:
     """The system of the ring and the one ideal in a text for Singular.
 
-    An ideal may be written entry by entry (``I[1] = ...;``), be another one's standard basis, or
-    the sum of others; where several are there, it is the one that no other is made of.
+    An ideal may be written entry by entry (``I[1] = ...;``), be printed by Singular (the same
+    without semicolons, an entry a line), be another one's standard basis, or the sum of others;
+    where several are there, it is the one that no other is made of.
 
     Raises:
         CaseError: if the ring is not of characteristic 0, or there is not one ideal.
@@ -59,8 +84,18 @@ def read(source: SourceFile) -> GivenSystem:
     if program is not None:
         message = f"{quote(program[1])} is not run here; write the polynomials that Singular prints"
         source.fail(program.start(1), message)
+    source, printed = _take_printed(source)
     statements = source.statements()
     rings = [(s, m) for s in statements if (m := _RING.match(s.text))]
+    if not rings and printed:
+        # Without it x2 may be x^2, and how many unknowns there are is not said.
+        name, _, _ = printed[0]
+        source.fail(
+            name.offset,
+            f"{quote(name.text)}: an ideal that Singular printed, without its ring; write the ring "
+            f"before it: ring r = 0, (x, y), dp; or, if {quote(name.text)} is an unknown, begin "
+            "with a line 'variables ...'",
+        )
     if not rings:
         source.fail(0, "there is no ring; write ring r = 0, (x, y), dp;")
     if len(rings) > 1:
@@ -74,6 +109,8 @@ def read(source: SourceFile) -> GivenSystem:
         known = _RING.match(statement.text) or _SHOWN.match(statement.text) or statement in minpolys
         if not known:
             read.statement(statement)
+    for entry in printed:
+        read.printed(*entry)
     if not read.ideals:
         source.fail(len(source.text.rstrip()), "there is no ideal; write ideal i = ..., ...;")
     last = [name for name in read.ideals if name not in read.used]
@@ -83,6 +120,28 @@ def read(source: SourceFile) -> GivenSystem:
     entries = read.ideals[chosen]
     equations = tuple(entries[k] for k in sorted(entries))
     return GivenSystem(names, equations, {}, read.definitions, imaginary=units)
+
+
+Printed = tuple[Passage, int, Passage]
+
+
+def _take_printed(source: SourceFile) -> tuple[SourceFile, list[Printed]]:
+    """The text without entries that Singular printed, and these: ideal, number and polynomial.
+
+    A line that belongs to a statement, as it has something of one before it, is none.
+    """
+    found: list[Printed] = []
+    text, end = source.text, 0
+    for match in _PRINTED.finditer(source.text):
+        before = text[end : match.start()].rstrip()
+        if before and not before.endswith(";"):
+            continue
+        whole = Passage(source.text, 0)
+        name = whole.part(match.start(1), text.index("]", match.end(1)) + 1)
+        found.append((name, int(match[2]), whole.part(*match.span(3))))
+        text = text[: match.start()] + " " * len(match[0]) + text[match.end() :]
+        end = match.end()
+    return replace(source, text=text), found
 
 
 class _Definitions:
@@ -145,6 +204,12 @@ class _Definitions:
             self._source.fail(rest.offset, f"{quote(name)} is no ideal; write ideal {name}; before")
         else:
             self._refuse(statement)
+
+    def printed(self, name: Passage, number: int, polynomial: Passage) -> None:
+        """Read an entry of an ideal that Singular printed, which need not be declared."""
+        ideal = _with_brackets(name.text[: name.text.rindex("[")])
+        self._kinds.setdefault(ideal, "ideal")
+        self._assign_ideal(ideal, name.offset, str(number), polynomial)
 
     def _refuse(self, statement: Passage) -> NoReturn:
         message = f"{quote(statement.text)} is not read; write 'ideal i = ..., ...;'"
