@@ -119,6 +119,8 @@ Parts: TypeAlias = Framework | Linkage | DHLoop | AssemblyModel
 Moving: TypeAlias = File | Case | Mechanism | Model | Parts | Problem
 # What has equations, or what has components.
 Solvable: TypeAlias = Moving | PolynomialSystem | Equations
+# What is written as JSON and read back.
+Exported: TypeAlias = Decomposition | SolveResult | Samples | SingularLocus | SingularParameters
 Decomposed: TypeAlias = Solvable | Decomposition | WitnessSet
 # The name of a point, or its coordinates by name or in order.
 Point: TypeAlias = (
@@ -300,7 +302,15 @@ def read(
     format: str = "auto",
     hold: Sequence[str] = (),
     at: Mapping[str, RealNumber] | None = None,
-) -> Case | Decomposition | SolveResult | dict[str, Any]: ...
+) -> (
+    Case
+    | Decomposition
+    | SolveResult
+    | Samples
+    | SingularLocus
+    | SingularParameters
+    | dict[str, Any]
+): ...
 def read_case(
     path: File,
     set: Mapping[str, AnyNumber] | None = None,
@@ -379,8 +389,7 @@ def system(
     imaginary: str | None = None,
 ) -> PolynomialSystem: ...
 def write(
-    result: Decomposition
-    | SolveResult
+    result: Exported
     | Case
     | Mechanism
     | Model

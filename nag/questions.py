@@ -55,6 +55,8 @@ if TYPE_CHECKING:
     from nag.witness.sampling import Samples
     from nag.witness.witness import Decomposition, WitnessSet
 
+    Exported = Decomposition | SolveResult | Samples | SingularLocus | SingularParameters
+
 Answer = TypeVar("Answer")
 Method = Literal["complete", "sampling"]
 Coordinates = Literal["joint", "euler"]
@@ -74,6 +76,14 @@ DESCRIPTIONS = (
     ("nag.mechanism.dh", "DHLoop"),
     ("nag.mechanism.problem", "Problem"),
     ("nag.algebra.system", "PolynomialSystem"),
+)
+# What has exports, which are read back.
+EXPORTED = (
+    ("nag.witness.witness", "Decomposition"),
+    ("nag.solving.solutions", "SolveResult"),
+    ("nag.witness.sampling", "Samples"),
+    ("nag.decomposition.singular_points", "SingularLocus"),
+    ("nag.decomposition.singular_members", "SingularParameters"),
 )
 # Other programs' files by their endings.
 ENDINGS = {
@@ -104,13 +114,14 @@ def read(
     format: str = "auto",
     hold: Sequence[str] = (),
     at: Mapping[str, Any] | None = None,
-) -> Case | Decomposition | SolveResult | dict[str, Any]:
+) -> Case | Exported | dict[str, Any]:
     """What a file holds, told by its content.
 
     Args:
         path: a case or a system in another program's format, which gives a `nag.Case`; an export
-            of a decomposition or of solutions, which gives an equal one; or what another command
-            wrote with ``--json``, which gives that JSON object, checked by its schema.
+            of a decomposition, of solutions, of samples or of singular points, which gives an
+            equal one; or what another command wrote with ``--json``, which gives that JSON object,
+            checked by its schema.
         set: of a case, values of some of its parameters in place of its own, by name: numbers, or
             expressions as texts; of a system in another program's format, of unknowns as well.
         format: ``"bertini"``, ``"phc"``, ``"m2"``, ``"singular"``, ``"hc"``, ``"text"``,
@@ -149,19 +160,19 @@ def read(
     return _read_export(path)
 
 
-def _read_export(
-    path: str | os.PathLike[str],
-) -> Decomposition | SolveResult | dict[str, Any]:
-    from nag.files import export, solutions_export
+def _read_export(path: str | os.PathLike[str]) -> Exported | dict[str, Any]:
+    from nag.files import export, points_export, solutions_export
     from nag.files.json_schema import published_versions
     from nag.files.json_values import ExportError, checked_document, read_file
 
-    def convert(value: Any) -> Decomposition | SolveResult | dict[str, Any]:
+    def convert(value: Any) -> Exported | dict[str, Any]:
         name = value.get("format") if isinstance(value, dict) else None
         if name == export.FORMAT:
             return export.export_of(value).decomposition
         if name == solutions_export.FORMAT:
             return solutions_export.solutions_of(value).result
+        if name in points_export.FORMATS:
+            return points_export.points_of(value)
         versions = published_versions(name) if isinstance(name, str) else ()
         if versions:
             return checked_document(value, name, *versions)
@@ -175,16 +186,17 @@ def write(
 ) -> None:
     """Write something to a file from which `read` gives an equal one.
 
-    A decomposition and solutions are written as ``nag decompose`` and ``nag solve`` do with
-    ``--json``. Cases, mechanisms, their models, parts and systems are written as cases, in TOML:
-    `read` gives a `nag.Case`, equal to the one that was written, or whose ``mechanism``,
-    ``assembly`` or ``system`` is. Other results are kept by `pickle`.
+    Components, solutions, samples and singular points are written as ``nag decompose``,
+    ``nag solve``, ``nag sample`` and ``nag singular`` do with ``--json``. Cases, mechanisms, their
+    models, parts and systems are written as cases, in TOML: `read` gives a `nag.Case`, equal to the
+    one that was written, or whose ``mechanism``, ``assembly`` or ``system`` is. Other results are
+    kept by `pickle`.
 
     Args:
-        result: what `nag.decompose`, `nag.intersect` or `nag.solve` returns; or a `nag.Case`, a
-            `nag.Mechanism`, a model, parts, a `nag.Problem`, a `nag.PolynomialSystem`, or equations
-            as `nag.system` takes them; or the name of a file that `nag.read` reads one of them
-            from.
+        result: what `nag.decompose`, `nag.intersect`, `nag.solve`, `nag.sample` or `nag.singular`
+            returns; or a `nag.Case`, a `nag.Mechanism`, a model, parts, a `nag.Problem`, a
+            `nag.PolynomialSystem`, or equations as `nag.system` takes them; or the name of a file
+            that `nag.read` reads one of them from.
         path: the file; whatever was there is replaced.
         format: of equations, ``"toml"``, or of another program: ``"bertini"``, ``"phc"``,
             ``"m2"``, ``"singular"``, ``"hc"``, ``"text"``, ``"sympy"`` or ``"latex"``; by default
@@ -219,30 +231,23 @@ def write(
 
         result = system(result)
     ending = os.path.splitext(path)[1]
-    found = is_a(result, "nag.witness.witness", "Decomposition")
-    if found or is_a(result, "nag.solving.solutions", "SolveResult"):
+    if any(is_a(result, *kind) for kind in EXPORTED):
         for name, given in (("format", format != "auto"), ("title", bool(title))):
             if given:
                 raise NagError(f"{name}: is for cases and equations; an export has its own")
         if ending in SUFFIXES and ending != ".json":
+            alone = ", or write the equations alone: nag.write(result.system, path)"
             raise NagError(
                 f"path: a file that ends in {ending} holds no export, which is JSON; name it "
-                ".json, or write the equations alone: nag.write(result.system, path)"
+                f".json{alone if hasattr(result, 'system') else ''}"
             )
-        if found:
-            from nag.files.export import write_decomposition
-
-            write_decomposition(result, path)
-        else:
-            from nag.files.solutions_export import write_solutions
-
-            write_solutions(result, path)
+        _write_export(result, path)
         return
     if not any(is_a(result, *kind) for kind in DESCRIPTIONS):
         raise NagError(
-            f"result: {value_text(result)} is given; give what nag.decompose, nag.intersect or "
-            "nag.solve returns, a case, a mechanism, a model, parts or equations: other results "
-            "are kept by pickle"
+            f"result: {value_text(result)} is given; give what nag.decompose, nag.intersect, "
+            "nag.solve, nag.sample or nag.singular returns, a case, a mechanism, a model, parts or "
+            "equations: other results are kept by pickle"
         )
     if format == "auto" and ending in NOT_WRITTEN:
         raise NagError(
@@ -262,6 +267,22 @@ def write(
         title = title or getattr(result, "title", "")
         text = write_system(problem_of(result).system, chosen, title)
     write_target(path, text)
+
+
+def _write_export(result: Exported, path: str | os.PathLike[str]) -> None:
+    """Write an export of a result."""
+    if is_a(result, *EXPORTED[0]):
+        from nag.files.export import write_decomposition
+
+        write_decomposition(result, path)  # type: ignore[arg-type]
+    elif is_a(result, *EXPORTED[1]):
+        from nag.files.solutions_export import write_solutions
+
+        write_solutions(result, path)  # type: ignore[arg-type]
+    else:
+        from nag.files.points_export import write_points
+
+        write_points(result, path)  # type: ignore[arg-type]
 
 
 def _is_equations(given: Any) -> bool:

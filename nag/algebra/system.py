@@ -134,6 +134,11 @@ class PolynomialSystem:
         return self.variables[: self.n - self.imaginary]
 
     @property
+    def unit(self) -> str:
+        """What the imaginary unit is called; empty where coefficients are real."""
+        return self.variables[-1] if self.imaginary else ""
+
+    @property
     def own_groups(self) -> tuple[tuple[int, ...], ...]:
         """The groups without one of the imaginary unit alone."""
         alone = (self.n - 1,)

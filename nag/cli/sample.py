@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from nag.witness.sampling import Samples
     from nag.witness.witness import WitnessSet
 
-FORMAT = "nag-samples"
 MOST_SAMPLES = 1_000_000
 
 
@@ -44,6 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """Points of a component."""
     from nag.text.table import align, magnitude
+    from nag.witness.sampling import FORMAT
     from nag.witness.shown import MOST_SAMPLES as SHOWN
     from nag.witness.shown import real_dimension_text
 
@@ -58,9 +58,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     tail += [("answer", none)] * bool(none) + [("open", doubt)] * bool(doubt)
     fields = {
         "format": FORMAT,
-        "variables": list(system.variables),
-        "component": component.facts(options.component),
-        **samples.document(),
+        **samples.document(component.facts(options.component)),
     }
     table = align(samples.rows(system.own_variables)) if count else ()
     head = [numbered_row(options.component, component, "complex " if options.real else "")]

@@ -11,8 +11,11 @@ from nag.cli.running import CommandAnswer
 from nag.cli.witness_input import is_export
 
 if TYPE_CHECKING:
+    from nag.decomposition.singular_members import SingularParameters
+    from nag.decomposition.singular_points import SingularLocus
     from nag.files.cases import Case, Truth
     from nag.text.table import Row
+    from nag.witness.sampling import Samples
     from nag.witness.witness import Decomposition
 
 # What each command answers, by the kind of what it is asked of: all that this can be asked.
@@ -91,6 +94,7 @@ def _describe(
     options: argparse.Namespace,
 ) -> tuple[str, list[list[str] | list[Row]], dict[str, Questions]]:
     """Title, what is said below it, and what can be asked, by headings."""
+    from nag.solving.solutions import SolveResult
     from nag.witness.witness import Decomposition
 
     path = options.case
@@ -105,6 +109,8 @@ def _describe(
         return title, _describe_components(found), {"ask": QUESTIONS["components"]}
     if isinstance(found, dict):
         return title, [_describe_answer(found)], {}
+    if not isinstance(found, SolveResult):
+        return title, _describe_points(found), {}
     from nag.report.solutions import solution_table
 
     blocks = [str(found).splitlines(), solution_table(found)]
@@ -136,6 +142,21 @@ def _describe_answer(document: dict[str, Any]) -> list[Row]:
     ]
     notes = [*document.get("notes", ()), *filter(None, [document.get("open")])]
     return [*rows, *(("open", note) for note in notes)]
+
+
+def _describe_points(
+    found: Samples | SingularLocus | SingularParameters,
+) -> list[list[str] | list[Row]]:
+    """Samples with their table, singular points each with what it is, and conditions for them."""
+    from nag.text.table import align
+    from nag.witness.sampling import Samples
+
+    lines = str(found).splitlines()
+    if isinstance(found, Samples):
+        return [lines, align(found.rows(found.variables)) if len(found) else []]
+    if not hasattr(found, "examined"):
+        return [lines]
+    return [lines, *(one.rows(found.variables) for one in found.sets)]
 
 
 def _describe_components(found: Decomposition) -> list[list[str] | list[Row]]:

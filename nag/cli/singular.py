@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from nag.decomposition.singular_points import SingularLocus
     from nag.witness.witness import Decomposition
 
-FORMAT = "nag-singular"
 # Labels are as wide as the widest from the first line on.
 WIDTH = len("answer")
 
@@ -48,7 +47,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     """Singular points of components, or the parameters for which there are any."""
     if options.free is not None:
         return _for_parameters(options)
-    from nag.decomposition.singular_points import singular_locus
+    from nag.decomposition.singular_points import FORMAT, singular_locus
     from nag.witness.shown import paths_text
 
     found = read_components(options)
@@ -56,7 +55,6 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         component_of(found, options.component, "--component")
     found = with_tested_traces(found)
     whole = found.decomposition
-    variables = whole.system.variables
     # Their singular points may take longer than the components did.
     early = [("of", _components_text(whole))]
     say_first(options, found.case, early, width=WIDTH)
@@ -64,10 +62,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     def fields_of(locus: SingularLocus) -> dict[str, Any]:
         return {
             "format": FORMAT,
-            "notes": list(locus.notes),
-            "variables": list(variables),
-            "components": [c.facts(i) for i, c in enumerate(whole.components, 1)],
-            **locus.document(variables),
+            **locus.document([c.facts(i) for i, c in enumerate(whole.components, 1)]),
         }
 
     def document_of(locus: SingularLocus) -> dict[str, Any]:

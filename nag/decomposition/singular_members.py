@@ -15,7 +15,7 @@ others, and have equations with these together.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
 from itertools import groupby
 from typing import TYPE_CHECKING, Any, Literal
@@ -58,6 +58,8 @@ from nag.witness.witness import PathCounts, WitnessSet
 if TYPE_CHECKING:
     import pandas
 
+# Of its JSON document.
+FORMAT = "nag-singular-parameters"
 Proof = Literal["reduction", "points", "dimension"]
 
 
@@ -148,7 +150,8 @@ class SingularParameters(Several[ParameterSet]):
     def document(self) -> dict[str, Any]:
         """The sets as a JSON object, without its head."""
         return {
-            "format": "nag-singular-parameters",
+            "format": FORMAT,
+            "paths": asdict(self.paths),
             "proved": self.proved,
             "notes": list(self.notes),
             "parameters": list(self.parameters),

@@ -10,7 +10,7 @@ point exactly if its multiplicity is 1.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from itertools import combinations
 from math import comb
 from typing import TYPE_CHECKING, Any
@@ -29,7 +29,7 @@ from nag.numerics.doubles import ROUNDED
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import ComplexArray, Several, equal_values, fixed_array
-from nag.numerics.tangent_cone import TangentCone, form_text, tangent_cone
+from nag.numerics.tangent_cone import TangentCone, tangent_cone
 from nag.numerics.zero_values import all_vanish
 from nag.text.json_text import pairs
 from nag.text.table import data_frame, lines_of, one_line
@@ -48,6 +48,8 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 if TYPE_CHECKING:
     import pandas
 
+# Of its JSON document.
+FORMAT = "nag-singular"
 # More pairs of components are not intersected.
 MOST_PAIRS = 150
 
@@ -118,7 +120,11 @@ class SingularSet(Several[ComplexArray]):
         return set_rows(self, variables)
 
     def document(self, variables: Sequence[str]) -> dict[str, Any]:
-        """The set as a JSON object; components are numbered from 1."""
+        """The set as a JSON object; components are numbered from 1.
+
+        Args:
+            variables: names of all coordinates.
+        """
         cone = self.cone
         return {
             "dimension": self.dimension,
@@ -129,14 +135,8 @@ class SingularSet(Several[ComplexArray]):
                 {"component": i + 1, "multiplicity": m} for i, m in self.multiplicities.items()
             ],
             "points": pairs(self.points),
-            "local": self.local.document(),
-            "tangent_cone": None
-            if cone is None
-            else {
-                "degree": cone.degree,
-                "forms": [form_text(f, variables) for f in cone.forms],
-                "linear": [form_text(f, variables) for f in cone.linear],
-            },
+            "local": {**self.local.document(), "point": pairs(self.local.point)},
+            "tangent_cone": None if cone is None else cone.document(variables),
         }
 
 
@@ -151,6 +151,9 @@ class SingularLocus(Several[SingularSet]):
         complete: whether nothing was left open.
         notes: what was.
         proved: indices of components that exact algebra proves to be smooth.
+        variables: names of the coordinates, without the imaginary unit.
+        unit: name of the imaginary unit, whose coordinate comes last in points; empty where
+            coefficients are real.
     """
 
     sets: tuple[SingularSet, ...]
@@ -159,6 +162,8 @@ class SingularLocus(Several[SingularSet]):
     complete: bool
     notes: tuple[str, ...]
     proved: tuple[int, ...] = ()
+    variables: tuple[str, ...] = ()
+    unit: str = ""
 
     __eq__ = equal_values
 
@@ -202,9 +207,20 @@ class SingularLocus(Several[SingularSet]):
 
         return locus_rows(self, components)
 
-    def document(self, variables: Sequence[str]) -> dict[str, Any]:
-        """The singular points as a JSON object; components are numbered from 1."""
+    def document(self, components: Sequence[dict[str, Any]] | None = None) -> dict[str, Any]:
+        """The singular points as a JSON object without its head; components are numbered from 1.
+
+        Args:
+            components: what is said of each component, if that is known.
+        """
+        variables = [*self.variables, *([self.unit] if self.unit else [])]
         return {
+            "notes": list(self.notes),
+            "variables": variables,
+            "imaginary": self.unit or None,
+            "components": None if components is None else list(components),
+            "paths": asdict(self.paths),
+            "proved": [i + 1 for i in self.proved],
             "examined": [i + 1 for i in self.examined],
             "smooth": [i + 1 for i in self.smooth],
             "sets": [one.document(variables) for one in self.sets],
@@ -252,7 +268,9 @@ class _SingularSearch:
         """What is known by now: which components are smooth, and no singular points yet."""
         singular = {i for one in self.candidates for i in one.source}
         smooth = tuple(i for i in self.examined if i not in singular)
-        return SingularLocus((), smooth, self.counts, False, (ENDED_EARLY, *self.notes), ())
+        own, unit = self.whole.system.own_variables, self.whole.system.unit
+        notes = (ENDED_EARLY, *self.notes)
+        return SingularLocus((), smooth, self.counts, False, notes, (), own, unit)
 
     def of_pair(self, i: int, j: int) -> None:
         """The intersection of two components that no common equations show."""
@@ -363,7 +381,8 @@ def singular_locus(
         sets = tuple(_carry_back(one, natural, given.system) for one in sets)
     notes = tuple(dict.fromkeys(search.notes))
     examined, proved = tuple(search.examined), tuple(search.proved)
-    return SingularLocus(sets, examined, search.counts, not notes, notes, proved)
+    own, unit = given.system.own_variables, given.system.unit
+    return SingularLocus(sets, examined, search.counts, not notes, notes, proved, own, unit)
 
 
 def _carry_back(

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import log10
 from typing import Any
 
@@ -60,6 +60,7 @@ class LocalDimension:
         reason: what the bounds rest on, or why they do not meet.
         digits: real and imaginary parts of the point as decimals, all digits that are certain, at
             most 100; empty if it is not decided.
+        imaginary: whether the last coordinate is the imaginary unit's, as of the system.
     """
 
     point: ComplexArray
@@ -72,16 +73,21 @@ class LocalDimension:
     arithmetic: str
     reason: str
     digits: tuple[tuple[str, str], ...] = ()
+    imaginary: bool = False
 
     __eq__ = equal_values
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "point", fixed_array(self.point))
 
+    def to_numpy(self) -> ComplexArray:
+        """The point, complex, to be written to, without the imaginary unit: shape ``(n,)``."""
+        return self.point[: len(self.point) - self.imaginary].copy()
+
     __repr__ = one_line
 
     def __str__(self) -> str:
-        return lines_of(f"LocalDimension at {point_text(self.point)}", self.rows())
+        return lines_of(f"LocalDimension at {point_text(self.to_numpy())}", self.rows())
 
     def rows(self) -> list[tuple[str, str]]:
         """The answer and what it rests on, as labelled texts."""
@@ -212,8 +218,9 @@ def local_dimension(
     if 0 < elimination.system.n < system.n:
         found = reduced_bounds(elimination, list(point), error, rng)
         if found is not None:
-            return found
-    return bounds(system.polynomials, list(point), error, rng)
+            return replace(found, imaginary=system.imaginary)
+    found = bounds(system.polynomials, list(point), error, rng)
+    return replace(found, imaginary=system.imaginary)
 
 
 def local_dimension_near(

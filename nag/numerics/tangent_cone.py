@@ -78,6 +78,22 @@ class TangentCone:
         """The forms, with the variables' names for their distances from the point."""
         return _equations(self.forms, variables)
 
+    def document(self, variables: Sequence[str]) -> dict[str, Any]:
+        """The forms as texts, and as what they consist of, as a JSON object.
+
+        Args:
+            variables: names of all coordinates.
+        """
+        return {
+            "degree": self.degree,
+            "forms": [form_text(f, variables) for f in self.forms],
+            "linear": [form_text(f, variables) for f in self.linear],
+            "coordinates": [variables[i] for i in self.coordinates],
+            "dimension": self.dimension,
+            "form_terms": [_terms(f) for f in self.forms],
+            "linear_terms": [_terms(f) for f in self.linear],
+        }
+
     def is_irreducible(self, rng: np.random.Generator) -> bool:
         """Whether there is one form, and it certainly has no factors over the complex numbers.
 
@@ -119,6 +135,15 @@ class TangentCone:
     def tangent_text(self, variables: Sequence[str]) -> str:
         """The equations of the tangent space, empty if it is the whole space."""
         return _equations(self.linear, variables)
+
+
+def _terms(form: Form) -> list[dict[str, Any]]:
+    """What a form consists of: coefficients as texts, or if not rational as two numbers."""
+
+    def number(c: Fraction | complex) -> str | list[float]:
+        return str(c) if isinstance(c, Fraction) else [complex(c).real, complex(c).imag]
+
+    return [{"exponents": list(e), "coefficient": number(c)} for e, c in form.items()]
 
 
 def _equations(forms: Sequence[Form], variables: Sequence[str]) -> str:

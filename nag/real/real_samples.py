@@ -43,7 +43,7 @@ TURN = 0.25
 def _why_none(system: PolynomialSystem, reality: Reality, reason: str) -> NagError:
     kind = NoRealPointsError if reality is Reality.NONE else SamplingError
     none = np.zeros((0, system.n))
-    nothing = Samples(none, 0.0, EPS, variables=system.own_variables, real=True)
+    nothing = Samples(none, 0.0, EPS, variables=system.own_variables, real=True, unit=system.unit)
     return kind(f"real points: {reality}{reason and ': '}{reason}", nothing)
 
 
@@ -131,7 +131,8 @@ def _samples(
     residual = float(evaluator.residuals(known).max(initial=0.0))
     error = float(errors.max(initial=EPS))
     dimensions = tuple(map(int, dimensions))
-    return Samples(known, residual, error, doubt, system.own_variables, True, dimensions)
+    own, unit = system.own_variables, system.unit
+    return Samples(known, residual, error, doubt, own, True, dimensions, unit)
 
 
 @np.errstate(all="ignore")

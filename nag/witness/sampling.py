@@ -18,7 +18,7 @@ from nag.numerics.doubles import EPS, SHARP
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import ComplexArray, RealArray, Several, equal_values, fixed_array
 from nag.numerics.zero_values import ON
-from nag.text.json_text import pairs
+from nag.text.json_text import pairs, real_or_null
 from nag.text.table import data_frame, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, carry_points, coordinates_of
@@ -34,6 +34,9 @@ if TYPE_CHECKING:
     import pandas
     import sympy
 
+# Of their JSON documents.
+FORMAT = "nag-samples"
+
 
 @dataclass(frozen=True, eq=False)
 class Samples(Several[ComplexArray]):
@@ -48,6 +51,8 @@ class Samples(Several[ComplexArray]):
         real: whether real points were asked for, whose imaginary parts are all 0.
         real_dimensions: of real points, those of the component's real part round each, or -1 where
             it is not known, as at singular points.
+        unit: name of the imaginary unit, whose coordinate comes last in ``points``; empty where
+            coefficients are real.
     """
 
     points: ComplexArray
@@ -57,6 +62,7 @@ class Samples(Several[ComplexArray]):
     variables: tuple[str, ...] = ()
     real: bool = False
     real_dimensions: tuple[int, ...] = ()
+    unit: str = ""
 
     __eq__ = equal_values
 
@@ -104,14 +110,22 @@ class Samples(Several[ComplexArray]):
 
         return sample_rows(self, variables)
 
-    def document(self) -> dict[str, Any]:
-        """The points as a JSON object, without its head."""
+    def document(self, component: dict[str, Any] | None = None) -> dict[str, Any]:
+        """The points as a JSON object, without its head.
+
+        Args:
+            component: what is said of the component that they are of, if that is known.
+        """
         known = [None if d < 0 else d for d in self.real_dimensions]
         return {
-            "residual": self.residual,
-            "accuracy": self.accuracy,
+            "variables": [*self.variables, *([self.unit] if self.unit else [])],
+            "imaginary": self.unit or None,
+            "component": component,
+            "residual": real_or_null(self.residual),
+            "accuracy": real_or_null(self.accuracy),
             "points": pairs(self.points),
             "real_dimensions": known if self.real else None,
+            "doubt": self.doubt,
         }
 
     __repr__ = one_line
@@ -195,8 +209,8 @@ def sample(
         residual = float(evaluator.residuals(at).max(initial=0.0))
         errors = relative_errors(at, component.radii[drawn])
         error = float(errors.max(initial=EPS))
-        return Samples(at, residual, error, variables=system.own_variables)
-    names, natural = system.own_variables, coordinates_of(system)
+        return Samples(at, residual, error, variables=system.own_variables, unit=system.unit)
+    given, natural = system, coordinates_of(system)
     system = natural.system(system)
     component = carry_component(component, natural, system)
     fibres = component_fibres(system, component)
@@ -206,10 +220,10 @@ def sample(
         there = move_to_random_slice(fibres, rng, run)
         x = there.x
         if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON):
-            some = _samples(evaluator, points[:k], radii[:k], natural, names)
+            some = _samples(evaluator, points[:k], radii[:k], natural, given)
             raise SamplingError(f"point {k + 1} of {count}: the path to it failed", some)
         points[k], radii[k] = x[0], there.radii[0]
-    return _samples(evaluator, points, radii, natural, names)
+    return _samples(evaluator, points, radii, natural, given)
 
 
 def move_to_random_slice(
@@ -231,13 +245,13 @@ def _samples(
     y: np.ndarray,
     radii: np.ndarray,
     natural: NaturalCoordinates,
-    names: tuple[str, ...],
+    given: PolynomialSystem,
 ) -> Samples:
-    """Points in natural coordinates in those that were given, which have these names."""
+    """Points in natural coordinates in those of the system that was given."""
     residual = float(evaluator.residuals(y).max(initial=0.0))
     points, radii = carry_points(y, radii, natural.inverse)
     error = float(relative_errors(points, radii).max(initial=EPS))
-    return Samples(points, residual, error, variables=names)
+    return Samples(points, residual, error, variables=given.own_variables, unit=given.unit)
 
 
 def sample_points(

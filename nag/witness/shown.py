@@ -294,7 +294,7 @@ def _first_point(points: np.ndarray, accuracy: float = 0.0) -> str:
 
 
 def _samples_title(samples: Samples) -> str:
-    count, n = samples.points.shape
+    count, n = samples.to_numpy().shape
     return f"Samples: {count_text(count, 'point')} in {count_text(n, 'coordinate')}"
 
 
@@ -304,7 +304,7 @@ def _samples_rest(samples: Samples) -> str:
 
 def samples_text(samples: Samples) -> str:
     """Points of a component in three lines."""
-    first = _first_point(samples.points, samples.accuracy)
+    first = _first_point(samples.to_numpy(), samples.accuracy)
     rows = [("points", first)]
     if samples.real_dimensions:
         rows.append(("real", real_dimension_text(samples.real_dimensions)))
@@ -345,7 +345,7 @@ def samples_html(samples: Samples) -> str:
     note = _samples_rest(samples) + (f"; open: {samples.doubt}" if samples.doubt else "")
     known = [str(d) if d >= 0 else "not known" for d in samples.real_dimensions]
     more = {"real dimension": known} if known else {}
-    return _point_table(_samples_title(samples), samples.points, more, note, samples.accuracy)
+    return _point_table(_samples_title(samples), samples.to_numpy(), more, note, samples.accuracy)
 
 
 def _real_points_title(found: RealPoints) -> str:
