@@ -18,8 +18,10 @@ from nag.algebra.polynomial import Polynomial as Polynomial
 from nag.algebra.surd import Surd
 from nag.algebra.symmetry import SignedPermutation as SignedPermutation
 from nag.algebra.system import PolynomialSystem as PolynomialSystem
+from nag.check.statement import CheckedStatements
 from nag.decomposition.singular_members import SingularParameters
 from nag.decomposition.singular_points import SingularLocus
+from nag.decomposition.sweep import Sweep
 from nag.errors import ComponentError as ComponentError
 from nag.errors import EquationError as EquationError
 from nag.errors import InputError as InputError
@@ -42,10 +44,12 @@ from nag.mechanism.graph import Joint as Joint
 from nag.mechanism.graph import Mechanism as Mechanism
 from nag.mechanism.linkage import Linkage as Linkage
 from nag.mechanism.mobility_report import MobilityReport as MobilityReport
+from nag.mechanism.mode_decomposition import ModesAnswer
 from nag.mechanism.model import Model
 from nag.mechanism.modes_report import OperationModes
 from nag.mechanism.problem import Problem as Problem
 from nag.numerics.local_dimension import LocalDimension as LocalDimension
+from nag.page.mechanism_report import MechanismReport
 from nag.pictures.plot import Picture
 from nag.questions import Certified as Certified
 from nag.real.curve import RealCurve as RealCurve
@@ -388,8 +392,35 @@ def system(
     groups: Iterable[Iterable[str | int | SympyExpression]] = (),
     imaginary: str | None = None,
 ) -> PolynomialSystem: ...
+def check_statements(
+    given: Moving | PolynomialSystem | None = None, **options: Unpack[Options]
+) -> CheckedStatements: ...
+def sweep_parameter(
+    given: File | Case,
+    parameter: str,
+    values: Sequence[RealNumber],
+    *,
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
+) -> Sweep: ...
+def decompose_modes(
+    mechanism: File | Case | Mechanism,
+    *,
+    formulation: Formulation = "auto",
+    coordinates: Literal["joint", "euler"] | None = None,
+    **options: Unpack[Options],
+) -> ModesAnswer: ...
+def write_report(
+    given: Moving,
+    path: File,
+    *,
+    formulation: Formulation = "auto",
+    **options: Unpack[Options],
+) -> MechanismReport: ...
 def write(
     result: Exported
+    | Motion
+    | DrivenMotion
     | Case
     | Mechanism
     | Model

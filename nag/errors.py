@@ -41,6 +41,12 @@ class InputError(NagError):
     """A file does not say what it should, or cannot be read or written."""
 
 
+def unreadable(path: object, error: OSError | ValueError) -> str:
+    """What to say of a file that cannot be read, one line, the same everywhere."""
+    reason = getattr(error, "strerror", None) or error
+    return f"{path}: cannot be read ({reason}); give the path of a file that is there"
+
+
 class MechanismError(NagError):
     """A mechanism that makes no sense.
 

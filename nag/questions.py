@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 
 from nag.algebra.given import check_choice, check_whole, is_a, value_text
-from nag.errors import ComponentError, InputError, NagError
+from nag.errors import ComponentError, InputError, NagError, unreadable
 from nag.numerics.read_only import equal_values
 from nag.text.table import join_words
 from nag.tracking.run import DEFAULT_RUN, Run, answers_early, takes_run
@@ -30,17 +30,23 @@ if TYPE_CHECKING:
     from nag.algebra.number import Number
     from nag.algebra.symmetry import SignedPermutation
     from nag.algebra.system import PolynomialSystem
+    from nag.check.statement import CheckedStatements
     from nag.decomposition.singular_members import SingularParameters
     from nag.decomposition.singular_points import SingularLocus
+    from nag.decomposition.sweep import Sweep
     from nag.files.cases import Case
     from nag.interpolation.image_ideal import ImageIdeal
     from nag.interpolation.point_cloud import AmbientVariables, Cloud
+    from nag.kinematics.driven_motion import DrivenMotion
+    from nag.kinematics.motion import Motion
     from nag.mechanism.assembly import AssemblyModel
     from nag.mechanism.axes import Space
+    from nag.mechanism.mode_decomposition import ModesAnswer
     from nag.mechanism.model import Model
     from nag.mechanism.problem import Problem
     from nag.numerics.claims import Claim
     from nag.numerics.local_dimension import LocalDimension
+    from nag.page.mechanism_report import MechanismReport
     from nag.pictures.plot import Picture
     from nag.real.curve import RealCurve
     from nag.real.real_pieces import RealPieces
@@ -84,6 +90,11 @@ EXPORTED = (
     ("nag.witness.sampling", "Samples"),
     ("nag.decomposition.singular_points", "SingularLocus"),
     ("nag.decomposition.singular_members", "SingularParameters"),
+)
+# What pages show.
+SHOWN_MOVING = (
+    ("nag.kinematics.motion", "Motion"),
+    ("nag.kinematics.driven_motion", "DrivenMotion"),
 )
 # Other programs' files by their endings.
 ENDINGS = {
@@ -149,9 +160,9 @@ def read(
         with Path(path).open("rb") as file:
             is_json = file.read(256).lstrip()[:1] == b"{"
     except OSError as error:
-        raise InputError(f"{path}: {error.strerror or error}") from None
+        raise InputError(unreadable(path, error)) from None
     except ValueError as error:
-        raise InputError(f"{str(path)!r}: {error}") from None
+        raise InputError(unreadable(repr(str(path)), error)) from None
     if not is_json:
         return read_case(path, **how)  # type: ignore[arg-type]
     for name, value in how.items():
@@ -189,20 +200,21 @@ def write(
     Components, solutions, samples and singular points are written as ``nag decompose``,
     ``nag solve``, ``nag sample`` and ``nag singular`` do with ``--json``. Cases, mechanisms, their
     models, parts and systems are written as cases, in TOML: `read` gives a `nag.Case`, equal to the
-    one that was written, or whose ``mechanism``, ``assembly`` or ``system`` is. Other results are
-    kept by `pickle`.
+    one that was written, or whose ``mechanism``, ``assembly`` or ``system`` is. Of a motion a page
+    in which it moves is written, in HTML, which is not read. Other results are kept by `pickle`.
 
     Args:
         result: what `nag.decompose`, `nag.intersect`, `nag.solve`, `nag.sample` or `nag.singular`
             returns; or a `nag.Case`, a `nag.Mechanism`, a model, parts, a `nag.Problem`, a
             `nag.PolynomialSystem`, or equations as `nag.system` takes them; or the name of a file
-            that `nag.read` reads one of them from.
+            that `nag.read` reads one of them from; or what `nag.motion` or `nag.driven_motion`
+            returns.
         path: the file; whatever was there is replaced.
         format: of equations, ``"toml"``, or of another program: ``"bertini"``, ``"phc"``,
             ``"m2"``, ``"singular"``, ``"hc"``, ``"text"``, ``"sympy"`` or ``"latex"``; by default
             told by the ending (``.m2``, ``.sing``, ``.phc``, ``.bertini``, ``.jl``, ``.txt``,
             ``.tex``, ``.py``), else TOML.
-        title: of a case.
+        title: of a case, or of a page.
 
     Raises:
         nag.InputError: if the file cannot be written.
@@ -231,6 +243,11 @@ def write(
 
         result = system(result)
     ending = os.path.splitext(path)[1]
+    if any(is_a(result, *kind) for kind in SHOWN_MOVING):
+        if ending != ".html" or format != "auto":
+            raise NagError("path: a motion is written as a page in which it moves; name it .html")
+        _write_page(result, path, title)
+        return
     if any(is_a(result, *kind) for kind in EXPORTED):
         for name, given in (("format", format != "auto"), ("title", bool(title))):
             if given:
@@ -267,6 +284,17 @@ def write(
         title = title or getattr(result, "title", "")
         text = write_system(problem_of(result).system, chosen, title)
     write_target(path, text)
+
+
+def _write_page(result: Motion | DrivenMotion, path: str | os.PathLike[str], title: str) -> None:
+    """Write a page in which a mechanism moves."""
+    from nag.files.written_file import write_target
+    from nag.page import motion_page
+
+    one = is_a(result, *SHOWN_MOVING[0])
+    page = motion_page.motion_page if one else motion_page.driven_page
+    name = os.path.basename(path).removesuffix(".html")
+    write_target(path, page(result, title or name, name))  # type: ignore[arg-type]
 
 
 def _write_export(result: Exported, path: str | os.PathLike[str]) -> None:
@@ -317,11 +345,14 @@ def names_file(given: Any) -> bool:
 
 
 def takes_files(
-    function: Callable[..., Answer], convert: Callable[[Any], Any] | None = None
+    function: Callable[..., Answer],
+    exports: Sequence[tuple[str, str]] = (),
+    convert: Callable[[Any], Any] | None = None,
 ) -> Callable[..., Answer]:
     """The same function, whose first argument may be a file, with the keywords of `read` for it.
 
     Args:
+        exports: those of `EXPORTED` that it takes; a file of others is refused by its name.
         convert: what is to be done with what was read.
     """
     own = signature(function)
@@ -332,11 +363,13 @@ def takes_files(
         how = {name: named.pop(name) for name in FILE_OPTIONS if name in named}
         if given:
             asked, *rest = given
-        elif first.name in named:
-            asked, rest = named.pop(first.name), []
+        elif first.name in named or first.default is not Parameter.empty:
+            asked, rest = named.pop(first.name, first.default), []
         else:
             raise NagError(f"{first.name}: nothing is given; give a file, a case, parts, equations")
         opened = open_file(asked, **how)
+        if opened is not asked:
+            _refuse_export(os.fspath(asked), opened, exports)
         if convert is not None and opened is not asked:
             opened = convert(opened)
         return function(opened, *rest, **named)
@@ -354,7 +387,44 @@ def takes_files(
 
 def takes_components(function: Callable[..., Answer]) -> Callable[..., Answer]:
     """`takes_files` of a function of components: those that a file has are tested first."""
-    return takes_files(function, convert=_test_traces)
+    return takes_files(function, EXPORTED[:1], _test_traces)
+
+
+def takes_results(function: Callable[..., Answer]) -> Callable[..., Answer]:
+    """`takes_files` of a function of components or solutions."""
+    return takes_files(function, EXPORTED[:2])
+
+
+# Of what has exports: what it is called, and what goes on from it.
+USES = {
+    "Decomposition": (
+        "components",
+        "nag.member, nag.sample, nag.singular and others go on from",
+    ),
+    "SolveResult": ("solutions", "nag.certify goes on from"),
+    "Samples": ("samples", ""),
+    "SingularLocus": ("singular points", ""),
+    "SingularParameters": ("singular parameters", ""),
+}
+
+
+def _refuse_export(file: str, found: Any, taken: Sequence[tuple[str, str]]) -> None:
+    """Refuse what a file holds if it is an export of something else than is taken.
+
+    Raises:
+        nag.InputError: which says what it is, and what reads it.
+    """
+    others = any(is_a(found, *kind) for kind in EXPORTED if kind not in taken)
+    if not others and not isinstance(found, dict):
+        return
+    if isinstance(found, dict):
+        what, use = f"what a command wrote ({found['format']})", ""
+    else:
+        what, use = USES[type(found).__name__]
+        what = f"an export of {what}"
+    uses = " and ".join(filter(None, ["nag.read reads", use]))
+    wanted = ["a case", *(USES[name][0] for _, name in taken)]
+    raise InputError(f"{file}: is {what}, which {uses}; give {join_words(wanted, 'or')}")
 
 
 def _test_traces(read: Any) -> Any:
@@ -500,6 +570,140 @@ def _decompose_by(
 
     count = STARTS if starts is None else starts
     return discover(asked.system, starts=count, symmetries=symmetries, run=run)
+
+
+@takes_files
+@takes_run
+def sweep_parameter(
+    given: Any,
+    parameter: str,
+    values: Sequence[Any],
+    *,
+    formulation: str = "auto",
+    run: Run = DEFAULT_RUN,
+) -> Sweep:
+    """The components for many values of a parameter: found for a general one, and followed.
+
+    Components that are there for single values only are not looked for, unless the others cannot
+    be followed there.
+
+    Args:
+        given: a case with parameters, or the name of its file.
+        parameter: the name of one.
+        values: two or more, exact: numbers, or texts as ``"1/3"``.
+        formulation: of a mechanism's model, as for `nag.model`; that of the first value for all.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
+
+    Raises:
+        nag.NagError: if there is no such parameter, or a value makes no sense.
+
+    >>> import nag
+    >>> swept = nag.sweep_parameter("cases/rhombus.toml", "b", ["1/2", 1, 2])
+    >>> [[(c.dimension, c.degree) for c in each.decomposition.components] for each in swept]
+    [[(1, 2), (1, 4)], [(1, 2), (1, 2), (1, 2)], [(1, 2), (1, 4)]]
+    """
+    from nag.algebra.from_python import exact_vector
+    from nag.decomposition.sweep import Sweep, sweep
+    from nag.files.cases import case_with
+    from nag.mechanism.problem import problem_of
+
+    if not is_a(given, *DESCRIPTIONS[0]):
+        raise NagError("given: a case with parameters is wanted, or the name of its file")
+    exact = exact_vector(values, "values")
+    if len(exact) < 2:
+        raise NagError("values: give two or more")
+    first = problem_of(case_with(given, {parameter: exact[0]}), formulation=formulation)
+    # One formulation for all values, so that their systems are one family.
+    formulation = first.formulation or "auto"
+
+    def system_at(value: Any) -> PolynomialSystem:
+        case = case_with(given, {parameter: value})
+        return problem_of(case, formulation=formulation).system
+
+    return Sweep(parameter, tuple(sweep(system_at, exact, run=run)))
+
+
+@takes_files
+@takes_run
+def decompose_modes(
+    mechanism: Any,
+    *,
+    formulation: str = "auto",
+    coordinates: Coordinates | None = None,
+    run: Run = DEFAULT_RUN,
+) -> ModesAnswer:
+    """The components of every combination of the joints' assembly modes, one of each class.
+
+    Args:
+        mechanism: a `nag.Mechanism`, a case of one, or the name of its file; it is taken as one in
+            space.
+        formulation: of the models that are decomposed, as for `nag.model`.
+        coordinates: ``"euler"`` for components in Euler parameters, ``"joint"`` for those in the
+            coordinates of the formulation; by default Euler parameters, unless formulation H is
+            asked for.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
+
+    Raises:
+        nag.mechanism.model.ModelError: if there are too many combinations, or the formulation does
+            not cover the mechanism.
+
+    >>> import nag
+    >>> nag.decompose_modes("cases/bennett.toml")
+    <ModesAnswer: 16 combinations of modes in 2 classes>
+    """
+    from nag.mechanism.graph import check_mechanism
+    from nag.mechanism.mode_decomposition import decompose_modes
+    from nag.mechanism.parts import mechanism_in
+
+    made = mechanism_in(mechanism)
+    check_mechanism(made)
+    if coordinates is not None:
+        check_choice(coordinates, "coordinates", get_args(Coordinates))
+    chosen = coordinates or ("joint" if formulation == "H" else "euler")
+    return decompose_modes(made, formulation, chosen, run=run)
+
+
+@takes_files
+@takes_run
+def write_report(
+    given: Any,
+    path: str | os.PathLike[str],
+    *,
+    formulation: str = "auto",
+    run: Run = DEFAULT_RUN,
+) -> MechanismReport:
+    """Write all that is found of a mechanism to one page of HTML, which needs no network.
+
+    Args:
+        given: a case of a mechanism, or the name of its file; a mechanism, its model, or parts.
+        path: the file, whatever was there is replaced.
+        formulation: of the mechanism's model, as for `nag.model`.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
+
+    Returns:
+        What the page says: its components, how it moves, and whether nothing was left open.
+
+    Raises:
+        nag.NagError: if it is no mechanism, or the file cannot be written.
+
+    >>> import nag, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     nag.write_report("cases/bennett.toml", f"{folder}/bennett.html").complete
+    True
+    """
+    from nag.files.case_writing import case_of
+    from nag.files.written_file import check_target, write_target
+    from nag.mechanism.problem import problem_of
+    from nag.page.mechanism_report import report_of
+
+    check_target(path)
+    case = case_of(given)
+    asked = problem_of(case, formulation=formulation)
+    if asked.model is None:
+        raise NagError("given: is a polynomial system; reports are of mechanisms")
+    found = report_of(case, asked, run)
+    write_target(path, found.page)
+    return found
 
 
 @takes_files
@@ -1479,7 +1683,7 @@ def solve_family(
 
 def _names_of_columns(values: Any) -> list[str]:
     """The names of the columns of values; none where they have none."""
-    if names_file(values):
+    if isinstance(values, str | os.PathLike):
         from nag.files.member_values import read_member_names
 
         return read_member_names(values)
@@ -1494,7 +1698,7 @@ def _values_of_members(
     Args:
         own: values of the case's parameters, if it has any.
     """
-    if names_file(values):
+    if isinstance(values, str | os.PathLike):
         from nag.files.member_values import read_member_values
 
         return read_member_values(values, parameters, own or [0] * len(parameters))
@@ -1640,6 +1844,57 @@ def _listed_names(names: Any) -> tuple[str, ...] | None:
 # --- Proofs
 
 
+@takes_files
+@takes_run
+def check_statements(given: Any = None, *, run: Run = DEFAULT_RUN) -> CheckedStatements:
+    """Test what the founding papers state of a mechanism or a system, or all that they state.
+
+    Args:
+        given: a case that the papers speak of, or the name of its file; by default everything.
+        run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
+
+    Returns:
+        The statements, each with what was found and what that rests on; complete if each is
+        decided, and what fails is a known misprint.
+
+    Raises:
+        nag.NagError: if the papers say nothing of it.
+
+    >>> import nag
+    >>> nag.check_statements("cases/slider-crank.toml").complete
+    True
+    """
+    from nag.check.statement import CheckedStatements, DecidedStatement
+    from nag.check.subjects import WITH_CASES, everything, recognised
+    from nag.decomposition.decompose import decompose as decompose_system
+    from nag.files.case_writing import case_of
+
+    def decomposed(system: Any) -> Decomposition:
+        return decompose_system(system, run=run)
+
+    if given is None:
+        sections = everything(decomposed)
+    else:
+        case = case_of(given)
+        found = recognised(case, decomposed)
+        if found is None:
+            known = ", ".join(WITH_CASES)
+            said = f"{case.path}: the papers give no components of it; they do of {known}"
+            raise NagError(said).mended_by("all")
+        sections = [
+            (found.subject.title, found.subject.statements),
+            (f"{case.title}: decomposition", found.comparison),
+        ]
+    decided = []
+    for title, statements in sections:
+        rows = []
+        for i, statement in enumerate(statements):
+            run.tell(title, i, len(statements))
+            rows.append(DecidedStatement.of(statement, statement.verdict()))
+        decided.append((title, tuple(rows)))
+    return CheckedStatements(tuple(decided))
+
+
 @dataclass(frozen=True, eq=False)
 class Certified:
     """What was proved of a result.
@@ -1688,7 +1943,7 @@ class Certified:
         return "\n".join(label_lines(self.rows))
 
 
-@takes_files
+@takes_results
 @takes_run
 def certify(
     given: Any, paths: bool = False, *, formulation: str = "auto", run: Run = DEFAULT_RUN

@@ -53,7 +53,7 @@ def decomposed(system):
 def test_every_statement_of_the_papers_is_decided_exactly(subject: str) -> None:
     for s in SUBJECTS[subject].statements:
         verdict = s.verdict()
-        assert DecidedStatement(s, verdict).is_as_expected, (s.place, s.text, verdict)
+        assert DecidedStatement.of(s, verdict).is_as_expected, (s.place, s.text, verdict)
         assert verdict.kind in (VerdictKind.EXACT, VerdictKind.FAILS)
         assert verdict.how
         assert bool(verdict.counterexample) is (verdict.kind is VerdictKind.FAILS)
@@ -98,11 +98,11 @@ def test_a_known_misprint_that_holds_is_not_settled() -> None:
     def one() -> Verdict:
         return Verdict(VerdictKind.EXACT, "counted")
 
-    assert not DecidedStatement(one, one.verdict()).is_as_expected
-    assert DecidedStatement(replace(one, misprint=False), one.verdict()).is_as_expected
-    assert not DecidedStatement(one, Verdict(VerdictKind.OPEN, "too large")).is_as_expected
+    assert not DecidedStatement.of(one, one.verdict()).is_as_expected
+    assert DecidedStatement.of(replace(one, misprint=False), one.verdict()).is_as_expected
+    assert not DecidedStatement.of(one, Verdict(VerdictKind.OPEN, "too large")).is_as_expected
     fails = Verdict(VerdictKind.FAILS, "", "x = 0")
-    pairs = [DecidedStatement(replace(one, misprint=False), fails)]
+    pairs = [DecidedStatement.of(replace(one, misprint=False), fails)]
     assert summary(pairs).endswith("1 fail and are not in cases/ERRATA.md")
 
 

@@ -211,11 +211,11 @@ def test_a_drawing_in_four_digits_gives_a_hint() -> None:
 def test_a_tolerance_that_makes_no_sense_is_refused(capsys) -> None:
     made = read_case(CASES / "spatial" / "bennett-rounded.toml").mechanism
     for wrong in (0, -1, 1, float("nan")):
-        with pytest.raises(NagError, match=r"tolerance: .* is not between 0 and 0\.03"):
+        with pytest.raises(NagError, match=r"tolerance: .* is not positive and at most 0\.03"):
             nag.mobility(made, tolerance=wrong)
     rounded = str(CASES / "spatial" / "bennett-rounded.toml")
     assert main(["mobility", rounded, "--tolerance", "2"]) == 2
-    assert "is not between 0 and 0.03" in capsys.readouterr().err
+    assert "is not positive and at most 0.03" in capsys.readouterr().err
 
 
 NEARLY_MEETING = (((1, 0, 0), (0, 0, 0)), ((1, 2, 0), (0, 0, 1)), ((1, 2, 3), (1, 0, 0)))

@@ -17,13 +17,11 @@ from nag.cli.command_line import COMMANDS
 from nag.questions import FILE_OPTIONS
 
 # Functions of other names.
-FUNCTIONS = {"family": "solve_family"}
+FUNCTIONS = {"family": "solve_family", "report": "write_report", "check": "check_statements"}
 # Commands without a function at the top level, and what stands for them.
 TERMINAL = {
     "show": "print(nag.read(path))",
     "init": "writes a file to be edited",
-    "report": "writes a page of what nag.mobility, nag.motion and nag.decompose return",
-    "check": "compares with what is shipped with the program",
     "bench": "measures this machine",
     "chart": "draws measurements of this machine",
     "completion": "is for a shell",
@@ -33,7 +31,7 @@ FOR_TERMINALS = {
     "json": "nag.write, and document() of every result",
     "points": "to_numpy() of the result",
     "csv": "to_dataframe() of the result",
-    "html": "the page of a report",
+    "html": "nag.write of a motion, and the path of nag.write_report",
     "quiet": "nothing is told unless progress= is given",
     "memory_limit": "ends the whole process",
 }
@@ -48,14 +46,17 @@ RENAMED = {
     ("mobility", "components"): "detail",
     ("mobility", "curves"): "detail",
     ("plot", "out"): "path",
+    ("report", "html"): "path",
     ("model", "from"): "format",  # its --format is that of what it writes
 }
 # A model tracks no paths, and is made within its bounds of work.
 TRACKS_NOTHING = {("model", "time_limit")}
+# Everything that the papers state, where no case is given.
+WITHOUT_CASE = {("check", "all")}
 # Options whose answer is of another kind, or of another question: the function that gives it.
 ELSEWHERE = {
-    ("decompose", "sweep"): "nag.decomposition.sweep.sweep",
-    ("decompose", "modes"): "nag.mechanism.mode_decomposition.decompose_modes",
+    ("decompose", "sweep"): "nag.sweep_parameter",
+    ("decompose", "modes"): "nag.decompose_modes",
     ("decompose", "certify"): "nag.certify",
     ("decompose", "certify_paths"): "nag.certify",
     ("solve", "certify"): "nag.certify",
@@ -123,7 +124,7 @@ def test_an_option_is_a_keyword_of_the_same_name(command: str) -> None:
             assert callable(reduce(getattr, path, import_all(path)))
         elif (command, name) in RENAMED:
             assert RENAMED[command, name] in known, name
-        elif (command, name) not in TRACKS_NOTHING:
+        elif (command, name) not in TRACKS_NOTHING | WITHOUT_CASE:
             assert name in known, name
 
 
@@ -178,3 +179,97 @@ def test_a_file_is_read_in_the_same_way_by_every_function(command: str) -> None:
     assert {name: taken[name].default for name in FILE_OPTIONS} == FILE_OPTIONS
     documented = getattr(nag, FUNCTIONS.get(command, command)).__doc__
     assert "how a file is read, as for `nag.read`" in documented
+
+
+ARM = """<robot name="arm">
+<link name="base"/><link name="a"/><link name="tool"/>
+<joint name="j1" type="revolute"><parent link="base"/><child link="a"/><axis xyz="0 0 1"/></joint>
+<joint name="j2" type="revolute"><parent link="a"/><child link="tool"/><axis xyz="0 1 0"/></joint>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["mobility", "{arm}", "--hold", "hand"], "{arm}: --hold: 'hand' is no link"),
+        (["mobility", "{arm}", "--at", "j9 = 1"], "{arm}: --at: 'j9' is no joint"),
+        (["mobility", "{arm}", "--hold", "tool", "--at", "j1 = q"], "{arm}: --at: 'j1': column 1"),
+        (["mobility", "cases/bennett.toml", "--hold", "x"], "cases/bennett.toml: --hold: is for"),
+        (["motion", "cases/bennett.toml", "--drive", "J9=1"], ": --drive: 'J9' is no angle"),
+        (["sample", "cases/rhombus.toml", "--component", "7"], "--component: 7: there are"),
+        (["mobility", "cases/bennett.toml", "--tolerance", "-1e-3"], "--tolerance: -0.001 is not"),
+    ],
+)
+def test_what_an_option_says_wrongly_is_told_by_the_option(
+    words: list[str], said: str, tmp_path: Path, monkeypatch, capsys
+) -> None:
+    monkeypatch.chdir(Path(__file__).parent.parent)
+    arm = tmp_path / "arm.urdf"
+    arm.write_text(ARM)
+    assert main([word.format(arm=arm) for word in words]) == 2
+    error = capsys.readouterr().err
+    assert said.format(arm=arm) in error
+    assert error.count("\n") == 1
+
+
+def test_what_a_file_says_wrongly_is_told_by_its_key(tmp_path: Path, capsys) -> None:
+    (tmp_path / "arm.urdf").write_text(ARM)
+    case = tmp_path / "arm.toml"
+    case.write_text('title = "t"\nkind = "robot"\nfile = "arm.urdf"\nhold = ["hand"]\n')
+    assert main(["mobility", str(case)]) == 2
+    assert "--hold" not in capsys.readouterr().err
+    export = tmp_path / "export.json"
+    export.write_text('{"format": "other"}')
+    assert main(["show", str(export)]) == 2
+    assert "--format" not in capsys.readouterr().err
+
+
+def test_a_file_that_is_not_there_is_told_in_one_way(tmp_path: Path, capsys) -> None:
+    gone = str(tmp_path / "gone.toml")
+    said = f"{gone}: cannot be read (No such file or directory); give the path of a file that is"
+    calls = [nag.read, nag.read_case, nag.read_decomposition, nag.read_solutions]
+    calls += [
+        nag.solve,
+        nag.mobility,
+        nag.member,
+        lambda path: nag.solve_family("x^2 - b", "b", path),
+    ]
+    for call in calls:
+        with pytest.raises(nag.InputError) as error:
+            call(gone)
+        assert str(error.value).startswith(said)
+    for words in (["solve"], ["show"], ["certify"], ["mobility"], ["family", "--values", gone]):
+        assert main([words[0], gone, *words[1:]]) == 2
+        assert capsys.readouterr().err.startswith(f"nag: {said}")
+
+
+def test_an_export_where_a_case_is_wanted_is_told_what_it_is(tmp_path: Path, capsys) -> None:
+    components, solutions = str(tmp_path / "components.json"), str(tmp_path / "solutions.json")
+    samples = str(tmp_path / "samples.json")
+    nag.write(nag.decompose("x*y"), components)
+    nag.write(nag.solve("x^2 - 1"), solutions)
+    nag.write(nag.sample("x*y", count=1), samples)
+    for call in (nag.mobility, nag.motion, nag.modes, nag.decompose, nag.solve, nag.model):
+        with pytest.raises(nag.InputError, match=r"is an export of components, which nag\.read"):
+            call(components)
+    with pytest.raises(nag.InputError, match=r"solutions, which nag\.read reads and nag\.certify"):
+        nag.member(solutions, (0, 0))
+    with pytest.raises(nag.InputError, match="give a case, components or solutions"):
+        nag.certify(samples)
+    assert nag.member(components, (0, 1)).on
+    assert nag.certify(solutions)
+    assert main(["mobility", components]) == 2
+    assert "is an export (nag-decomposition), and no case" in capsys.readouterr().err
+    # Longer than any case may be.
+    Path(components).write_text(Path(components).read_text() + " " * 3_000_000)
+    assert main(["member", components, "--at", "x = 0, y = 1"]) == 0
+
+
+@pytest.mark.parametrize("text", ["a*x^2 - 1\n", "variables x, a\na*x^2 - 1", "imaginary I\na*x-1"])
+def test_the_letter_of_the_imaginary_unit_is_told(text: str, tmp_path: Path) -> None:
+    file = tmp_path / "system.txt"
+    file.write_text(text)
+    with pytest.raises(nag.InputError, match="'i' looks like the imaginary unit; it is called 'I'"):
+        nag.solve(file, set={"a": "2*i"})
+    assert nag.read(file, set={"a": "2*I"}).system.imaginary

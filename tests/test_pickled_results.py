@@ -54,6 +54,10 @@ RESULTS = {
     "circuit": lambda: nag.motion(BENNETT).circuits[0],
     "driven motion": lambda: nag.driven_motion(BENNETT, "J0", [0.1, 0.2]),
     "modes": lambda: nag.modes("cases/robots/3-rps.toml"),
+    "statements": lambda: nag.check_statements("cases/slider-crank.toml"),
+    "sweep": lambda: nag.sweep_parameter("cases/rhombus.toml", "b", [1, 2]),
+    "assembly modes": lambda: nag.decompose_modes(BENNETT),
+    "report": lambda: nag.write_report(BENNETT, Path(gettempdir()) / "nag-report.html"),
     "case": lambda: nag.read(BENNETT),
     "model": lambda: nag.model(BENNETT),
     "problem": lambda: nag.problem(BENNETT),
@@ -76,7 +80,7 @@ SEVERAL = {
     "solve": nag.Solution,
     "solutions": nag.Solution,
     "system": nag.Polynomial,
-    "eliminate": nag.Polynomial,
+    "eliminate": str,
     "sample": np.ndarray,
     "family": np.ndarray,
     "real points": np.ndarray,
@@ -89,6 +93,9 @@ SEVERAL = {
     "motion of a linkage": object,
     "driven motion": object,
     "modes": object,
+    "statements": object,
+    "sweep": object,
+    "assembly modes": object,
 }
 # What is one thing, though it has parts: an answer, or a description.
 ONE = {
@@ -107,6 +114,7 @@ ONE = {
     "model of a linkage",
     "mechanism",
     "picture",
+    "report",
 }
 
 

@@ -518,3 +518,68 @@ def test_a_component_meets_equations_however_they_are_given() -> None:
     assert met == circle.intersect("x = 0") == circle.intersect([x]) and len(met) == 2
     with pytest.raises(nag.NagError, match=r"equations.*'z'"):
         circle.intersect("z")
+
+
+def test_equations_of_an_image_are_in_the_names_of_its_variables() -> None:
+    found = nag.eliminate(["y - x^2", "z - x^3"], "y, z")
+    assert found[0] == "y^3 - z^2"
+    assert list(found) == list(found.equations)
+    assert len(found.generators) == len(found)
+
+
+def test_the_imaginary_unit_is_no_coordinate_of_a_point_that_is_shown() -> None:
+    asked = nag.problem("x^2 + I*y - 1", imaginary="I")
+    assert "at (1, 0)\n" in str(nag.local(asked, (1, 0)))
+    assert "2 points in 2 coordinates" in str(nag.sample(asked, count=2))
+
+
+def test_what_an_option_of_decompose_asks_has_a_function(tmp_path) -> None:
+    swept = nag.sweep_parameter("cases/rhombus.toml", "b", ["1/2", 1])
+    assert [len(each.decomposition.components) for each in swept] == [2, 3]
+    assert swept.complete and swept.followed == 2
+    assert list(swept.to_dataframe()["b"]) == [0.5, 0.5, 1.0, 1.0, 1.0]
+    alone = nag.decompose("cases/rhombus.toml", set={"b": "1/2"})
+    kinds = sorted((c.dimension, c.degree) for c in alone.components)
+    assert sorted((c.dimension, c.degree) for c in swept[0].decomposition.components) == kinds
+    with pytest.raises(nag.NagError, match="q: is no parameter"):
+        nag.sweep_parameter("cases/rhombus.toml", "q", [1, 2])
+    with pytest.raises(nag.NagError, match="values: give two or more"):
+        nag.sweep_parameter("cases/rhombus.toml", "b", [1])
+    with pytest.raises(nag.NagError, match="a case with parameters"):
+        nag.sweep_parameter("x^2 - b", "b", [1, 2])
+    modes = nag.decompose_modes("cases/bennett.toml")
+    assert [len(each.modes.members) for each in modes] == [8, 8]
+    assert nag.decompose_modes(nag.read("cases/bennett.toml").mechanism) == modes
+
+
+def test_pages_are_written_as_the_commands_write_them(tmp_path) -> None:
+    case = nag.read("cases/bennett.toml")
+    one, other = tmp_path / "one.html", tmp_path / "other.html"
+    assert main(["report", "cases/bennett.toml", "--html", str(one)]) == 0
+    report = nag.write_report("cases/bennett.toml", other)
+    assert one.read_bytes() == other.read_bytes()
+    assert report.complete and report.decomposition == nag.decompose("cases/bennett.toml")
+    assert nag.write_report(case.mechanism, other).complete
+    with pytest.raises(nag.NagError, match="reports are of mechanisms"):
+        nag.write_report("x^2 - 1", other)
+    (tmp_path / "folder").mkdir()
+    same = tmp_path / "folder" / "bennett.toml"
+    assert main(["motion", "cases/bennett.toml", "--html", str(one)]) == 0
+    nag.write(nag.motion("cases/bennett.toml"), same.with_suffix(".html"), title=case.title)
+    assert same.with_suffix(".html").read_bytes() == one.read_bytes()
+    bars = {"base": "AE3", "crank": "AB2", "left": "BC2", "right": "CD3", "rocker": "DE2"}
+    five_bar = nag.Linkage.of(bars, "base")
+    nag.write(nag.driven_motion(five_bar, "A", [0.0, 0.5], samples=24), other)
+    assert other.read_text().startswith("<!")
+    with pytest.raises(nag.NagError, match=r"name it \.html"):
+        nag.write(nag.motion("cases/bennett.toml"), tmp_path / "motion.json")
+
+
+def test_statements_of_the_papers_are_checked_as_by_the_command(tmp_path) -> None:
+    file = tmp_path / "statements.json"
+    assert main(["check", "cases/slider-crank.toml", "--json", str(file)]) == 0
+    found = nag.check_statements("cases/slider-crank.toml")
+    assert json.loads(file.read_text())["sections"] == found.document()["sections"]
+    assert found.complete and len(found) == 10
+    with pytest.raises(nag.NagError, match="the papers give no components of it"):
+        nag.check_statements("x^2 - 1")

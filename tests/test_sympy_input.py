@@ -91,3 +91,18 @@ def test_a_system_of_sympys_is_solved_and_decomposed() -> None:
 def test_a_symbol_may_have_any_name() -> None:
     unit = sympy.Symbol("I")
     assert system([x**2 + unit]).variables == ("I", "x")
+
+
+def test_floats_of_sympys_are_taken_as_pythons_are_in_points() -> None:
+    circle = nag.decompose("x^2 + y^2 - 1")
+    plain, given = (0.6, 0.8), (sympy.Float(0.6), sympy.Float(0.8))
+    named = dict(zip(sympy.symbols("x y"), given, strict=True))
+    for point in (given, named, (np.float32(0.6), np.float32(0.8))):
+        assert nag.member(circle, point).on
+        assert nag.local(circle.system, point) == nag.local(circle.system, plain)
+        found = nag.local_dimension(circle.system, point)
+        assert found == nag.local_dimension(circle.system, plain)
+    # More digits than a double has are a decimal.
+    long = sympy.Float("0.6", 40), sympy.Float("0.8", 40)
+    assert nag.local_dimension(circle.system, long).dimension == 1
+    assert nag.member(circle, long).on

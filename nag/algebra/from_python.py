@@ -370,7 +370,8 @@ def coordinates(
 
     Args:
         point: a number for each variable, in their order, or a mapping from names to numbers; or a
-            solution that was found, which is known to doubles.
+            solution that was found, which is known to doubles. Floats of all kinds, sympy's too,
+            are doubles: where they are asked to be exact they are their shortest decimals.
         imaginary: whether the last variable is the imaginary unit, which need not be given.
 
     Raises:
@@ -403,6 +404,12 @@ def coordinates(
 
 
 def _coordinate(value: Any, place: str, units: Sequence[str]) -> Number | complex:
+    if is_sympy(value) and isinstance(value, Real) and not isinstance(value, Rational):
+        # Of more digits than a double has it is the decimal that it is written as.
+        exact = exact_number(value, place)
+        value = float(value) if exact == exact_number(float(value), place) else exact
+    elif isinstance(value, Real) and not isinstance(value, Rational | float):
+        value = float(str(value))
     if not isinstance(value, Complex) or isinstance(value, Rational):
         exact = exact_complex(value, place, units)
         if not isinstance(exact, ComplexNumber):

@@ -18,7 +18,13 @@ from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.number import ComplexNumber, Number, is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.tokens import names_in
+from nag.algebra.tokens import (
+    IMAGINARY_UNITS,
+    ExpressionError,
+    imaginary_text,
+    names_in,
+    unit_called,
+)
 
 if TYPE_CHECKING:
     import numpy as np
@@ -94,6 +100,9 @@ def parse_parameter(
     """
     if not units:
         return parse_number(text, known, budget)  # type: ignore[arg-type]
+    for name in IMAGINARY_UNITS:
+        if name in names_in(text) - {*units} - known.keys():
+            raise ExpressionError(imaginary_text(name, unit_called(units[0])))
     unit = Polynomial.variable(1, 0)
     values = values_with_unit(known, units[:1])
     used = names_in(text) & {*units, *(n for n, v in known.items() if isinstance(v, ComplexNumber))}

@@ -107,6 +107,11 @@ def imaginary_text(name: str, mend: str) -> str:
     return f"{quote(name)} looks like the imaginary unit; {mend}"
 
 
+def unit_called(unit: str) -> str:
+    """What to write where something else looks like the imaginary unit."""
+    return f"it is called {unit!r} here"
+
+
 def nearest(name: str, known: Iterable[str]) -> str:
     """`` (did you mean ...?)`` with the nearest of the known names, or nothing."""
     match = difflib.get_close_matches(name[:100], sorted(known), n=1, cutoff=0.5)

@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nag.algebra.groebner import UnfinishedBasis
-from nag.text.table import label_lines, printable
+from nag.numerics.read_only import Several, equal_values
+from nag.text.table import data_frame, label_lines, named_line, printable
+
+if TYPE_CHECKING:
+    import pandas
 
 ERRATA = "cases/ERRATA.md"
 
@@ -65,10 +69,22 @@ class Statement:
 
 @dataclass(frozen=True)
 class DecidedStatement:
-    """A statement and what became of it."""
+    """A statement and what became of it.
 
-    statement: Statement
+    Attributes:
+        place, text, misprint: as of the `Statement`.
+        verdict: what was found.
+    """
+
+    place: str
+    text: str
+    misprint: bool
     verdict: Verdict
+
+    @classmethod
+    def of(cls, statement: Statement, verdict: Verdict) -> DecidedStatement:
+        """The statement with its answer."""
+        return cls(statement.place, statement.text, statement.misprint, verdict)
 
     @property
     def label(self) -> str:
@@ -82,18 +98,18 @@ class DecidedStatement:
     @property
     def is_known_misprint(self) -> bool:
         """Whether it fails, as `ERRATA` says."""
-        return self.statement.misprint and self.verdict.kind is VerdictKind.FAILS
+        return self.misprint and self.verdict.kind is VerdictKind.FAILS
 
     @property
     def is_as_expected(self) -> bool:
         """Whether it is decided, and a failure is one of the known misprints."""
         if self.verdict.kind is VerdictKind.OPEN:
             return False
-        return (self.verdict.kind is VerdictKind.FAILS) == self.statement.misprint
+        return (self.verdict.kind is VerdictKind.FAILS) == self.misprint
 
     def row(self) -> tuple[str, str]:
         """The answer; place, text, and what the answer rests on."""
-        text = f"{self.statement.place}: {self.statement.text} [{self.verdict.how}]"
+        text = f"{self.place}: {self.text} [{self.verdict.how}]"
         if self.verdict.counterexample:
             text += f"; counterexample: {self.verdict.counterexample}"
         return self.label, printable(text)
@@ -101,14 +117,67 @@ class DecidedStatement:
     def document(self) -> dict[str, Any]:
         """The statement and its answer as a JSON object."""
         return {
-            "place": self.statement.place,
-            "text": self.statement.text,
-            "misprint": self.statement.misprint,
+            "place": self.place,
+            "text": self.text,
+            "misprint": self.misprint,
             "verdict": str(self.verdict.kind),
             "how": self.verdict.how,
             "counterexample": self.verdict.counterexample,
             "digits": self.verdict.digits,
         }
+
+
+@dataclass(frozen=True, eq=False)
+class CheckedStatements(Several[DecidedStatement]):
+    """Statements of the papers, tested, under the titles of what they are about.
+
+    Attributes:
+        sections: title and statements of each.
+    """
+
+    sections: tuple[tuple[str, tuple[DecidedStatement, ...]], ...]
+
+    __eq__ = equal_values
+
+    @property
+    def entries(self) -> tuple[DecidedStatement, ...]:
+        """All statements."""
+        return tuple(one for _, rows in self.sections for one in rows)
+
+    @property
+    def complete(self) -> bool:
+        """Whether each is decided, and what fails is a known misprint."""
+        return all(one.is_as_expected for one in self.entries)
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each statement.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        names = ("place", "text", "verdict", "how", "counterexample", "misprint")
+        rows = [one.document() for one in self.entries]
+        return data_frame({name: [row[name] for row in rows] for name in names})
+
+    def lines(self) -> list[str]:
+        """Titles and statements, line by line."""
+        return [line for title, rows in self.sections for line in section_lines(title, rows)]
+
+    def document(self) -> dict[str, Any]:
+        """The statements as a JSON object, without its head."""
+        return {
+            "complete": self.complete,
+            "sections": [
+                {"title": title, "statements": [one.document() for one in rows]}
+                for title, rows in self.sections
+            ],
+        }
+
+    def __repr__(self) -> str:
+        return named_line(self, f": {summary(self.entries)}")
+
+    def __str__(self) -> str:
+        return "\n".join([*self.lines(), summary(self.entries)])
 
 
 def summary(decided: Sequence[DecidedStatement]) -> str:

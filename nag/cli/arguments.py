@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from nag.errors import NagError
+from nag.errors import NagError, unreadable
 from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
 
 if TYPE_CHECKING:
@@ -37,10 +38,18 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(f"{message} (see {self.prog} --help)")
 
 
+NEGATIVE_NUMBER = re.compile(r"-(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+
+
 class CommandParser(Parser):
     """A parser whose options may stand before, between and behind what has no dashes."""
 
     _is_apart = False
+
+    def __init__(self, *given: Any, **named: Any) -> None:
+        super().__init__(*given, **named)
+        # So that -1e-3 is a value as -0.001 is, and no option.
+        self._negative_number_matcher = NEGATIVE_NUMBER
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """As of `argparse.ArgumentParser`: options first, then all else together.
@@ -405,7 +414,7 @@ def read_case_file(
     try:
         return read_case(path, dict(values), format=format, hold=hold, at=at)
     except OSError as error:
-        raise UsageError(f"{path}: {error.strerror or error}") from None
+        raise UsageError(unreadable(path, error)) from None
 
 
 def read_given_case(options: argparse.Namespace) -> Case:

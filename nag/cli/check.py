@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_reading, add_running, read_given_case
-from nag.cli.running import CommandAnswer, Progress, chosen_run, document_head, name_case, run_row
-
-if TYPE_CHECKING:
-    from nag.check.statement import DecidedStatement, Statement
+from nag.cli.running import CommandAnswer, chosen_run, document_head, name_case, run_row
 
 FORMAT = "nag-statements"
 
@@ -31,57 +27,15 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if options.all and options.set:
         raise UsageError("--set: is for a case file")
     case = None if options.all else read_given_case(options)
-    sections = _sections(case, options)
-    decided = [(title, _decide(title, rows, options.progress)) for title, rows in sections]
-
-    from nag.check.statement import section_lines, summary
+    from nag.check.statement import summary
+    from nag.questions import check_statements
     from nag.text.table import label_lines
 
-    lines = [line for title, rows in decided for line in section_lines(title, rows)]
-    everything = [one for _, rows in decided for one in rows]
-    lines += label_lines([("answer", summary(everything)), run_row(options)])
-    complete = all(one.is_as_expected for one in everything)
+    found = check_statements(case, run=chosen_run(options))
+    lines = [*found.lines(), *label_lines([("answer", summary(found)), run_row(options)])]
     document = document_head(FORMAT, None if case is None else name_case(case)) | {
         "seed": options.seed,
         "settings": options.settings,
-        "complete": complete,
-        "sections": [
-            {"title": title, "statements": [one.document() for one in rows]}
-            for title, rows in decided
-        ],
+        **found.document(),
     }
-    return CommandAnswer(lines, complete, lambda: document)
-
-
-def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[Statement, ...]]]:
-    from nag.check.subjects import WITH_CASES, everything, recognised
-    from nag.decomposition.decompose import decompose
-
-    def decomposed(system: Any) -> Any:
-        return decompose(system, run=chosen_run(options))
-
-    if case is None:
-        return everything(decomposed)
-    found = recognised(case, decomposed)
-    if found is None:
-        raise UsageError(
-            f"{options.case}: the papers give no components of it; "
-            f"they do of {', '.join(WITH_CASES)} (nag check --all)"
-        )
-    return [
-        (found.subject.title, found.subject.statements),
-        (f"{case.title}: decomposition", found.comparison),
-    ]
-
-
-def _decide(
-    title: str, statements: tuple[Statement, ...], progress: Progress | None
-) -> list[DecidedStatement]:
-    from nag.check.statement import DecidedStatement
-
-    decided = []
-    for i, statement in enumerate(statements):
-        if progress is not None:
-            progress(title, i, len(statements))
-        decided.append(DecidedStatement(statement, statement.verdict()))
-    return decided
+    return CommandAnswer(lines, found.complete, lambda: document)

@@ -203,7 +203,8 @@ def parser(words: Sequence[str]) -> argparse.ArgumentParser:
         if name == named:
             module = import_module(f"nag.cli.{name}")
             module.add_arguments(command)
-            command.set_defaults(module=module)
+            options = {s: (a.dest, a.default) for a in command._actions for s in a.option_strings}
+            command.set_defaults(module=module, options=options)
     return root
 
 
@@ -327,12 +328,31 @@ def main_for(parent: int) -> int:
 
 # What options for arguments of functions are called that have another name.
 OPTIONS = {"point": "at"}
+# Where else an option's value is: `add_reading`.
+_ELSEWHERE = {"at": "stance"}
+
+
+def _is_given(option: str, arguments: argparse.Namespace) -> bool:
+    """Whether the command line says something by an option; a file has keys of the same names."""
+    if f"--{option}" not in arguments.options:
+        return False
+    place, default = arguments.options[f"--{option}"]
+    values = (getattr(arguments, each, None) for each in (place, _ELSEWHERE.get(option, place)))
+    return any(value not in (None, default) for value in values)
 
 
 def _with_option(error: NagError, arguments: argparse.Namespace) -> str:
-    """What an error says, and the command's option that mends it."""
+    """What an error says, arguments by the command's options for them, and the one that mends it.
+
+    Texts begin with the argument that is wrong, behind the file's name where one is given.
+    """
+    text, file = str(error), f"{getattr(arguments, 'case', '')}: "
+    head = file if text.startswith(file) else ""
+    name, colon, reason = text.removeprefix(head).partition(": ")
+    if colon and _is_given(OPTIONS.get(name, name), arguments):
+        text = f"{head}--{OPTIONS.get(name, name)}: {reason}"
     option = OPTIONS.get(error.keyword, error.keyword)
-    return f"{error} (--{option})" if option and option in arguments else str(error)
+    return f"{text} (--{option})" if option and option in arguments else text
 
 
 def _run(arguments: argparse.Namespace) -> int:

@@ -169,15 +169,15 @@ def _decompose(
 
 def _all_modes(arguments: argparse.Namespace, case: Case) -> CommandAnswer:
     """Decompose one combination of modes of each class, as `run` does the one of the reference."""
-    from nag.mechanism.mode_decomposition import decompose_modes
     from nag.mechanism.model import ModelError
     from nag.mechanism.shown import modes_lines
+    from nag.questions import decompose_modes
 
     try:
         answer = decompose_modes(
             case.mechanism,
-            arguments.formulation or "auto",
-            arguments.coordinates or ("joint" if arguments.formulation == "H" else "euler"),
+            formulation=arguments.formulation or "auto",
+            coordinates=arguments.coordinates,
             run=chosen_run(arguments),
         )
     except ModelError as error:

@@ -21,7 +21,7 @@ _NUMBER = re.compile(r"[+-]?[0-9]{1,15}(\.[0-9]{1,15}|/[0-9]{1,15})?")
 
 
 @dataclass(frozen=True)
-class Sweep:
+class AskedSweep:
     """Equally spaced values of a parameter.
 
     Attributes:
@@ -33,7 +33,7 @@ class Sweep:
     values: tuple[Fraction, ...]
 
 
-def sweep_of(text: str) -> Sweep:
+def sweep_of(text: str) -> AskedSweep:
     """What ``NAME=FIRST:LAST:COUNT`` says."""
     name, equals, numbers = text.partition("=")
     parts = [part.strip() for part in numbers.split(":")]
@@ -51,7 +51,7 @@ def sweep_of(text: str) -> Sweep:
         )
     count = int(parts[2])
     step = (last - first) / (count - 1)
-    return Sweep(name.strip(), tuple(first + step * k for k in range(count)))
+    return AskedSweep(name.strip(), tuple(first + step * k for k in range(count)))
 
 
 def run(arguments: argparse.Namespace) -> CommandAnswer:
@@ -66,20 +66,15 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
     ):
         if given:
             raise UsageError(f"--sweep: is not for {option}; leave it out")
-    asked: Sweep = arguments.sweep
+    asked: AskedSweep = arguments.sweep
     settings = list(arguments.set)
     if any(name == asked.name for name, _ in settings):
         raise UsageError(f"--sweep: {asked.name} is set by --set as well; leave one of them out")
 
-    def problem_at(value: Fraction):
-        arguments.set = [*settings, (asked.name, value)]
-        return read_problem(arguments)
+    arguments.set = [*settings, (asked.name, asked.values[0])]
+    case, first = read_problem(arguments)
 
-    case, first = problem_at(asked.values[0])
-    # One formulation for all values, so that their systems are one family.
-    arguments.formulation = first.formulation
-
-    from nag.decomposition.sweep import sweep
+    from nag.questions import sweep_parameter
     from nag.text.table import align, sheet
     from nag.tracking.run import ENDED_EARLY
 
@@ -95,15 +90,13 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
         return answer_document(arguments, name_case(case), fields, complete)
 
     how = chosen_run(arguments, document_of)
-    swept = sweep(lambda value: problem_at(value)[1].system, asked.values, run=how)
-    followed = sum(each.followed for each in swept)
+    formulation = first.formulation or "auto"
+    swept = sweep_parameter(case, asked.name, asked.values, formulation=formulation, run=how)
     text = (
-        f"{followed} of {len(swept)} values, from the components for a general value; those that a "
-        "single value may have besides are not looked for there"
+        f"{swept.followed} of {len(swept)} values, from the components for a general value; those "
+        "that a single value may have besides are not looked for there"
     )
     reasons = dict.fromkeys(each.reason for each in swept if each.reason)
     tail = [("followed", text), *(("by itself", reason) for reason in reasons)]
-    rows = [[asked.name, "", "paths", "components"], *(each.row() for each in swept)]
-    lines = sheet(case.title, align(rows, (1, 3)), [*tail, run_row(arguments, ())])
-    complete = all(each.decomposition.complete for each in swept)
-    return CommandAnswer(lines, complete, lambda: document_of(swept, ended=False))
+    lines = sheet(case.title, align(swept.rows(), (1, 3)), [*tail, run_row(arguments, ())])
+    return CommandAnswer(lines, swept.complete, lambda: document_of(swept, ended=False))

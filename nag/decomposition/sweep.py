@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,12 +24,17 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.decompose import decompose
 from nag.decomposition.given_points import components_through_points
+from nag.numerics.read_only import Several, equal_values
 from nag.numerics.zero_values import ON
 from nag.solving.parameter_line import parameter_line
+from nag.text.table import align, count_text, data_frame, named_line
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.tracking.track import track
 from nag.witness.witness import Decomposition, WitnessSet
+
+if TYPE_CHECKING:
+    import pandas
 
 SystemAt = Callable[[Fraction], PolynomialSystem]
 
@@ -56,6 +61,8 @@ class Swept:
     paths: int
     reason: str = ""
 
+    __eq__ = equal_values
+
     def row(self) -> list[str]:
         """The value, how its components were found, paths, and the components."""
         from nag.witness.shown import kinds, kinds_text
@@ -81,6 +88,63 @@ class Swept:
                 for c in answer.components
             ],
         }
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep(Several[Swept]):
+    """The components for many values of a parameter.
+
+    Attributes:
+        parameter: its name.
+        members: the components for each value.
+    """
+
+    parameter: str
+    members: tuple[Swept, ...]
+
+    __eq__ = equal_values
+
+    @property
+    def entries(self) -> tuple[Swept, ...]:
+        """The components for each value."""
+        return self.members
+
+    @property
+    def complete(self) -> bool:
+        """Whether those for every value are complete."""
+        return all(each.decomposition.complete for each in self.members)
+
+    @property
+    def followed(self) -> int:
+        """For how many values the components were followed from a general one."""
+        return sum(each.followed for each in self.members)
+
+    def rows(self) -> list[list[str]]:
+        """Headings, and a row for each value."""
+        return [[self.parameter, "", "paths", "components"], *(each.row() for each in self.members)]
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each component for each value.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        found = [(each, c) for each in self.members for c in each.decomposition.components]
+        return data_frame(
+            {
+                self.parameter: [float(each.value) for each, _ in found],
+                "dimension": [c.dimension for _, c in found],
+                "degree": [c.degree for _, c in found],
+                "multiplicity": [c.multiplicity for _, c in found],
+            }
+        )
+
+    def __repr__(self) -> str:
+        values = count_text(len(self.members), "value")
+        return named_line(self, f": {values} of {self.parameter}, {self.followed} followed")
+
+    def __str__(self) -> str:
+        return "\n".join(align(self.rows(), (1, 3)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,8 +32,9 @@ from nag.algebra.tokens import (
     names_in,
     nearest,
     quote,
+    unit_called,
 )
-from nag.errors import InputError
+from nag.errors import InputError, unreadable
 from nag.text.table import join_words
 
 ReadNumber = Callable[[Any], Number]
@@ -215,10 +216,29 @@ def kind_of(value: Any) -> str:
     return names.get(type(value), "a date or time")
 
 
+class ExportGiven(CaseError):
+    """An export where a case is wanted."""
+
+
+_EXPORT = re.compile(rb"\s*\{\s*\"format\"\s*:\s*\"([a-z-]{1,40})\"")
+# Bytes in which an export says what it is.
+MOST_OF_A_HEAD = 200
+
+
+def export_text_of(content: bytes) -> str:
+    """What to say of a file that begins so where a case is wanted; empty if it is no JSON."""
+    if not content.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
+        return ""
+    known = _EXPORT.match(content)
+    what = f"an export ({known[1].decode()})" if known else "JSON, as exports are"
+    return f"is {what}, and no case; `nag show` says what it holds; give the case file"
+
+
 def read_case_text(path: Path) -> str:
     """The text of a file.
 
     Raises:
+        ExportGiven: if it is JSON, however long.
         CaseError: if it cannot be read, is too long, or is not UTF-8.
     """
 
@@ -228,10 +248,11 @@ def read_case_text(path: Path) -> str:
     try:
         with open(path, "rb") as file:
             content = file.read(MAX_BYTES + 1)
-    except OSError as error:
-        fail(f"cannot be read ({error.strerror}); give the path of a case file")
-    except ValueError as error:
-        fail(f"{error}; give the path of a case file")
+    except (OSError, ValueError) as error:
+        raise CaseError(unreadable(path, error)) from None
+    said = export_text_of(content[:MOST_OF_A_HEAD])
+    if said:
+        raise ExportGiven(line_of(str(path), said))
     if len(content) > MAX_BYTES:
         fail(f"is longer than {MAX_BYTES} bytes; a case file is shorter")
     try:
@@ -289,7 +310,8 @@ def read_parameters(
         names = names_in(value) if isinstance(value, str) else frozenset()
         for unknown in sorted(names - known):
             if unit is not None and unknown in IMAGINARY_UNITS:
-                table.fail(name, imaginary_text(unknown, f"write imaginary = {unknown!r} if it is"))
+                mend = f"{unit_called(unit)}; write imaginary = {unknown!r} if it is that"
+                table.fail(name, imaginary_text(unknown, mend))
             table.fail(
                 name,
                 f"unknown name {quote(unknown)}{nearest(unknown, table.values)}; write numbers, "

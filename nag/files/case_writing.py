@@ -6,6 +6,7 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
+from pathlib import Path
 from typing import Any
 
 from nag.algebra.given import value_text
@@ -14,16 +15,28 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import is_name
 from nag.errors import NagError
 from nag.files.case_table import parse_toml, with_values
-from nag.files.cases import Case, parameter_table
+from nag.files.cases import Case, case_of_text, parameter_table
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.dh import DHLoop, HalfAngle
 from nag.mechanism.framework import Framework
-from nag.mechanism.graph import Mechanism
+from nag.mechanism.graph import Mechanism, is_equations
 from nag.mechanism.linkage import Linkage
 from nag.mechanism.model import Model
-from nag.mechanism.problem import Problem
+from nag.mechanism.problem import Problem, problem_of
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def case_of(given: Any) -> Case:
+    """The case itself, or that of a mechanism, a model, parts, a problem or equations.
+
+    Raises:
+        NagError: if a case file cannot say it; one line says what.
+    """
+    if isinstance(given, Case):
+        return given
+    described = problem_of(given) if is_equations(given) else given
+    return case_of_text(Path("case.toml"), case_text(described))
 
 
 def case_text(given: Any, title: str = "") -> str:

@@ -30,6 +30,7 @@ from nag.errors import NagError
 from nag.files.case_table import (
     CaseError,
     CaseTable,
+    ExportGiven,
     ReadNumber,
     kind_of,
     line_of,
@@ -257,6 +258,28 @@ def read_case(
     return replace(case, text=text, format=chosen, set=FixedMapping(set or {}))
 
 
+def case_of_text(path: Path, text: str) -> Case:
+    """The case of a text in TOML, as if it were that of the file at ``path``.
+
+    Raises:
+        CaseError: if it makes no sense.
+    """
+    case = _case_of_text(path, text, ("toml", "toml"), {}, (), None)
+    return replace(case, text=text)
+
+
+def case_with(case: Case, values: Mapping[str, str | Number]) -> Case:
+    """The same case with other values of some parameters.
+
+    Raises:
+        CaseError: if it has no such parameters, or makes no sense with these values.
+    """
+    given = {**case.set, **values}
+    formats = (case.format, case.format)
+    made = _case_of_text(Path(case.path), case.text, formats, given, (), None)
+    return replace(made, text=case.text, format=case.format, set=FixedMapping(given))
+
+
 def _case_of_text(
     path: Path,
     text: str,
@@ -271,7 +294,7 @@ def _case_of_text(
         return _robot_case(path, text, chosen, values, hold, at or {})
     if hold or at is not None:
         option = "hold" if hold else "at"
-        message = f"{option} is for robots in URDF or MJCF; leave it out, or write it in the case"
+        message = f"{option}: is for robots in URDF or MJCF; leave it out, or write it in the case"
         raise CaseError(line_of(str(path), message))
     if chosen != "toml":
         try:
@@ -362,8 +385,6 @@ def _format_of(path: Path, text: str, format: str) -> str:
         from nag.files.robots.reading import recognise_robot
 
         return recognise_robot(str(path), text)
-    if text.lstrip().startswith("{"):
-        raise CaseError(f"{path}: is JSON, as exports are; give the case file")
     from nag.files.formats.reading import recognise_format
 
     return recognise_format(text)
@@ -376,10 +397,11 @@ def parameter_table(path: Path, values: Mapping[str, Any]) -> CaseTable:
 
 def is_robot(path: str | os.PathLike[str], format: str = "auto") -> bool:
     """Whether a file is one of a robot, by its format: if that is not given, by its content."""
-    text = read_case_text(Path(path))
-    # Exports are no cases of any format.
-    is_json = text.lstrip().startswith("{")
-    return not is_json and _format_of(Path(path), text, format) in ROBOTS
+    try:
+        text = read_case_text(Path(path))
+    except ExportGiven:
+        return False
+    return _format_of(Path(path), text, format) in ROBOTS
 
 
 def _robot_case(

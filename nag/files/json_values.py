@@ -11,7 +11,9 @@ import json
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
+from errno import EISDIR
 from pathlib import Path
+from stat import S_ISDIR, S_ISREG
 from typing import Any, TypeVar
 
 import numpy as np
@@ -20,7 +22,7 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.given import check_path
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.errors import InputError, NagError
+from nag.errors import InputError, NagError, unreadable
 from nag.files.json_schema import find_problem, schema
 
 LARGEST_FILE = 256 * 1024**2
@@ -197,6 +199,22 @@ def _refuse_constant(name: str) -> float:
     raise NagError(f"{name} is not a JSON number")
 
 
+class _NoFileName(ValueError):
+    """A name that no file can have."""
+
+
+def _size_of(file: Path) -> int:
+    try:
+        kind = file.stat()
+    except ValueError as error:
+        raise _NoFileName(str(error)) from None
+    if S_ISDIR(kind.st_mode):
+        raise IsADirectoryError(EISDIR, os.strerror(EISDIR))
+    if not S_ISREG(kind.st_mode):
+        raise ExportError("is not a file")
+    return kind.st_size
+
+
 def read_file(path: str | os.PathLike[str], convert: Callable[[Any], T]) -> T:
     """What ``convert`` makes of the JSON document in a file.
 
@@ -206,15 +224,15 @@ def read_file(path: str | os.PathLike[str], convert: Callable[[Any], T]) -> T:
     check_path(path)
     file = Path(path)
     try:
-        if not file.is_file():
-            raise ExportError("is not a file" if file.exists() else "there is no such file")
-        if file.stat().st_size > LARGEST_FILE:
+        if _size_of(file) > LARGEST_FILE:
             raise ExportError(f"is larger than {LARGEST_FILE // 1024**2} MB")
         return convert(json.loads(file.read_bytes(), parse_constant=_refuse_constant))
     except ExportError as error:
         raise ExportError(f"{file}: {error}") from None
     except OSError as error:
-        raise ExportError(f"{file}: cannot be read: {error.strerror or error}") from None
+        raise ExportError(unreadable(file, error)) from None
+    except _NoFileName as error:
+        raise ExportError(unreadable(repr(str(file)), error)) from None
     except RecursionError:
         raise ExportError(f"{file}: is not an export: lists are nested too deep") from None
     except ValueError as error:

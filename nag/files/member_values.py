@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.from_python import exact_complex
 from nag.algebra.tokens import nearest, quote
-from nag.errors import InputError
+from nag.errors import InputError, unreadable
 
 # The imaginary unit, with the digit before it where there is one.
 _UNIT = re.compile(r"(?:(?<=([0-9.]))\*?|(?<![0-9.*]))[iIjJ]")
@@ -67,7 +67,7 @@ def _refuse_other_files(path: object) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        _fail(path, error.strerror or str(error))
+        raise InputError(unreadable(path, error)) from None
     except UnicodeDecodeError:
         _fail(path, "is no text; write a table with commas, or a NumPy array named .npy")
     except csv.Error as error:

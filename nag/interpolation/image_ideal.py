@@ -52,7 +52,7 @@ MORE_DEGREES, ENOUGH_MONOMIALS = 2, 120
 
 
 @dataclass(frozen=True, eq=False)
-class ImageIdeal(Several[Polynomial]):
+class ImageIdeal(Several[str]):
     """What is known of the closure of the image of a component.
 
     Coefficients of polynomials are in the field of the system's: rational numbers, with the roots
@@ -146,9 +146,9 @@ class ImageIdeal(Several[Polynomial]):
         return f.text(self.letters, unit=bool(self.imaginary))
 
     @property
-    def entries(self) -> tuple[Polynomial, ...]:
-        """The generators."""
-        return self.generators
+    def entries(self) -> tuple[str, ...]:
+        """The equations, as texts: polynomials know no names."""
+        return self.equations
 
     def to_sympy(self) -> list[sympy.Expr]:
         """The generators as sympy's expressions, in symbols of the variables' names.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nag.algebra.exact_ranks import rank
 from nag.decomposition.decompose import decompose
@@ -16,12 +16,17 @@ from nag.mechanism.loops import LoopStructure
 from nag.mechanism.mode_classes import ModeClass, mode_classes
 from nag.mechanism.model import Model, ModelError, model, with_loops
 from nag.mechanism.problem import problem_of
+from nag.numerics.read_only import Several, equal_values
+from nag.text.table import align, count_text, data_frame, named_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition
 
+if TYPE_CHECKING:
+    import pandas
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class ClassAnswer:
     """The components of one combination of modes, which stand for those of its whole class."""
 
@@ -29,9 +34,11 @@ class ClassAnswer:
     model: Model
     decomposition: Decomposition
 
+    __eq__ = equal_values
 
-@dataclass(frozen=True)
-class ModesAnswer:
+
+@dataclass(frozen=True, eq=False)
+class ModesAnswer(Several[ClassAnswer]):
     """The components of all assembly modes.
 
     Attributes:
@@ -47,6 +54,41 @@ class ModesAnswer:
     classes: tuple[ClassAnswer, ...]
     apart: bool
     meetings: tuple[tuple[int, int, int], ...]
+
+    __eq__ = equal_values
+
+    @property
+    def entries(self) -> tuple[ClassAnswer, ...]:
+        """The answers."""
+        return self.classes
+
+    def __repr__(self) -> str:
+        members = sum(len(each.modes.members) for each in self.classes)
+        modes = count_text(members, "combination")
+        return named_line(self, f": {modes} of modes in {len(self.classes)} classes")
+
+    def __str__(self) -> str:
+        return "\n".join(align(self.rows(), (2, 3)))
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each component of one combination of each class, counted from 1.
+
+        ``modes`` is how many combinations the class has.
+
+        Raises:
+            nag.NagError: if pandas is not installed.
+        """
+        classes = enumerate(self.classes, 1)
+        found = [(k, a, c) for k, a in classes for c in a.decomposition.components]
+        return data_frame(
+            {
+                "class": [k for k, _, _ in found],
+                "modes": [len(answer.modes.members) for _, answer, _ in found],
+                "dimension": [c.dimension for _, _, c in found],
+                "degree": [c.degree for _, _, c in found],
+                "multiplicity": [c.multiplicity for _, _, c in found],
+            }
+        )
 
     @property
     def complete(self) -> bool:

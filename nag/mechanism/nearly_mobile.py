@@ -270,7 +270,7 @@ def check_tolerance(tolerance: Any) -> float:
     check_type(tolerance, (int, float), "tolerance", "a number such as 1e-3")
     value = float(tolerance)
     if not 0 < value <= WIDEST_GAP:
-        raise NagError(f"tolerance: {value:g} is not between 0 and {WIDEST_GAP:g}")
+        raise NagError(f"tolerance: {value:g} is not positive and at most {WIDEST_GAP:g}")
     return value
 
 

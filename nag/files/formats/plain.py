@@ -27,8 +27,8 @@ def read(source: SourceFile) -> GivenSystem:
     """A system, one polynomial or equation a line; lines may end with a comma or a semicolon.
 
     A first line ``variables x, y`` gives their order, else it is alphabetical (x2 before x10); a
-    first line ``imaginary I`` says what the imaginary unit is called, and ``I`` is it where
-    variables are given and it is none of them.
+    first line ``imaginary I`` says what the imaginary unit is called. By itself ``I`` is it where
+    variables are given and it is none of them, and in values of parameters.
     Comments begin with ``#``, ``//``, ``%`` or ``--``.
 
     Raises:
@@ -54,9 +54,8 @@ def read(source: SourceFile) -> GivenSystem:
     if names is None:
         occurring = _occurring(source, lines, units or ())
         names = tuple(sorted(occurring, key=natural_order))
-    elif units is None:
-        units = ("I",)
-    return GivenSystem(names, tuple(lines), imaginary=units or ())
+    # An I that no line says what it is does not get here.
+    return GivenSystem(names, tuple(lines), imaginary=("I",) if units is None else units)
 
 
 def _occurring(source: SourceFile, lines: list[Passage], units: tuple[str, ...]) -> set[str]:
