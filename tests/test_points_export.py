@@ -88,7 +88,9 @@ def test_samples_read_back_to_the_same_bits(
         (["singular", "--free", "a"], lambda case: nag.singular(case, free="a")),
     ],
 )
-def test_the_command_writes_what_the_function_returns(arguments, asked, tmp_path: Path) -> None:
+def test_the_command_writes_what_the_function_returns(
+    arguments, asked, tmp_path: Path, capsys
+) -> None:
     case, file = tmp_path / "case.toml", tmp_path / "out.json"
     case.write_text(
         'title = "t"\nkind = "system"\nvariables = ["x", "y"]\nparameters = { a = 0 }\n'
@@ -98,6 +100,9 @@ def test_the_command_writes_what_the_function_returns(arguments, asked, tmp_path
     assert main([name, str(case), *options, "--json", str(file)]) == 0
     assert nag.read(file) == asked(case)
     assert json.loads(file.read_text())["case"]["title"] == "t"
+    capsys.readouterr()
+    assert main(["show", str(file)]) == 0
+    assert "t (case.toml)" in capsys.readouterr().out
 
 
 def test_a_file_of_points_is_shown(found, tmp_path: Path, capsys) -> None:

@@ -110,7 +110,7 @@ def _describe(
     if isinstance(found, dict):
         return title, [_describe_answer(found)], {}
     if not isinstance(found, SolveResult):
-        return title, _describe_points(found), {}
+        return title, [_origin_rows(path), *_describe_points(found)], {}
     from nag.report.solutions import solution_table
 
     blocks = [str(found).splitlines(), solution_table(found)]
@@ -142,6 +142,19 @@ def _describe_answer(document: dict[str, Any]) -> list[Row]:
     ]
     notes = [*document.get("notes", ()), *filter(None, [document.get("open")])]
     return [*rows, *(("open", note) for note in notes)]
+
+
+def _origin_rows(path: str) -> list[Row]:
+    """Of which case and component the points of an export are, where that is known."""
+    from nag.files.json_values import read_file
+
+    document = read_file(path, dict)
+    case, component = document["case"], document.get("component")
+    rows = [("of", f"{case['title']} ({case['file']})")] if case else []
+    if component:
+        size = f"dimension {component['dimension']}, degree {component['degree']}"
+        rows.append(("component", f"{component['number']}: {size}, {component['status']}"))
+    return rows
 
 
 def _describe_points(
