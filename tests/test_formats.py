@@ -788,3 +788,25 @@ def test_an_unknown_that_has_a_value_is_a_parameter(tmp_path: Path) -> None:
     ):
         with pytest.raises(nag.CaseError, match=said):
             nag.read_case(file, values)
+
+
+@pytest.mark.skipif(shutil.which("Singular") is None, reason="Singular is not installed")
+@pytest.mark.parametrize(
+    ("ring", "equations", "variables"),
+    [
+        ("0, (x, y, z), dp", ["(x + y + z + 1)^6 - 3*x*y", "x^2*y - 1", "x*y*z - 7/3"], "x, y, z"),
+        ("0, (x1, x2), dp", ["x1^2*x2 - 1", "(x1 + x2 + 3)^5 - 2", "x1 - x2"], "x1, x2"),
+    ],
+)
+def test_what_singular_prints_is_the_ideal_that_it_was_given(
+    tmp_path: Path, ring: str, equations: list[str], variables: str
+) -> None:
+    script = f"ring r = {ring};\nideal I = {', '.join(equations)};\nI;\nquit;\n"
+    words = ["Singular", "-q", "--no-rc"]
+    printed = subprocess.run(words, input=script, capture_output=True, text=True, timeout=60).stdout
+    file = tmp_path / "printed"
+    file.write_text(f"ring r = {ring};\n{printed}")
+    assert read_case(file).system.polynomials == nag.system(equations, variables).polynomials
+    file.write_text(printed)
+    with pytest.raises(CaseError, match="write the ring before it"):
+        read_case(file)
