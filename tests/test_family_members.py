@@ -127,7 +127,8 @@ def test_parameters_may_be_complex_and_of_very_different_sizes() -> None:
     [
         ({"values": [1.0]}, r"values: have shape \(1,\)"),
         ({"values": [[float("nan")]]}, "values: those of member 1 are not all finite"),
-        ({"values": "ab"}, "values: are no numbers"),
+        ({"values": "ab"}, "ab: cannot be read"),
+        ({"values": ["a", "b"]}, "values: are no numbers"),
         ({"equations": ["x^2 - s", "x"]}, "2 equations for 1 unknowns"),
         ({"parameters": ["t"]}, "parameters: 't' does not occur"),
         ({"equations": ["x^2 - I*s", "x"], "variables": ["x"]}, "2 equations for 1 unknowns"),

@@ -113,10 +113,10 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
         (lambda: nag.solve_family("x^2 - a", values=[[1]]), "parameters: which are they"),
         (lambda: nag.solve("x^2 - 1", set={"a": 1}), "set: says how a file is read"),
         (lambda: nag.certify(3), "system: something of type int is given"),
-        (lambda: nag.write(nag.sample("x*y"), "file"), "Samples is given; give what nag.decompose"),
+        (lambda: nag.write(nag.local("x*y", (0, 1)), "file"), "LocalDimension is given; give what"),
         (
             lambda: nag.write(3, "file"),
-            "3 is given; give what nag.decompose, nag.intersect or nag.solve",
+            "3 is given; give what nag.decompose, nag.intersect, nag.solve",
         ),
         (
             lambda: nag.eliminate("x - y", onto="z"),
@@ -308,7 +308,7 @@ def test_how_a_file_is_read_is_said_in_every_question(tmp_path: Path) -> None:
     (tmp_path / "line").write_text("2\n x - y;\n x + y;\n")
     assert len(nag.solve(tmp_path / "line", format="phc")) == 1
     assert nag.solve(system=["x^2 - 1"]) == nag.solve(["x^2 - 1"])
-    with pytest.raises(nag.NagError, match="hold is for robots"):
+    with pytest.raises(nag.NagError, match="hold: is for robots"):
         nag.mobility(CASES / "bennett.toml", hold="B0")
     with pytest.raises(nag.NagError, match="set: says how a file is read; Case, not the name"):
         nag.decompose(kite, set={"b": 2})
