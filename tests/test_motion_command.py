@@ -136,6 +136,7 @@ def test_a_page_of_what_does_not_move_is_said_not_to_be_written(words, tmp_path,
     page, document = tmp_path / "a.html", tmp_path / "a.json"
     options = [*rest, "--html", str(page), "--json", str(document)]
     assert ask(str(CASES / name), *options) == 1
-    assert "is not written" in capsys.readouterr().out and not page.exists()
+    # A long path may leave the words on two lines.
+    assert "is not written" in " ".join(capsys.readouterr().out.split()) and not page.exists()
     # The answer itself is whole.
     assert json.loads(document.read_text())["complete"]

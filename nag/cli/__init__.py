@@ -17,7 +17,7 @@ To add a command, write such a file, enter it in `command_line.COMMANDS`, the RE
 `nag/files/schema`, to which `tests/test_schemas.py` holds what is written.
 
 The way of ``nag decompose cases/bennett.toml`` from the command to the table leads through
-`cli/command_line`, `cli/decompose`, `cli/arguments`, `cli/running`; `files/cases`,
+`cli/command_line`, `cli/arguments`, `cli/decompose`, `cli/running`; `files/cases`,
 `files/mechanism_case`; `mechanism/graph`, `mechanism/problem`, `mechanism/model`,
 `mechanism/loops`, `mechanism/formulations`, `mechanism/half_angles`, `mechanism/loop_product`,
 `mechanism/joint_factors`; `algebra/system`; `tracking/run`; `decomposition/decompose`,
