@@ -218,15 +218,19 @@ def test_other_assembly_modes_have_no_poses_of_their_own() -> None:
         nag.model(poses("3-rps").mechanism, "P", modes=(("R1", 1),))
 
 
-def test_the_command_says_that_components_are_those_of_poses(
-    capsys: pytest.CaptureFixture[str],
+def test_the_command_and_its_export_say_that_components_are_those_of_poses(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    case = str(CASES / "robots" / "3-rps.toml")
-    assert main(["decompose", case, "--formulation", "P", "--quiet"]) == 0
+    case, export = str(CASES / "robots" / "3-rps.toml"), str(tmp_path / "3-rps.json")
+    assert main(["decompose", case, "--formulation", "P", "--json", export, "--quiet"]) == 0
     text = " ".join(capsys.readouterr().out.split())
     assert "components of its poses; the joints may have several above one" in text
     assert "not seen components are those of the platform's poses, closed" in text
     assert "agrees with what is known" in text
+    assert main(["show", export]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "of 3-RPS (3-rps.toml) model formulation P: spatial" in shown
+    assert "components of its poses" in shown
 
 
 def test_poses_have_fewer_components_than_configurations_where_legs_move_in_one_pose():

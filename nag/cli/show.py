@@ -106,7 +106,8 @@ def _describe(
     found = read(path)
     title = os.path.basename(path)
     if isinstance(found, Decomposition):
-        return title, _describe_components(found), {"ask": QUESTIONS["components"]}
+        blocks = [_origin_rows(path), *_describe_components(found)]
+        return title, blocks, {"ask": QUESTIONS["components"]}
     if isinstance(found, dict):
         return title, [_describe_answer(found)], {}
     if not isinstance(found, SolveResult):
@@ -145,12 +146,14 @@ def _describe_answer(document: dict[str, Any]) -> list[Row]:
 
 
 def _origin_rows(path: str) -> list[Row]:
-    """Of which case and component the points of an export are, where that is known."""
+    """Of which case, model and component an export is, where that is known."""
     from nag.files.json_values import read_file
 
     document = read_file(path, dict)
-    case, component = document["case"], document.get("component")
+    case, component = document.get("case"), document.get("component")
     rows = [("of", f"{case['title']} ({case['file']})")] if case else []
+    if document.get("formulation") and document.get("reason"):
+        rows.append(("model", f"formulation {document['formulation']}: {document['reason']}"))
     if component:
         size = f"dimension {component['dimension']}, degree {component['degree']}"
         rows.append(("component", f"{component['number']}: {size}, {component['status']}"))

@@ -64,7 +64,7 @@ class Origin:
         title: title of the case.
         file: name of the case file, without its folder.
         kind: ``"system"``, or ``"mechanism"`` where it is the model of one, assembled or not.
-        formulation: of a mechanism's model or a table: ``"E"``, ``"H"`` or ``"S"``.
+        formulation: of a mechanism's model or a table: ``"E"``, ``"H"``, ``"S"`` or ``"P"``.
         reason: why that model was chosen.
     """
 
