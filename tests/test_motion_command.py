@@ -6,10 +6,12 @@ import csv
 import json
 from pathlib import Path
 
+import jsonschema
 import numpy as np
 import pytest
 
 from nag.cli import main
+from nag.files.json_schema import schema
 from nag.kinematics.joint_values import Coordinate
 from nag.kinematics.shown import value_text
 
@@ -74,6 +76,49 @@ def test_assemblies_at_a_value_of_a_joint_are_listed(capsys) -> None:
     printed = capsys.readouterr().out
     assert "A at 30.00\u00b0: 2 real assemblies" in printed
     assert "44.09\u00b0" in printed
+
+
+KITE = str(CASES / "planar" / "four-bar-kite.toml")
+
+
+def test_a_circuit_on_which_a_joint_stands_still_elsewhere_has_no_assembly(capsys) -> None:
+    # Folded, both long links are one and B and D stand still; as a kite they turn.
+    for joint in "BD":
+        for options in ([], ["--circuit", "2"]):
+            assert ask(KITE, "--drive", f"{joint}=20", *options) == 0
+            printed = capsys.readouterr().out
+            assert f"{joint} at 20.00\u00b0: 2 real assemblies\n" in printed
+    assert ask(KITE, "--drive", "D=20", "--circuit", "1") == 0
+    assert "D at 20.00\u00b0: 0 real assemblies\n" in capsys.readouterr().out
+
+
+def test_a_circuit_at_a_value_throughout_is_said(tmp_path, capsys) -> None:
+    file = tmp_path / "a.json"
+    assert ask(KITE, "--drive", "D=0", "--json", str(file)) == 0
+    printed = capsys.readouterr().out
+    assert "D at 0.00\u00b0: circuit 1 is at this value throughout; 2 real" in printed
+    document = json.loads(file.read_text())
+    jsonschema.validate(document, schema("nag-motion"))
+    assert document["throughout"] == [1]
+    assert {each["circuit"] for each in document["assemblies"]} == {2}
+    assert ask(KITE, "--drive", "D=0:20:2") == 0
+    printed = capsys.readouterr().out
+    assert "throughout  0.00\u00b0: circuit 1 is at this value throughout\n" in printed
+    assert printed.count("at this value") == 1
+
+
+def test_a_joint_that_moves_on_no_circuit_cannot_be_driven(tmp_path, capsys) -> None:
+    # Two bars on the four-bar's base make a triangle with it.
+    case = tmp_path / "triangle.toml"
+    four = (CASES / "planar" / "four-bar.toml").read_text().split("[[truth")[0]
+    bars = [
+        f'[[link]]\nname = "{n}"\npins = ["{p}", "F"]\nlength = 3\n'
+        for n, p in (("pA", "A"), ("qD", "D"))
+    ]
+    case.write_text(four + "".join(bars))
+    assert ask(str(case), "--drive", "A:pA=20") == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.endswith("--drive: A:pA never moves")
 
 
 def test_one_circuit_may_be_asked_for(tmp_path, capsys) -> None:

@@ -231,7 +231,7 @@ def _run_through(
 ) -> CommandAnswer:
     """What is left of a motion with a joint at one value after another."""
     from nag.kinematics.driven_motion import driven_motion
-    from nag.kinematics.shown import continuation_rows, driven_rows, motion_rows
+    from nag.kinematics.shown import continuation_rows, driven_rows, motion_rows, throughout_rows
 
     if options.circuit is not None:
         raise UsageError("--circuit: leave it out where a joint is driven through values")
@@ -262,7 +262,8 @@ def _run_through(
     elif options.html is not None:
         tail.append(_no_page(options.html, "at each value nothing moves"))
     head = [row for row in motion_rows(found[0]) if row[0] in ("model", "mobility", "idle")]
-    blocks: list[Any] = [head, driven_rows(found), continuation_rows(found)]
+    rows = [*continuation_rows(found), *throughout_rows(found)]
+    blocks: list[Any] = [head, driven_rows(found), rows]
     answer = answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
     return _with_page(answer, options, moving)
 

@@ -360,7 +360,20 @@ def is_same_assembly(scene: Scene, one: DrivenAssembly, other: DrivenAssembly) -
 def has_value(scene: Scene, assembly: DrivenAssembly, drive: Drive) -> bool:
     """Whether a joint has a value in an assembly."""
     column = check_drive(scene, drive)
-    away = float(assembly.values[column] - drive.value)
+    return _is_at(scene, column, assembly.values[column], drive.value)
+
+
+def has_value_throughout(scene: Scene, values: Values, drive: Drive) -> bool:
+    """Whether a joint stands still at a value all along a motion."""
+    column = check_drive(scene, drive)
+    return bool(values.still[column]) and _is_at(
+        scene, column, values.values[0, column], drive.value
+    )
+
+
+def _is_at(scene: Scene, column: int, value: float, target: float) -> bool:
+    """Whether a coordinate's value is another one; angles that differ by whole turns are one."""
+    away = float(value - target)
     if joint_coordinates(scene)[column].kind == "angle":
         return abs((away + np.pi) % (2 * np.pi) - np.pi) < SAME
     return abs(away) < SAME * scene.size
@@ -441,12 +454,16 @@ def _unit_changes(system: PolynomialSystem, x: np.ndarray) -> np.ndarray:
 def assemblies_on(
     path: Path, values: Values, drive: Drive, circuit: int, end: float
 ) -> list[DrivenAssembly]:
-    """The assemblies on one path, as far as ``end``, in their order."""
+    """The assemblies on one path, as far as ``end``, in their order.
+
+    None where the joint stands still: what has the value is no single place there, but all of the
+    path or nothing (`has_value_throughout`).
+    """
     scene = path.curve.scene
     column = check_drive(scene, drive)
     each = values.coordinates[column]
     if values.still[column]:
-        raise NagError(f"drive: {each.name} never moves on circuit {circuit}")
+        return []
     step = path.length / (len(path.arc) - 1)
     nodes = [(float(i), float(v)) for i, v in enumerate(values.values[:, column])]
     nodes += [(p.arc / step, p.value) for p in values.turning if p.coordinate == each.name]

@@ -19,6 +19,7 @@ from nag.kinematics.driven import (
     check_drive,
     find_doubts_of_held,
     has_value,
+    has_value_throughout,
     hold,
     place_frames,
     problem_to_move,
@@ -249,6 +250,8 @@ class Motion(Several[Circuit]):
         held: joints that are held at values, if the circuits are those of what is left.
         poses: bodies that are held at places.
         idle_count: how many of the freedoms are those of parts that turn idly.
+        throughout: numbers of the circuits on which what was asked to be held stands still at its
+            value, so that it has it all along them; `assemblies` are those of the others.
     """
 
     scene: Scene
@@ -268,6 +271,7 @@ class Motion(Several[Circuit]):
     held: tuple[Drive, ...] = ()
     poses: tuple[Pose, ...] = ()
     idle_count: int = 0
+    throughout: tuple[int, ...] = ()
 
     __eq__ = equal_values
 
@@ -367,14 +371,16 @@ class Motion(Several[Circuit]):
         return own
 
     def only_circuit(self, number: int) -> Motion:
-        """The same with one circuit; of the assemblies at a value those that are on it.
+        """The same with one circuit; of what is at a value that which is on it.
 
         Raises:
             NagError: if there is none of that number.
         """
         on_it = tuple(each for each in self.assemblies if each.circuit == number)
         assemblies = self.assemblies if self.drive is None else on_it
-        return replace(self, circuits=(self.circuit(number),), assemblies=assemblies)
+        throughout = tuple(each for each in self.throughout if each == number)
+        own = (self.circuit(number),)
+        return replace(self, circuits=own, assemblies=assemblies, throughout=throughout)
 
     def document(self) -> dict[str, Any]:
         """The motion as a JSON object without its head; angles are in radians."""
@@ -401,6 +407,7 @@ class Motion(Several[Circuit]):
                 {"body": each.body, "place": each.place, "quaternion": each.quaternion}
                 for each in self.poses
             ],
+            "throughout": list(self.throughout),
             "assemblies": [each.document() for each in self.assemblies],
             "circuits": [c.document(scene) for c in self.circuits],
         }
@@ -642,7 +649,13 @@ def _at_value(
     """A motion with the assemblies on its circuits at a value of a joint, each once.
 
     Circuits to infinity are not followed all the way: with the joint held, the others are found.
+
+    Raises:
+        NagError: if the joint moves on none of the circuits.
     """
+    column = check_drive(motion.scene, drive)
+    if made and all(each.values.still[column] for each in made):
+        raise NagError(f"drive: {drive.coordinate} never moves{_on_circuits(motion)}")
     candidates = [
         assembly
         for each in made
@@ -665,7 +678,19 @@ def _at_value(
         except NagError as error:
             notes.append(f"assemblies beyond where circuits to infinity are followed: {error}")
     assemblies = tuple(distinct_assemblies(motion.scene, candidates))
-    return replace(motion, drive=drive, assemblies=assemblies, notes=tuple(notes))
+    throughout = tuple(
+        each.circuit.number
+        for each in made
+        if has_value_throughout(motion.scene, each.values, drive)
+    )
+    return replace(
+        motion, drive=drive, assemblies=assemblies, notes=tuple(notes), throughout=throughout
+    )
+
+
+def _on_circuits(motion: Motion) -> str:
+    """Of which circuits a refusal speaks, where it is not of all."""
+    return "" if motion.which == "all" else " on the circuits through the reference configuration"
 
 
 def _motion_on(

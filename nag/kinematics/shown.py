@@ -206,16 +206,40 @@ def _numbers_text(numbers: Sequence[float]) -> str:
 
 def _assemblies_text(motion: Motion) -> str:
     count = count_text(len(motion.assemblies), "real assembly", "real assemblies")
+    throughout = throughout_text(motion)
+    if throughout:
+        return f": {throughout}; {count} besides"
     if not motion.circuits or motion.drive is not None:
         return f": {count}"
     return f"; {count} besides that do not move" if motion.assemblies else ""
+
+
+def throughout_text(motion: Motion) -> str:
+    """Which circuits have the value all along, as the joint stands still there; empty if none."""
+    if not motion.throughout:
+        return ""
+    noun, verb = ("circuit", "is") if len(motion.throughout) == 1 else ("circuits", "are")
+    numbers = join_words([str(number) for number in motion.throughout])
+    return f"{noun} {numbers} {verb} at this value throughout"
+
+
+def throughout_rows(driven: DrivenMotion) -> list[tuple[str, str]]:
+    """The values that circuits have all along: a labelled line for each."""
+    return [
+        ("throughout", f"{value_text(driven.coordinate, value)}: {throughout_text(motion)}")
+        for value, motion in zip(driven.values, driven.motions, strict=True)
+        if motion.throughout
+    ]
 
 
 def driven_rows(driven: DrivenMotion) -> list[str]:
     """The table of a joint driven through values: a line for each."""
     rows = [[driven.coordinate.name, "circuits", "lengths", "assemblies"]]
     for value, motion in zip(driven.values, driven.motions, strict=True):
-        moving = () if motion.drive is not None else motion.circuits
+        # Along the circuits of one freedom the joint itself moves, but on those at the value.
+        moving = [
+            c for c in motion.circuits if motion.drive is None or c.number in motion.throughout
+        ]
         lengths = ", ".join(f"{c.length:.4g}" for c in moving)
         shown = value_text(driven.coordinate, value)
         rows.append([shown, str(len(moving)), lengths, str(len(motion.assemblies))])
@@ -238,6 +262,7 @@ def driven_text(driven: DrivenMotion) -> str:
     """What is seen at the prompt."""
     values = count_text(len(driven), "value")
     rows = [("model", driven.motions[0].reason), *continuation_rows(driven)]
+    rows += throughout_rows(driven)
     rows += [("open", note) for note in driven.notes]
     return lines_of(f"{driven.coordinate.name} driven through {values}", rows)
 
