@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from pathlib import Path
 
 import jsonschema
@@ -110,15 +111,67 @@ def test_a_circuit_at_a_value_throughout_is_said(tmp_path, capsys) -> None:
 def test_a_joint_that_moves_on_no_circuit_cannot_be_driven(tmp_path, capsys) -> None:
     # Two bars on the four-bar's base make a triangle with it.
     case = tmp_path / "triangle.toml"
-    four = (CASES / "planar" / "four-bar.toml").read_text().split("[[truth")[0]
     bars = [
         f'[[link]]\nname = "{n}"\npins = ["{p}", "F"]\nlength = 3\n'
         for n, p in (("pA", "A"), ("qD", "D"))
     ]
-    case.write_text(four + "".join(bars))
+    case.write_text(FOUR_BAR + "".join(bars))
     assert ask(str(case), "--drive", "A:pA=20") == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert line.endswith("--drive: A:pA never moves")
+
+
+FOUR_BAR = (CASES / "planar" / "four-bar.toml").read_text().split("[[truth")[0]
+HANGING = '[[link]]\nname = "pendulum"\npins = ["C", "H"]\nlength = 1\n'
+
+
+@pytest.mark.parametrize("first", [False, True])
+def test_a_link_that_hangs_neither_moves_as_loops_do_nor_stands_still(
+    first: bool, tmp_path, capsys
+) -> None:
+    case, file = tmp_path / "hanging.toml", tmp_path / "a.json"
+    head, links = FOUR_BAR.split("[[link]]", 1)
+    links = f"[[link]]{links}"
+    case.write_text(head + (HANGING + links if first else links + HANGING))
+    assert ask(str(case), "--json", str(file)) == 0
+    printed = capsys.readouterr().out
+    assert "joint C:pendulum in no loop, moving freely with 1 freedom\n" in printed
+    assert "it moves with 2 freedoms, 1 of them of joints in no loop, counting" in printed
+    assert printed.count("C:pendulum  moves freely, in no loop\n") == 2
+    document = json.loads(file.read_text())
+    jsonschema.validate(document, schema("nag-motion"))
+    (own,) = [c["name"] for c in document["coordinates"] if not c["in_loop"]]
+    assert own == "C:pendulum"
+    for circuit in document["circuits"]:
+        assert not any(joint["still"] for joint in circuit["joints"])
+        # The rocker's angle is that against the coupler, wherever the pendulum stands in the file.
+        (rocker,) = [j for j in circuit["joints"] if j["name"] == "C:rocker"]
+        assert len(rocker["turning_points"]) == 2
+    assert ask(str(case), "--drive", "C:pendulum=20") == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    said = "--drive: C:pendulum is in no loop: it turns freely, and nothing else moves with it"
+    assert line.endswith(said)
+
+
+def test_a_hanging_joint_of_a_mechanism_is_not_still(tmp_path, capsys) -> None:
+    case = tmp_path / "hanging.toml"
+    bennett = (CASES / "bennett.toml").read_text()
+    body = json.loads(re.findall(r"bodies = (.*)", bennett)[0])[0]
+    head, joints = bennett.split("[[joint]]", 1)
+    hanging = f'name = "H"\ntype = "prismatic"\nbodies = ["{body}", "bob"]\n'
+    place = "point = [0, 0, 0]\naxis = [0, 0, 1]\n\n"
+    case.write_text(f"{head}[[joint]]\n{hanging}{place}[[joint]]{joints}")
+    assert ask(str(case)) == 0
+    printed = capsys.readouterr().out
+    assert "never move" not in printed and "\nH      moves freely, in no loop\n" in printed
+    assert ask(str(case), "--drive", "H=20") == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    said = "--drive: H is in no loop: it slides freely, and nothing else moves with it"
+    assert line.endswith(said)
+    assert ask(str(case), "--drive", "J0=10") == 0
+    printed = capsys.readouterr().out
+    head = next(line for line in printed.splitlines() if line.startswith("assembly"))
+    assert head.split() == ["assembly", "circuit", "J0", "J1", "J2", "J3"]
 
 
 def test_one_circuit_may_be_asked_for(tmp_path, capsys) -> None:

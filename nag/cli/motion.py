@@ -261,7 +261,9 @@ def _run_through(
         tail.append(("page", options.html))
     elif options.html is not None:
         tail.append(_no_page(options.html, "at each value nothing moves"))
-    head = [row for row in motion_rows(found[0]) if row[0] in ("model", "mobility", "idle")]
+    head = [
+        row for row in motion_rows(found[0]) if row[0] in ("model", "mobility", "idle", "hanging")
+    ]
     rows = [*continuation_rows(found), *throughout_rows(found)]
     blocks: list[Any] = [head, driven_rows(found), rows]
     answer = answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)

@@ -210,15 +210,23 @@ def check_drive(scene: Scene, drive: Drive) -> int:
     """The column of the coordinate that is held.
 
     Raises:
-        NagError: if there is none of that name, or the value is no number.
+        NagError: if there is none of that name, it is in no loop, or the value is no number.
     """
-    names = [each.name for each in joint_coordinates(scene)]
+    coordinates = joint_coordinates(scene)
+    names = [each.name for each in coordinates]
     if drive.coordinate not in names:
         there = f"they are {join_words(names)}" if names else "no joint has one"
         raise NagError(f"drive: {drive.coordinate[:40]!r} is no angle or slide; {there}")
     if not abs(drive.value) <= LARGEST:
         raise NagError(f"drive: the value has to be a number, {LARGEST:.0e} at most")
-    return names.index(drive.coordinate)
+    column = names.index(drive.coordinate)
+    each = coordinates[column]
+    if not each.in_loop:
+        verb = "turns" if each.kind == "angle" else "slides"
+        raise NagError(
+            f"drive: {each.joint} is in no loop: it {verb} freely, and nothing else moves with it"
+        )
+    return column
 
 
 def hold(

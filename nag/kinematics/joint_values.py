@@ -20,17 +20,24 @@ class Coordinate:
         name: the joint's, with what it is behind it where the joint has several.
         joint: the joint's name.
         kind: ``"angle"``, in radians, or ``"slide"``, a length.
+        in_loop: whether the joint is in a loop; else it moves freely, whatever its value here.
     """
 
     name: str
     joint: str
     kind: Literal["angle", "slide"]
+    in_loop: bool = True
 
 
 def joint_coordinates(scene: Scene) -> tuple[Coordinate, ...]:
     """What `joint_values` gives, in its order; spherical joints have no angles."""
     return tuple(
-        Coordinate(f"{joint.name}.{part}" if len(parts) > 1 else joint.name, joint.name, kind)
+        Coordinate(
+            f"{joint.name}.{part}" if len(parts) > 1 else joint.name,
+            joint.name,
+            kind,
+            joint.in_loop,
+        )
         for joint in scene.joints
         for parts in [COORDINATES[JOINT_TYPES[joint.type].factors]]
         for part, kind in parts

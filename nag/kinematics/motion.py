@@ -40,6 +40,7 @@ from nag.kinematics.scene import Scene, scene_of
 from nag.kinematics.turning_points import Values, values_along
 from nag.kinematics.walks import CurveWalk, walks_of
 from nag.mechanism import PLATFORM_ALONE
+from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem
 from nag.mechanism.real_assemblies import obstacle, of_real_assemblies
@@ -296,13 +297,23 @@ class Motion(Several[Circuit]):
     def sentence(self) -> str:
         """The mobility in one sentence."""
         freedoms = count_text(self.freedoms, "freedom")
+        idle, hanging = self.idle_count, self.hanging_count
         if not self.freedoms:
             return f"it does not move, counting predicts {self.counted}"
-        if self.freedoms == self.idle_count:
-            return f"nothing moves but idly, with {freedoms}, counting predicts {self.counted}"
-        if self.idle_count:
-            freedoms += f", {self.idle_count} of them idle"
+        if self.freedoms == idle + hanging:
+            parts = ["idly"] * bool(idle) + ["what is in no loop"] * bool(hanging)
+            but = " and ".join(parts)
+            return f"nothing moves but {but}, with {freedoms}, counting predicts {self.counted}"
+        if idle:
+            freedoms += f", {idle} of them idle"
+        if hanging:
+            freedoms += f", {hanging} of them of joints in no loop"
         return f"it moves with {freedoms}, counting predicts {self.counted}"
+
+    @property
+    def hanging_count(self) -> int:
+        """How many of the freedoms are those of joints in no loop."""
+        return sum(JOINT_TYPES[joint.type].freedoms for joint in self.scene.hanging)
 
     def table(self, circuit: int = 1, *, angles: str = "degrees") -> dict[str, np.ndarray]:
         """One circuit as columns, each of shape ``(k,)``, as `pandas.DataFrame` takes them.
@@ -395,7 +406,8 @@ class Motion(Several[Circuit]):
             "bodies": list(scene.bodies),
             "ground": scene.bodies[scene.ground],
             "coordinates": [
-                {"name": c.name, "joint": c.joint, "kind": c.kind} for c in joint_coordinates(scene)
+                {"name": c.name, "joint": c.joint, "kind": c.kind, "in_loop": c.in_loop}
+                for c in joint_coordinates(scene)
             ],
             "components": [
                 {"dimension": c.dimension, "degree": c.degree, "multiplicity": c.multiplicity}

@@ -9,7 +9,7 @@ it, after that joint's turn.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any
@@ -47,6 +47,8 @@ class SceneJoint(FixedArrays):
         frames: quaternions that take vectors of the joint to the bodies' frames, shape ``(2, 4)``;
             where the joint has not moved both give the same vector.
         axis, second_axis: unit vectors of the joint as it was not moved, or None.
+        in_loop: whether it is in a loop; else it moves freely, the equations say nothing of it, and
+            it is shown as it was not moved.
     """
 
     name: str
@@ -56,6 +58,7 @@ class SceneJoint(FixedArrays):
     frames: np.ndarray
     axis: np.ndarray | None
     second_axis: np.ndarray | None = None
+    in_loop: bool = True
 
     __eq__ = equal_values
 
@@ -109,6 +112,11 @@ class Scene(FixedArrays):
             places[body].append(point)
         return np.array([np.mean(own, axis=0) if own else np.zeros(3) for own in places])
 
+    @property
+    def hanging(self) -> tuple[SceneJoint, ...]:
+        """The joints in no loop, which move freely."""
+        return tuple(joint for joint in self.joints if not joint.in_loop)
+
     @cached_property
     def size(self) -> float:
         """The largest distance of two joints of one body; 1 where all are in one place."""
@@ -161,6 +169,7 @@ def _of_mechanism(made: Model) -> Scene:
     mechanism = made.mechanism
     names = mechanism.body_names
     back = np.array([turn_back(_vector(mechanism.orientation(b))) for b in names])
+    hanging = {joint.name for joint in made.structure.outside}
     joints = []
     for joint in mechanism.joints:
         bodies = tuple(names.index(b) for b in joint.bodies)
@@ -174,6 +183,7 @@ def _of_mechanism(made: Model) -> Scene:
                 frames,
                 None if joint.axis is None else _unit(joint.axis),
                 None if joint.second_axis is None else _unit(joint.second_axis),
+                joint.name not in hanging,
             )
         )
 
@@ -215,18 +225,33 @@ def _poses_of(made: Model, placed: Configuration, count: int) -> Poses:
 
 
 def _pin_joints(
-    bodies: Sequence[str], pins: Sequence[Sequence[str]], shapes: Sequence[np.ndarray]
+    bodies: Sequence[str],
+    pins: Sequence[Sequence[str]],
+    shapes: Sequence[np.ndarray],
+    hanging: Collection[str] = (),
 ) -> tuple[SceneJoint, ...]:
-    """Revolute joints of plates that share pins; the first plate of a pin carries it."""
+    """Revolute joints of plates that share pins; the first plate of a pin carries it.
+
+    Of several the first in a loop does, so that the others' angles against it are those of loops.
+
+    Args:
+        hanging: names of plates in no loop.
+    """
     found = []
     for pin in dict.fromkeys(p for own in pins for p in own):
         at = [(b, own.index(pin)) for b, own in enumerate(pins) if pin in own]
+        if len(at) > 2:
+            at.sort(key=lambda own: bodies[own[0]] in hanging)
         (first, place), *others = at
         for body, other in others:
             name = pin if len(others) == 1 else f"{pin}:{bodies[body]}"
             points = np.array([shapes[first][place], shapes[body][other]])
             frames = np.array([IDENTITY, IDENTITY])
-            joint = SceneJoint(name, "revolute", (first, body), points, frames, np.array(UP))
+            in_loop = not {bodies[first], bodies[body]} & set(hanging)
+            axis = np.array(UP)
+            joint = SceneJoint(
+                name, "revolute", (first, body), points, frames, axis, in_loop=in_loop
+            )
             found.append(joint)
     return tuple(found)
 
@@ -257,7 +282,7 @@ def _of_linkage(made: LinkageModel) -> Scene:
     return Scene(
         names,
         names.index(made.linkage.ground),
-        _pin_joints(names, [link.pins for link in links], shapes),
+        _pin_joints(names, [link.pins for link in links], shapes, made.free),
         np.array(UP),
         False,
         own,

@@ -32,6 +32,8 @@ def _no_zero(value: float) -> float:
 def range_text(values: Values, index: int) -> str:
     """How far a joint moves in a circuit."""
     each = values.coordinates[index]
+    if not each.in_loop:
+        return "moves freely, in no loop"
     if values.still[index]:
         return "does not move"
     low, high = (value_text(each, x) for x in values.ranges[index])
@@ -78,7 +80,7 @@ def circuit_rows(motion: Motion, circuit: Circuit) -> list[str]:
     if not values.coordinates:
         return []
     rows = [["joint", "moves", "stands still at"]]
-    moving = [k for k in range(len(values.coordinates)) if not values.still[k]]
+    moving = [k for k, c in enumerate(values.coordinates) if c.in_loop and not values.still[k]]
     for i, each in enumerate(values.coordinates):
         own = [p for p in values.turning if p.coordinate == each.name]
         driver = next((k for k in moving if k != i), None)
@@ -129,12 +131,25 @@ def motion_rows(motion: Motion) -> list[tuple[str, str]]:
         rows.append(("rigid", rigid))
     if motion.idle:
         rows.append(("idle", motion.idle))
+    hanging = hanging_text(motion)
+    if hanging:
+        rows.append(("hanging", hanging))
     still = _never_moving(motion)
     if still:
         rows.append(
             ("still", f"{join_words(still)} never {'moves' if len(still) == 1 else 'move'}")
         )
     return rows
+
+
+def hanging_text(motion: Motion) -> str:
+    """Which joints are in no loop, and with how many freedoms they move; empty if none is."""
+    names = [joint.name for joint in motion.scene.hanging]
+    if not names:
+        return ""
+    noun = "joint" if len(names) == 1 else "joints"
+    freedoms = count_text(motion.hanging_count, "freedom")
+    return f"{noun} {join_words(names)} in no loop, moving freely with {freedoms}"
 
 
 def rigid_text(motion: Motion) -> str:
@@ -170,14 +185,17 @@ def _never_moving(motion: Motion) -> list[str]:
 
 
 def assembly_rows(motion: Motion) -> list[str]:
-    """The table of assemblies: a line for each; of those besides circuits for the first ones."""
+    """The table of assemblies: a line for each; of those besides circuits for the first ones.
+
+    Joints in no loop may have any value in each, and are left out.
+    """
     coordinates = joint_coordinates(motion.scene)
+    own = [i for i, each in enumerate(coordinates) if each.in_loop]
     circuit = ["circuit"] if motion.drive is not None else []
     besides = motion.circuits and not circuit
-    rows = [["assembly", *circuit, *(c.name for c in coordinates)]]
+    rows = [["assembly", *circuit, *(coordinates[i].name for i in own)]]
     for number, each in enumerate(motion.assemblies[: MOST_BESIDES if besides else None], start=1):
-        values = zip(coordinates, each.values, strict=True)
-        texts = [value_text(c, value) for c, value in values]
+        texts = [value_text(coordinates[i], each.values[i]) for i in own]
         rows.append([str(number), *(str(each.circuit or "-") for _ in circuit), *texts])
     return align(rows)
 

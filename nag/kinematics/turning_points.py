@@ -47,7 +47,7 @@ class Values(FixedArrays):
         turning: dead points, along the motion.
         ranges: smallest and largest value of each, dead points included.
         turns: by how many whole turns the angle of each grows along a closed motion, or 0.
-        still: whether each never moves.
+        still: whether each never moves; of what is in no loop, and moves freely, it is not said.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -70,12 +70,13 @@ def values_along(path: Path) -> Values:
     scene = path.curve.scene
     coordinates = joint_coordinates(scene)
     values = unwrap_angles(coordinates, joint_values(scene, path.poses))
-    still = np.ptp(values, axis=0) < STILL
+    in_loop = np.array([each.in_loop for each in coordinates], dtype=bool)
+    still = (np.ptp(values, axis=0) < STILL) & in_loop
     whole = np.zeros(len(coordinates), dtype=int)
     if path.walk.closed:
         angles = np.array([each.kind == "angle" for each in coordinates], dtype=bool)
         whole[angles] = np.round((values[-1] - values[0])[angles] / (2 * np.pi)).astype(int)
-    turning = _refine(path, coordinates, values, _find_extremes(path, values, still))
+    turning = _refine(path, coordinates, values, _find_extremes(path, values, in_loop & ~still))
     ranges = np.stack([values.min(axis=0), values.max(axis=0)], axis=-1)
     for i, each in enumerate(coordinates):
         own = [p.value for p in turning if p.coordinate == each.name]
@@ -99,7 +100,7 @@ class _Extremes:
     near: np.ndarray
 
 
-def _find_extremes(path: Path, values: np.ndarray, still: np.ndarray) -> _Extremes:
+def _find_extremes(path: Path, values: np.ndarray, moving: np.ndarray) -> _Extremes:
     """The samples at which coordinates that move reverse."""
     chart = path.chart
     if path.walk.closed:
@@ -107,7 +108,7 @@ def _find_extremes(path: Path, values: np.ndarray, still: np.ndarray) -> _Extrem
         values = np.vstack([values[-2] - values[-1] + values[0], values])
         chart = np.concatenate([path.before_first[None], chart])
     found = []
-    for column in np.flatnonzero(~still).tolist():
+    for column in np.flatnonzero(moving).tolist():
         steps = np.diff(values[:, column])
         # A value that stays the same to rounding has no direction of its own.
         signs = np.sign(np.where(np.abs(steps) < STILL / 10, 0.0, steps))

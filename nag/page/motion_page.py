@@ -21,6 +21,7 @@ from nag.kinematics.scene import Scene
 from nag.kinematics.shown import (
     circuits_text,
     crossing_text,
+    hanging_text,
     range_text,
     turning_text,
     value_text,
@@ -354,6 +355,9 @@ def facts(motion: Motion) -> list[list[str]]:
         rows.append([name, f"{text}; {circuits_text(motion, on)}"])
     if motion.idle:
         rows.append(["idle", motion.idle])
+    hanging = hanging_text(motion)
+    if hanging:
+        rows.append(["hanging", hanging])
     if motion.left_out:
         rows.append(["left out", motion.left_out])
     rows += [["open", note] for note in motion.notes]
