@@ -17,6 +17,7 @@ from nag.kinematics.joint_values import joint_coordinates, joint_errors
 from nag.kinematics.motion import Motion, held_motion
 from nag.kinematics.poses import turn_product, turn_vectors
 from nag.kinematics.rigid_assemblies import isolated_assemblies
+from nag.kinematics.shown import assembly_rows
 from nag.mechanism.joint_chains import JointChains
 from nag.mechanism.leg_ways import count_ways, find_leg_ways
 from nag.mechanism.legs import Leg
@@ -111,6 +112,47 @@ def test_an_arm_reaches_the_pose_of_its_hand_in_every_assembly(seed: int) -> Non
         place, turned = forward(case.mechanism, motion, each, hand)
         assert np.allclose(place, pose[:3], atol=FIT)
         assert abs(abs(turned @ turn) / np.linalg.norm(turn) - 1) < FIT
+
+
+ARM = [
+    ("j1", "base", "l1", (0, 0, 0), (0, 0, 1)),
+    ("j2", "l1", "l2", ("3/10", 0, "1/2"), (0, 1, 0)),
+    ("j3", "l2", "l3", ("3/10", 0, "3/2"), (0, 1, 0)),
+    ("j4", "l3", "l4", ("1/2", "1/10", "8/5"), (1, 0, 0)),
+    ("j5", "l4", "l5", ("7/5", "1/10", "8/5"), (0, 1, 0)),
+    ("j6", "l5", "tool", ("7/5", "1/10", "8/5"), (1, 0, 0)),
+]
+
+
+@pytest.mark.parametrize("behind", [False, True])
+def test_what_hangs_behind_a_placed_body_says_nothing_of_whether_its_pose_is_reached(
+    behind: bool,
+) -> None:
+    # Five joints take the body to a pose of five freedoms: of six numbers that are rounded none.
+    joints = [
+        nag.Joint(name, "revolute", bodies, tuple(map(Fraction, point)), axis)
+        for name, *bodies, point, axis in ARM[: 6 if behind else 5]
+    ]
+    arm = nag.Mechanism("base", tuple(joints))
+    drawn = nag.motion(arm, pose={"l5": (0, 0, 0)})
+    assert drawn.complete and len(drawn.assemblies) == 2
+    assert (drawn.freedoms, drawn.hanging_count) == (behind, behind)
+    assert drawn.sentence.startswith(
+        "nothing moves but what is in no loop, with 1 freedom" if behind else "it does not move"
+    )
+    assert "j6" not in assembly_rows(drawn)[0]
+    # Where turns of all five take it, rounded to 16 digits.
+    place, turned = np.zeros(3), np.array([1.0, 0, 0, 0])
+    for joint, half in zip(joints, (0.1, 0.05, -0.15, 0.2, 0.25), strict=False):
+        own = np.array([math.cos(half), *(math.sin(half) * x for x in map(float, joint.axis))])
+        point = np.array([float(x) for x in joint.point])
+        shift = point - turn_vectors(own[None], point[None])[0]
+        place = place + turn_vectors(turned[None], shift[None])[0]
+        turned = turn_product(turned[None], own[None])[0]
+    rounded = nag.motion(arm, pose={"l5": (*place, *turned)})
+    assert not rounded.assemblies and not rounded.complete
+    (note,) = rounded.notes
+    assert note.startswith("what is held asks for more than there are freedoms")
 
 
 def forward(mechanism, motion, assembly, hand: str) -> tuple[np.ndarray, np.ndarray]:

@@ -569,7 +569,9 @@ def held_motion(
         left, scene = hold(problem, drives, poses, "H")
         found, _ = _motion_on(left, scene, "all", samples, told, holding=True)
     notes = list(found.notes)
-    if not found.circuits and not found.assemblies and found.counted < found.idle_count:
+    # Counting has the freedoms of parts that turn idly, and of what hangs in no loop, besides.
+    counted = found.counted - found.idle_count - found.hanging_count
+    if not found.circuits and not found.assemblies and counted < 0:
         notes.append(
             "what is held asks for more than there are freedoms, and its numbers are taken as they "
             "are written: rounded ones leave nothing"
