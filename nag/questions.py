@@ -476,7 +476,8 @@ def decompose(
         variables: of equations, their names in order; see `nag.system`.
         imaginary: of equations, what the imaginary unit is called, as for `nag.system`.
         formulation: of a mechanism's model, as for `nag.model`; by itself also ``"P"``, the poses
-            of a robot's platform, where the others have more than a hundred thousand paths.
+            of a robot's platform, where the others have more than ten thousand paths, and these
+            fewer.
         method: ``"complete"``, or ``"sampling"`` for the components that Newton's method finds from
             random points, of systems that are too large; that is never complete
             (`nag.decomposition.discover`).
@@ -1869,14 +1870,14 @@ def check_statements(given: Any = None, *, run: Run = DEFAULT_RUN) -> CheckedSta
     from nag.decomposition.decompose import decompose as decompose_system
     from nag.files.case_writing import case_of
 
-    def decomposed(system: Any) -> Decomposition:
+    def find_components(system: Any) -> Decomposition:
         return decompose_system(system, run=run)
 
     if given is None:
-        sections = everything(decomposed)
+        sections = everything(find_components)
     else:
         case = case_of(given)
-        found = recognised(case, decomposed)
+        found = recognised(case, find_components)
         if found is None:
             known = ", ".join(WITH_CASES)
             said = f"{case.path}: the papers give no components of it; they do of {known}"

@@ -536,7 +536,7 @@ def test_the_imaginary_unit_is_no_coordinate_of_a_point_that_is_shown() -> None:
 def test_what_an_option_of_decompose_asks_has_a_function(tmp_path) -> None:
     swept = nag.sweep_parameter("cases/rhombus.toml", "b", ["1/2", 1])
     assert [len(each.decomposition.components) for each in swept] == [2, 3]
-    assert swept.complete and swept.followed == 2
+    assert swept.complete and swept.followed_count == 2
     assert list(swept.to_dataframe()["b"]) == [0.5, 0.5, 1.0, 1.0, 1.0]
     alone = nag.decompose("cases/rhombus.toml", set={"b": "1/2"})
     kinds = sorted((c.dimension, c.degree) for c in alone.components)

@@ -93,8 +93,8 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
     formulation = first.formulation or "auto"
     swept = sweep_parameter(case, asked.name, asked.values, formulation=formulation, run=how)
     text = (
-        f"{swept.followed} of {len(swept)} values, from the components for a general value; those "
-        "that a single value may have besides are not looked for there"
+        f"{swept.followed_count} of {len(swept)} values, from the components for a general value; "
+        "those that a single value may have besides are not looked for there"
     )
     reasons = dict.fromkeys(each.reason for each in swept if each.reason)
     tail = [("followed", text), *(("by itself", reason) for reason in reasons)]

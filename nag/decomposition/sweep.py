@@ -115,7 +115,7 @@ class Sweep(Several[Swept]):
         return all(each.decomposition.complete for each in self.members)
 
     @property
-    def followed(self) -> int:
+    def followed_count(self) -> int:
         """For how many values the components were followed from a general one."""
         return sum(each.followed for each in self.members)
 
@@ -141,7 +141,7 @@ class Sweep(Several[Swept]):
 
     def __repr__(self) -> str:
         values = count_text(len(self.members), "value")
-        return named_line(self, f": {values} of {self.parameter}, {self.followed} followed")
+        return named_line(self, f": {values} of {self.parameter}, {self.followed_count} followed")
 
     def __str__(self) -> str:
         return "\n".join(align(self.rows(), (1, 3)))

@@ -313,7 +313,7 @@ class Motion(Several[Circuit]):
     @property
     def hanging_count(self) -> int:
         """How many of the freedoms are those of joints in no loop."""
-        return sum(JOINT_TYPES[joint.type].freedoms for joint in self.scene.hanging)
+        return sum(JOINT_TYPES[joint.type].freedoms for joint in self.scene.hanging_joints)
 
     def table(self, circuit: int = 1, *, angles: str = "degrees") -> dict[str, np.ndarray]:
         """One circuit as columns, each of shape ``(k,)``, as `pandas.DataFrame` takes them.

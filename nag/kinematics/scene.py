@@ -113,7 +113,7 @@ class Scene(FixedArrays):
         return np.array([np.mean(own, axis=0) if own else np.zeros(3) for own in places])
 
     @property
-    def hanging(self) -> tuple[SceneJoint, ...]:
+    def hanging_joints(self) -> tuple[SceneJoint, ...]:
         """The joints in no loop, which move freely."""
         return tuple(joint for joint in self.joints if not joint.in_loop)
 

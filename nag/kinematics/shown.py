@@ -144,7 +144,7 @@ def motion_rows(motion: Motion) -> list[tuple[str, str]]:
 
 def hanging_text(motion: Motion) -> str:
     """Which joints are in no loop, and with how many freedoms they move; empty if none is."""
-    names = [joint.name for joint in motion.scene.hanging]
+    names = [joint.name for joint in motion.scene.hanging_joints]
     if not names:
         return ""
     noun = "joint" if len(names) == 1 else "joints"

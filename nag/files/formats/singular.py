@@ -110,7 +110,7 @@ def read(source: SourceFile) -> GivenSystem:
         if not known:
             read.statement(statement)
     for entry in printed:
-        read.printed(*entry)
+        read.read_printed_entry(*entry)
     if not read.ideals:
         source.fail(len(source.text.rstrip()), "there is no ideal; write ideal i = ..., ...;")
     last = [name for name in read.ideals if name not in read.used]
@@ -205,7 +205,7 @@ class _Definitions:
         else:
             self._refuse(statement)
 
-    def printed(self, name: Passage, number: int, polynomial: Passage) -> None:
+    def read_printed_entry(self, name: Passage, number: int, polynomial: Passage) -> None:
         """Read an entry of an ideal that Singular printed, which need not be declared."""
         ideal = _with_brackets(name.text[: name.text.rindex("[")])
         self._kinds.setdefault(ideal, "ideal")
