@@ -472,23 +472,36 @@ def assemblies_on(
     each = values.coordinates[column]
     if values.still[column]:
         return []
-    step = path.length / (len(path.arc) - 1)
-    nodes = [(float(i), float(v)) for i, v in enumerate(values.values[:, column])]
-    nodes += [(p.arc / step, p.value) for p in values.turning if p.coordinate == each.name]
-    nodes = sorted(n for n in nodes if n[0] <= min(end / step, len(path.arc) - 1) + STILL)
+    nodes = list(zip(path.arc.tolist(), values.values[:, column].tolist(), strict=True))
+    nodes += [(p.arc, p.value) for p in values.turning if p.coordinate == each.name]
+    nodes = sorted(n for n in nodes if n[0] <= min(end, path.length) + STILL * path.step)
     found = []
     for target in _targets(each, drive.value, nodes):
         gaps = [0.0 if abs(v - target) < STILL else v - target for _, v in nodes]
-        for k, (place, _) in enumerate(nodes):
+        for k, (arc, _) in enumerate(nodes):
             last = k == len(nodes) - 1
-            if gaps[k] == 0.0 and not (last and path.walk.closed):
+            if gaps[k] == 0.0 and not (last and path.closed):
                 # A dead point that is a sample, too, counts once.
                 if not (k and gaps[k - 1] == 0.0):
-                    found.append(place)
+                    found.append(arc)
             elif not last and gaps[k] * gaps[k + 1] < 0:
-                found.append(_narrow(path, column, each, target, place, nodes[k + 1][0]))
-    found.sort()
-    return [_assembly(path, circuit, place, step) for place in found]
+                found.append(_narrow(path, column, each, target, arc, nodes[k + 1][0]))
+    if not found:
+        return []
+    arcs = np.array(sorted(found))
+    poses = path.curve.poses(path.way.points_at(arcs))
+    own = half_turns_forwards(scene, joint_values(scene, poses))
+    return [
+        DrivenAssembly(circuit, float(arc), own[k], poses.at(slice(k, k + 1)))
+        for k, arc in enumerate(arcs)
+    ]
+
+
+def half_turns_forwards(scene: Scene, values: np.ndarray) -> np.ndarray:
+    """The same values, with half turns backwards, but for rounding, as half turns forwards."""
+    angles = [each.kind == "angle" for each in joint_coordinates(scene)]
+    backwards = np.array(angles, dtype=bool) & (values < STILL - np.pi)
+    return np.where(backwards, values + 2 * np.pi, values)
 
 
 def _targets(each: Coordinate, value: float, nodes: list[tuple[float, float]]) -> list[float]:
@@ -502,21 +515,15 @@ def _targets(each: Coordinate, value: float, nodes: list[tuple[float, float]]) -
     return [value + whole * k for k in range(first, last + 1)]
 
 
-def _chart_at(path: Path, place: float) -> np.ndarray:
-    """The point of the curve at a place between samples, shape ``(1, n)``."""
-    i = min(int(place), len(path.chart) - 2)
-    t = place - i
-    return path.curve.sharpen(((1 - t) * path.chart[i] + t * path.chart[i + 1])[None])
-
-
 def _narrow(
     path: Path, column: int, each: Coordinate, target: float, low: float, high: float
 ) -> float:
-    """The place at which a coordinate has a value, between two others."""
+    """How far along a coordinate has a value, between two other places."""
     scene = path.curve.scene
 
-    def gap(place: float) -> float:
-        value = joint_values(scene, path.curve.poses(_chart_at(path, place)))[0, column]
+    def gap(arc: float) -> float:
+        poses = path.curve.poses(path.way.points_at(np.array([arc])))
+        value = joint_values(scene, poses)[0, column]
         away = float(value - target)
         if each.kind == "angle":
             away = (away + np.pi) % (2 * np.pi) - np.pi
@@ -525,7 +532,7 @@ def _narrow(
     ends = [(low, gap(low)), (high, gap(high))]
     for _ in range(STEPS):
         (a, f), (b, g) = ends
-        if f * g >= 0 or b - a < STILL**2:
+        if f * g >= 0 or b - a < STILL**2 * path.step:
             break
         # The chord's zero, but never nearer to an end than a tenth: bisection at the least.
         share = min(max(f / (f - g), 1 / 10), 9 / 10)
@@ -535,8 +542,3 @@ def _narrow(
         if value == 0.0:
             return middle
     return min(ends, key=lambda e: abs(e[1]))[0]
-
-
-def _assembly(path: Path, circuit: int, place: float, step: float) -> DrivenAssembly:
-    poses = path.curve.poses(_chart_at(path, place))
-    return DrivenAssembly(circuit, place * step, joint_values(path.curve.scene, poses)[0], poses)

@@ -27,7 +27,7 @@ from nag.kinematics.driven import (
     read_poses,
 )
 from nag.kinematics.joint_values import joint_coordinates
-from nag.kinematics.path import Curve, Path, sample_path, singular_places
+from nag.kinematics.path import Curve, Path, sample_path
 from nag.kinematics.poses import SAME, Poses, join_poses, pose_distances
 from nag.kinematics.rigid_assemblies import (
     Configurations,
@@ -935,7 +935,7 @@ def _begin_at(curve: Curve, walk: CurveWalk, reference: np.ndarray) -> CurveWalk
         # Along the chord as far as the reference is, and back to the curve.
         point = curve.sharpen((point + ahead * (ahead @ (target - point)))[None])[0]
         if np.linalg.norm(point - target) < SAME:
-            return walk.insert(segment, target).begin_at(segment + 1)
+            return walk.insert(np.array([segment]), target[None]).begin_at(segment + 1)
     return None
 
 
@@ -1040,7 +1040,7 @@ def _is_same_motion(scene: Scene, one: _FoundCircuit, other: _FoundCircuit) -> b
 
 
 @dataclass(frozen=True, eq=False)
-class _Passage:
+class _SingularPlace:
     """A circuit at a singular configuration: how far along, the point and the bodies there."""
 
     made: _FoundCircuit
@@ -1049,41 +1049,35 @@ class _Passage:
     pose: Poses
 
 
-def _passages(made: _FoundCircuit) -> list[_Passage]:
+def _singular_places(made: _FoundCircuit) -> list[_SingularPlace]:
     """The vertices of the real curve on a path, and where else its equations lose rank."""
-    path = made.path
-    step = float(path.arc[1] - path.arc[0])
+    way, walk = made.path.way, made.path.way.walk
     places = [
-        (arc, path.walk.chart[index])
-        for (_, arc), (_, index) in zip(path.vertices, path.walk.vertices, strict=True)
+        (arc, walk.chart[index])
+        for (_, arc), (_, index) in zip(way.vertices, walk.vertices, strict=True)
     ]
-    for arc, chart in singular_places(path):
-        gaps = [abs(arc - known) for known, _ in places]
-        if path.walk.closed:
-            gaps = [min(gap, path.length - gap) for gap in gaps]
-        if all(gap > step for gap in gaps):
-            places.append((arc, chart))
+    places += [(each.arc, each.points_at(np.zeros(1))[0]) for each in way.passages]
     return [
-        _Passage(
+        _SingularPlace(
             made,
             arc,
-            path.curve.coordinates.points(chart[None])[0],
-            path.curve.poses(chart[None]),
+            way.curve.coordinates.points(chart[None])[0],
+            way.curve.poses(chart[None]),
         )
         for arc, chart in sorted(places, key=lambda p: p[0])
         if arc < made.end
     ]
 
 
-def _same_poses(passages: Sequence[_Passage]) -> np.ndarray:
+def _same_poses(places: Sequence[_SingularPlace]) -> np.ndarray:
     """Which of them are one configuration, shape ``(k, k)``."""
-    if not passages:
+    if not places:
         return np.zeros((0, 0), dtype=bool)
-    scene = passages[0].made.path.curve.scene
-    every = join_poses([p.pose for p in passages])
+    scene = places[0].made.path.curve.scene
+    every = join_poses([p.pose for p in places])
     rows = []
-    for i in range(len(passages)):
-        alone = every.at(np.full(len(passages), i))
+    for i in range(len(places)):
+        alone = every.at(np.full(len(places), i))
         rows.append(pose_distances(alone, every, scene.centres, scene.size) < SAME)
     return np.array(rows)
 
@@ -1092,14 +1086,14 @@ def _with_crossings(
     found: Sequence[_FoundCircuit], configurations: Configurations, own: Sequence[int], run: Run
 ) -> list[Circuit]:
     """The circuits with the singular configurations on their way."""
-    passages = [passage for made in found for passage in _passages(made)]
-    same = _same_poses(passages)
+    places = [place for made in found for place in _singular_places(made)]
+    same = _same_poses(places)
     known: list[tuple[int, tuple[int, ...] | None]] = []
     crossings: dict[int, list[Crossing]] = {made.circuit.number: [] for made in found}
-    for i, here in enumerate(passages):
+    for i, here in enumerate(places):
         circuit = here.made.circuit
         numbers = {
-            other.made.circuit.number for k, other in enumerate(passages) if k != i and same[i, k]
+            other.made.circuit.number for k, other in enumerate(places) if k != i and same[i, k]
         }
         through = next((components for k, components in known if same[i, k]), ())
         if not any(same[i, k] for k, _ in known):

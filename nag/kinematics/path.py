@@ -6,7 +6,8 @@ the curve was found in, and are brought onto the curve by the equations themselv
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -36,6 +37,9 @@ PROMISING = 0.3
 SINGULAR = 1e-5
 # How the way between samples is searched for it: places at a time, and how often that is narrowed.
 PLACES, NARROWINGS = 21, 9
+# Points of a motion on each side of a place where rank is lost, in units of how far it is
+# interpolated between them; that in steps of samples, and of the way, at the most.
+BESIDE_PASSAGE, NEAR_PASSAGE = (1, 2, 3, 4), 2e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,74 +152,187 @@ def _shortest_steps(rows: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False)
-class Path:
-    """Samples of one motion.
+class Passage:
+    """Where the equations lose rank on the way of a motion, beside its vertices.
+
+    Other motions may cross it there, and next to it Newton's method may lead to one of them. This
+    motion is interpolated instead: points on both sides, far enough away, are joined by polynomials
+    in their distance along the tangent.
+
+    Attributes:
+        arc: how far along the way the place is.
+        reach: so far to both sides points are interpolated.
+        arcs: how far beyond the place points on both sides are.
+        chart: these points, shape ``(k, size)``.
+    """
+
+    arc: float
+    reach: float
+    arcs: np.ndarray
+    chart: np.ndarray
+
+    def points_at(self, arcs: np.ndarray) -> np.ndarray:
+        """Points of the motion so far beyond the place, shape ``(k, size)``."""
+        # By arc, which is only nearly a smooth function, errors would be across the curve as well.
+        ahead = self.chart[-1] - self.chart[0]
+        along = self.chart @ (ahead / np.linalg.norm(ahead))
+        wanted = _interpolation_weights(self.arcs, np.asarray(arcs)) @ along
+        return np.asarray(_interpolation_weights(along, wanted) @ self.chart)
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """All points of a motion, by how far they are from the first.
 
     Attributes:
         curve: what it runs on.
-        walk: how.
-        arc: how far each sample is from the first, in radians and sizes, shape ``(k,)``.
-        chart: of the samples, shape ``(k, size)``, in the coordinates of the walk.
-        poses: at the samples, with continuous signs.
-        vertices: those of the real curve on the way, each with how far it is from the first sample.
+        walk: how, by points between which others are interpolated.
+        arc: how far each of these is from the first, in radians and sizes.
+        passages: where the equations lose rank on it, more than a step of samples from its
+            vertices.
     """
 
     curve: Curve
     walk: CurveWalk
     arc: np.ndarray
+    passages: tuple[Passage, ...] = ()
+
+    @property
+    def length(self) -> float:
+        """That of the whole way."""
+        return float(self.arc[-1])
+
+    @property
+    def vertices(self) -> tuple[tuple[int, float], ...]:
+        """Those of the real curve, each with how far it is from the first point."""
+        return tuple((vertex, float(self.arc[index])) for vertex, index in self.walk.vertices)
+
+    def points_at(self, arcs: np.ndarray) -> np.ndarray:
+        """Points so far from the first, shape ``(k, size)``.
+
+        Of a closed motion also before the first and behind the last, up to signs of groups.
+        """
+        arcs = np.asarray(arcs, dtype=float)
+        if self.walk.closed:
+            arcs = np.where((arcs < 0) | (arcs > self.length), arcs % self.length, arcs)
+        breaks = np.array([index for _, index in self.walk.vertices], dtype=int)
+        near = _interpolate(self.arc, self.walk.chart, arcs, breaks)
+        chart = self.curve.sharpen(near)
+        for passage in self.passages:
+            beyond = self.distances(arcs, passage.arc)
+            own = np.abs(beyond) < passage.reach
+            chart[own] = self.walk.coordinates.align_signs(
+                passage.points_at(beyond[own]), near[own]
+            )
+        return chart
+
+    def distances(self, arcs: np.ndarray, arc: float) -> np.ndarray:
+        """How far beyond a place others are, by the shorter way if the motion is closed."""
+        beyond = np.asarray(arcs) - arc
+        return beyond - self.length * np.round(beyond / self.length) if self.walk.closed else beyond
+
+
+@dataclass(frozen=True, eq=False)
+class Path:
+    """Samples of one motion.
+
+    Attributes:
+        way: the motion.
+        arc: how far each sample is from the first, in radians and sizes, shape ``(k,)``.
+        chart: of the samples, shape ``(k, size)``, in the coordinates of the walk.
+        poses: at the samples, with continuous signs.
+    """
+
+    way: Way
+    arc: np.ndarray
     chart: np.ndarray
     poses: Poses
-    vertices: tuple[tuple[int, float], ...]
+
+    @property
+    def curve(self) -> Curve:
+        """What it runs on."""
+        return self.way.curve
+
+    @property
+    def closed(self) -> bool:
+        """Whether the motion returns to where it began."""
+        return self.way.walk.closed
 
     @property
     def length(self) -> float:
         """The whole way."""
-        return float(self.arc[-1])
+        return self.way.length
 
     @property
-    def before_first(self) -> np.ndarray:
-        """The sample before the first of a closed motion, which is the last but one."""
-        last = self.chart[-2:]
-        return self.walk.coordinates.make_continuous(np.vstack([self.chart[:1], last[::-1]]))[2]
+    def step(self) -> float:
+        """How far samples are from each other."""
+        return self.length / (len(self.arc) - 1)
 
 
-def singular_places(path: Path) -> list[tuple[float, np.ndarray]]:
-    """Where the rank of the equations drops on a path: how far along it is, and the chart there.
+def sample_path(curve: Curve, walk: CurveWalk, count: int) -> Path:
+    """``count`` samples at even distances, the walk's first and last point among them."""
+    way = _measure_walk(curve, walk, count)
+    arc = np.linspace(0.0, way.length, count)
+    chart = way.points_at(arc)
+    way = replace(way, passages=_find_passages(way, arc, chart))
+    for passage in way.passages:
+        near = np.abs(way.distances(arc, passage.arc)) < passage.reach
+        chart[near] = way.points_at(arc[near])
+    # Ends are given; at vertices among them the equations are singular.
+    chart[0], chart[-1] = walk.chart[0], walk.chart[-1]
+    return Path(way, arc, chart, curve.poses(chart).with_continuous_signs())
 
-    Other motions may go on from there. Vertices of the real curve are among them; where the rank is
-    low all along, nothing is said.
+
+def _find_passages(way: Way, arc: np.ndarray, chart: np.ndarray) -> tuple[Passage, ...]:
+    """Where the rank of the equations drops between samples, beside vertices, in their order.
+
+    Where the rank is low all along, nothing is said.
     """
-    curve, chart = path.curve, path.chart
-    sizes = _second_least(curve, chart)
+    sizes = _second_least(way.curve, chart)
     usual = float(np.median(sizes))
     if usual < KERNEL:
-        return []
-    count = len(chart)
-    found = []
-    for i in range(0 if path.walk.closed else 1, count - 1):
-        before = chart[i - 1] if i else path.before_first
+        return ()
+    step, count = float(arc[1]), len(chart)
+    vertices = [known for _, known in way.vertices]
+    places: list[float] = []
+    for i in range(0 if way.walk.closed else 1, count - 1):
         around = sizes[i - 1 if i else count - 2], sizes[i + 1]
         if sizes[i] > min(around) or sizes[i] > PROMISING * usual:
             continue
-        middle, width = 0.0, 1.0
-        for _ in range(NARROWINGS):
-            places = middle + np.linspace(-width, width, PLACES)
-            between = curve.sharpen(along_three(before, chart[i], chart[i + 1], places))
-            own = _second_least(curve, between)
-            least = int(own.argmin())
-            middle, width = float(places[least]), 2 * width / (PLACES - 1)
-        if own[least] < SINGULAR * usual:
-            arc = (path.arc[i] + middle * (path.arc[1] - path.arc[0])) % path.length
-            found.append((float(arc), between[least]))
-    return found
+        place, least = _find_rank_loss(way.curve, way.points_at, float(arc[i]), step)
+        apart = np.abs(way.distances(np.array([*vertices, *places]), place))
+        if least < SINGULAR * usual and (apart > step).all():
+            places.append(place % way.length)
+    every = np.array([*vertices, *places])
+    return tuple(_make_passage(way, place, step, every) for place in sorted(places))
 
 
-def along_three(
-    before: np.ndarray, middle: np.ndarray, after: np.ndarray, places: np.ndarray
-) -> np.ndarray:
-    """Points of the parabola through three, at places from -1, the first, to 1, the last."""
-    t = places[:, None]
-    return middle + t * (after - before) / 2 + t**2 * (after - 2 * middle + before) / 2
+def _find_rank_loss(
+    curve: Curve, points_at: Callable[[np.ndarray], np.ndarray], place: float, width: float
+) -> tuple[float, float]:
+    """The place within a width where the equations are nearest to losing rank, and how near."""
+    least = np.inf
+    for _ in range(NARROWINGS):
+        places = place + np.linspace(-width, width, PLACES)
+        sizes = _second_least(curve, points_at(places))
+        place, least = float(places[sizes.argmin()]), float(sizes.min())
+        width = 2 * width / (PLACES - 1)
+    return place, least
+
+
+def _make_passage(way: Way, place: float, step: float, special: np.ndarray) -> Passage:
+    """The passage at a place, with points beside it that keep away from the other special ones."""
+    gaps = np.abs(way.distances(special, place))
+    if not way.walk.closed:
+        gaps = np.append(gaps, [place, way.length - place])
+    across = BESIDE_PASSAGE[-1] + 1
+    reach = min([step, NEAR_PASSAGE * way.length, *(gaps[gaps > 0] / across)])
+    arcs = reach * np.array([*(-k for k in reversed(BESIDE_PASSAGE)), *BESIDE_PASSAGE])
+    chart = way.walk.coordinates.make_continuous(way.points_at(place + arcs))
+    found = Passage(place, reach, arcs, chart)
+    # Between exact points the place itself is known to all digits, too.
+    beyond, _ = _find_rank_loss(way.curve, found.points_at, 0.0, reach)
+    return Passage((place + beyond) % way.length, reach, arcs - beyond, chart)
 
 
 def _second_least(curve: Curve, chart: np.ndarray) -> np.ndarray:
@@ -227,39 +344,29 @@ def _second_least(curve: Curve, chart: np.ndarray) -> np.ndarray:
     return np.linalg.svd(rows, compute_uv=False)[:, n - 2]
 
 
-def sample_path(curve: Curve, walk: CurveWalk, count: int) -> Path:
-    """``count`` samples at even distances, the walk's first and last point among them."""
-    dense, arc, places = _measure(curve, walk, count)
-    wanted = np.linspace(0.0, arc[-1], count)
-    chart = curve.sharpen(_interpolate(arc, dense, wanted, places[[i for _, i in walk.vertices]]))
-    # Ends are given; at vertices among them the equations are singular.
-    chart[0], chart[-1] = walk.chart[0], walk.chart[-1]
-    poses = curve.poses(chart).with_continuous_signs()
-    vertices = tuple((vertex, float(arc[places[index]])) for vertex, index in walk.vertices)
-    return Path(curve, walk, wanted, chart, poses, vertices)
-
-
-def _measure(
-    curve: Curve, walk: CurveWalk, count: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points along a walk, more of them where bodies move fast, and how far each is.
-
-    Also at which of them the given ones are.
-    """
-    scene, chart = curve.scene, walk.chart
-    places = np.arange(len(chart))
-    for halving in range(HALVINGS + 1):
-        steps = pose_steps(curve.poses(chart), scene.centres, scene.size)
+def _measure_walk(curve: Curve, walk: CurveWalk, count: int) -> Way:
+    """A walk with more points where bodies move fast, and how far each is."""
+    for _ in range(HALVINGS):
+        steps = _steps(curve, walk.chart)
         arc = np.concatenate([[0.0], np.cumsum(steps)])
         long = np.flatnonzero(steps > arc[-1] / count / FINER)
-        if not len(long) or halving == HALVINGS:
+        if not len(long):
             break
-        breaks = places[[i for _, i in walk.vertices]]
-        halves = (arc[long] + arc[long + 1]) / 2
-        between = curve.sharpen(_interpolate(arc, chart, halves, breaks))
-        chart = np.insert(chart, long + 1, between, axis=0)
-        places = places + np.searchsorted(long, places)
-    return chart, arc, places
+        between = Way(curve, walk, arc).points_at((arc[long] + arc[long + 1]) / 2)
+        walk = walk.insert(long, between)
+    # Of chords and their halves the extrapolated lengths (Richardson), so that samples are at the
+    # same places whatever coordinates the curve was found in.
+    steps = _steps(curve, walk.chart)
+    arc = np.concatenate([[0.0], np.cumsum(steps)])
+    between = Way(curve, walk, arc).points_at((arc[1:] + arc[:-1]) / 2)
+    finer = walk.insert(np.arange(len(between)), between)
+    halves = _steps(curve, finer.chart).reshape(-1, 2).sum(axis=1)
+    arc = np.concatenate([[0.0], np.cumsum(halves + (halves - steps) / 3)])
+    return Way(curve, walk, arc)
+
+
+def _steps(curve: Curve, chart: np.ndarray) -> np.ndarray:
+    return pose_steps(curve.poses(chart), curve.scene.centres, curve.scene.size)
 
 
 def _interpolate(
@@ -281,13 +388,23 @@ def _interpolate(
     first = np.clip(segment - 1, low, np.maximum(low, high - 3))
     four = np.minimum(first[:, None] + np.arange(4), last)
     nodes = arc[four]
-    weights = np.ones(four.shape)
     with np.errstate(divide="ignore", invalid="ignore"):
-        for i in range(4):
-            for j in range(4):
-                if i != j:
-                    weights[:, i] *= (wanted - nodes[:, j]) / (nodes[:, i] - nodes[:, j])
+        weights = _interpolation_weights(nodes, wanted)
     cubic = np.einsum("ki,kin->kn", weights, chart[four])
     # Where points are too few, or coincide, a line has to do.
     good = (high - low >= 3) & np.isfinite(weights).all(axis=1)
     return np.where(good[:, None], cubic, linear)
+
+
+def _interpolation_weights(nodes: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """What values at nodes count in the polynomial through them at wanted places, ``(k, nodes)``.
+
+    Nodes may be others for each place, of that shape.
+    """
+    nodes = np.broadcast_to(nodes, (len(wanted), nodes.shape[-1]))
+    weights = np.ones(nodes.shape)
+    for i in range(nodes.shape[1]):
+        for j in range(nodes.shape[1]):
+            if i != j:
+                weights[:, i] *= (wanted - nodes[:, j]) / (nodes[:, i] - nodes[:, j])
+    return weights

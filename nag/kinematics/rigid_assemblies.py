@@ -12,11 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.kinematics.driven import DrivenAssembly, is_same_assembly
-from nag.kinematics.joint_values import joint_coordinates, joint_values
+from nag.kinematics.driven import DrivenAssembly, half_turns_forwards, is_same_assembly
+from nag.kinematics.joint_values import joint_values
 from nag.kinematics.poses import SAME, Poses, join_poses, pose_distances
 from nag.kinematics.scene import Scene
-from nag.kinematics.turning_points import STILL
 from nag.real.curve import PieceKind, RealCurve
 from nag.real.real_pieces import find_real_points
 from nag.text.table import count_text, join_words
@@ -146,18 +145,11 @@ def _assemblies_at(scene: Scene, points: np.ndarray) -> list[DrivenAssembly]:
 
 
 def _assemblies_of(scene: Scene, points: np.ndarray, poses: Poses) -> list[DrivenAssembly]:
-    values = _upper_half_turns(scene, joint_values(scene, poses))
+    values = half_turns_forwards(scene, joint_values(scene, poses))
     return [
         DrivenAssembly(None, None, values[i], poses.at(slice(i, i + 1)), points[i])
         for i in range(len(points))
     ]
-
-
-def _upper_half_turns(scene: Scene, values: np.ndarray) -> np.ndarray:
-    """The same values, with half turns backwards, but for rounding, as half turns forwards."""
-    angles = [each.kind == "angle" for each in joint_coordinates(scene)]
-    backwards = np.array(angles, dtype=bool) & (values < STILL - np.pi)
-    return np.where(backwards, values + 2 * np.pi, values)
 
 
 def _isolated_on_curves(

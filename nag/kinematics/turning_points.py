@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values, unwrap_angles
-from nag.kinematics.path import Path, along_three
+from nag.kinematics.path import Path
 from nag.numerics.read_only import BooleanArray, FixedArrays, IntegerArray, RealArray, equal_values
 
 # Decides: By how much a joint moves that never does: 1e-14 was seen; others moved by 1e-3 and more.
@@ -73,7 +73,7 @@ def values_along(path: Path) -> Values:
     in_loop = np.array([each.in_loop for each in coordinates], dtype=bool)
     still = (np.ptp(values, axis=0) < STILL) & in_loop
     whole = np.zeros(len(coordinates), dtype=int)
-    if path.walk.closed:
+    if path.closed:
         angles = np.array([each.kind == "angle" for each in coordinates], dtype=bool)
         whole[angles] = np.round((values[-1] - values[0])[angles] / (2 * np.pi)).astype(int)
     turning = _refine(path, coordinates, values, _find_extremes(path, values, in_loop & ~still))
@@ -86,27 +86,19 @@ def values_along(path: Path) -> Values:
 
 @dataclass(frozen=True, eq=False)
 class _Extremes:
-    """Samples next to dead points: of each its index, coordinate, and kind, shape ``(E,)``.
-
-    Attributes:
-        triples: points before, at and after them, shape ``(3, E, size)``.
-        near: the values there.
-    """
+    """Samples next to dead points: of each its index, coordinate, kind, and value, ``(E,)``."""
 
     index: np.ndarray
     column: np.ndarray
     smallest: np.ndarray
-    triples: np.ndarray
     near: np.ndarray
 
 
 def _find_extremes(path: Path, values: np.ndarray, moving: np.ndarray) -> _Extremes:
     """The samples at which coordinates that move reverse."""
-    chart = path.chart
-    if path.walk.closed:
+    if path.closed:
         # One sample more before the first, which is the last but one.
         values = np.vstack([values[-2] - values[-1] + values[0], values])
-        chart = np.concatenate([path.before_first[None], chart])
     found = []
     for column in np.flatnonzero(moving).tolist():
         steps = np.diff(values[:, column])
@@ -118,9 +110,8 @@ def _find_extremes(path: Path, values: np.ndarray, moving: np.ndarray) -> _Extre
                 found.append((i, column, sign > 0))
             before = sign or before
     at, columns, smallest = np.array(found, dtype=int).reshape(-1, 3).T
-    triples = np.stack([chart[at - 1], chart[at], chart[at + 1]])
-    index = at - 1 if path.walk.closed else at
-    return _Extremes(index, columns, smallest.astype(bool), triples, values[at, columns])
+    index = at - 1 if path.closed else at
+    return _Extremes(index, columns, smallest.astype(bool), values[at, columns])
 
 
 def _nearest_turns(
@@ -142,14 +133,14 @@ def _refine(
     angle = np.array([each.kind == "angle" for each in coordinates], dtype=bool)[columns]
 
     def values_at(places: np.ndarray) -> np.ndarray:
-        chart = path.curve.sharpen(along_three(*extremes.triples, places))
+        chart = path.way.points_at(path.arc[extremes.index] + places * path.step)
         return joint_values(path.curve.scene, path.curve.poses(chart))
 
     def own_of(there: np.ndarray) -> np.ndarray:
         own = there[np.arange(len(there)), columns]
         return np.where(angle, near + (own - near + np.pi) % (2 * np.pi) - np.pi, own)
 
-    # Places in steps from the middle one of three samples.
+    # Places in steps of samples from the nearest one.
     at, curved = np.zeros(len(near)), np.ones(len(near), dtype=bool)
     for width in NARROWER:
         low, middle, high = (own_of(values_at(at + width * k)) for k in (-1.0, 0.0, 1.0))
@@ -161,14 +152,13 @@ def _refine(
     last = own_of(every)
     better = np.isfinite(last) & np.where(extremes.smallest, last <= near, last >= near)
     best = np.where(better, last, near)
-    step = path.arc[1] - path.arc[0]
     turning = []
     for k, index in enumerate(extremes.index.tolist()):
-        arc = float(path.arc[index] + at[k] * step)
+        arc = float(path.arc[index] + at[k] * path.step)
         # What is the first sample to rounding is not the last.
-        arc = arc % path.length if path.walk.closed and abs(arc) > STILL else max(arc, 0.0)
+        arc = arc % path.length if path.closed and abs(arc) > STILL else max(arc, 0.0)
         there = _nearest_turns(coordinates, every[k], values[index])
         kind = "smallest" if extremes.smallest[k] else "largest"
         name = coordinates[columns[k]].name
-        turning.append(TurningPoint(name, round(arc / step), arc, float(best[k]), kind, there))
+        turning.append(TurningPoint(name, round(arc / path.step), arc, float(best[k]), kind, there))
     return sorted(turning, key=lambda p: (p.arc, p.coordinate))

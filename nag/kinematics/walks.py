@@ -49,10 +49,10 @@ class CurveWalk:
         vertices = tuple(sorted(turned, key=lambda p: p[1]))
         return replace(self, chart=self.coordinates.make_continuous(whole), vertices=vertices)
 
-    def insert(self, segment: int, point: np.ndarray) -> CurveWalk:
-        """The same with one point more, after that of index ``segment``."""
-        chart = np.insert(self.chart, segment + 1, point, axis=0)
-        vertices = tuple((v, i + (i > segment)) for v, i in self.vertices)
+    def insert(self, segments: np.ndarray, points: np.ndarray) -> CurveWalk:
+        """The same with more points, each after that of an index; indices rise."""
+        chart = np.insert(self.chart, segments + 1, points, axis=0)
+        vertices = tuple((v, i + int((segments < i).sum())) for v, i in self.vertices)
         return replace(self, chart=chart, vertices=vertices)
 
 
