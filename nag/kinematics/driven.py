@@ -489,7 +489,7 @@ def assemblies_on(
     if not found:
         return []
     arcs = np.array(sorted(found))
-    poses = path.curve.poses(path.way.points_at(arcs))
+    poses = path.curve.poses(path.measured.points_at(arcs))
     own = half_turns_forwards(scene, joint_values(scene, poses))
     return [
         DrivenAssembly(circuit, float(arc), own[k], poses.at(slice(k, k + 1)))
@@ -522,7 +522,7 @@ def _narrow(
     scene = path.curve.scene
 
     def gap(arc: float) -> float:
-        poses = path.curve.poses(path.way.points_at(np.array([arc])))
+        poses = path.curve.poses(path.measured.points_at(np.array([arc])))
         value = joint_values(scene, poses)[0, column]
         away = float(value - target)
         if each.kind == "angle":

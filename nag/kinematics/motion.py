@@ -1051,18 +1051,19 @@ class _SingularPlace:
 
 def _singular_places(made: _FoundCircuit) -> list[_SingularPlace]:
     """The vertices of the real curve on a path, and where else its equations lose rank."""
-    way, walk = made.path.way, made.path.way.walk
+    measured = made.path.measured
+    walk = measured.walk
     places = [
         (arc, walk.chart[index])
-        for (_, arc), (_, index) in zip(way.vertices, walk.vertices, strict=True)
+        for (_, arc), (_, index) in zip(measured.vertices, walk.vertices, strict=True)
     ]
-    places += [(each.arc, each.points_at(np.zeros(1))[0]) for each in way.passages]
+    places += [(each.arc, each.points_at(np.zeros(1))[0]) for each in measured.passages]
     return [
         _SingularPlace(
             made,
             arc,
-            way.curve.coordinates.points(chart[None])[0],
-            way.curve.poses(chart[None]),
+            measured.curve.coordinates.points(chart[None])[0],
+            measured.curve.poses(chart[None]),
         )
         for arc, chart in sorted(places, key=lambda p: p[0])
         if arc < made.end

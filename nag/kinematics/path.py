@@ -152,7 +152,7 @@ def _shortest_steps(rows: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False)
-class Passage:
+class SingularPassage:
     """Where the equations lose rank on the way of a motion, beside its vertices.
 
     Other motions may cross it there, and next to it Newton's method may lead to one of them. This
@@ -181,7 +181,7 @@ class Passage:
 
 
 @dataclass(frozen=True, eq=False)
-class Way:
+class MeasuredWalk:
     """All points of a motion, by how far they are from the first.
 
     Attributes:
@@ -195,7 +195,7 @@ class Way:
     curve: Curve
     walk: CurveWalk
     arc: np.ndarray
-    passages: tuple[Passage, ...] = ()
+    passages: tuple[SingularPassage, ...] = ()
 
     @property
     def length(self) -> float:
@@ -237,13 +237,13 @@ class Path:
     """Samples of one motion.
 
     Attributes:
-        way: the motion.
+        measured: the motion.
         arc: how far each sample is from the first, in radians and sizes, shape ``(k,)``.
         chart: of the samples, shape ``(k, size)``, in the coordinates of the walk.
         poses: at the samples, with continuous signs.
     """
 
-    way: Way
+    measured: MeasuredWalk
     arc: np.ndarray
     chart: np.ndarray
     poses: Poses
@@ -251,17 +251,17 @@ class Path:
     @property
     def curve(self) -> Curve:
         """What it runs on."""
-        return self.way.curve
+        return self.measured.curve
 
     @property
     def closed(self) -> bool:
         """Whether the motion returns to where it began."""
-        return self.way.walk.closed
+        return self.measured.walk.closed
 
     @property
     def length(self) -> float:
         """The whole way."""
-        return self.way.length
+        return self.measured.length
 
     @property
     def step(self) -> float:
@@ -271,40 +271,42 @@ class Path:
 
 def sample_path(curve: Curve, walk: CurveWalk, count: int) -> Path:
     """``count`` samples at even distances, the walk's first and last point among them."""
-    way = _measure_walk(curve, walk, count)
-    arc = np.linspace(0.0, way.length, count)
-    chart = way.points_at(arc)
-    way = replace(way, passages=_find_passages(way, arc, chart))
-    for passage in way.passages:
-        near = np.abs(way.distances(arc, passage.arc)) < passage.reach
-        chart[near] = way.points_at(arc[near])
+    measured = _measure_walk(curve, walk, count)
+    arc = np.linspace(0.0, measured.length, count)
+    chart = measured.points_at(arc)
+    measured = replace(measured, passages=_find_passages(measured, arc, chart))
+    for passage in measured.passages:
+        near = np.abs(measured.distances(arc, passage.arc)) < passage.reach
+        chart[near] = measured.points_at(arc[near])
     # Ends are given; at vertices among them the equations are singular.
     chart[0], chart[-1] = walk.chart[0], walk.chart[-1]
-    return Path(way, arc, chart, curve.poses(chart).with_continuous_signs())
+    return Path(measured, arc, chart, curve.poses(chart).with_continuous_signs())
 
 
-def _find_passages(way: Way, arc: np.ndarray, chart: np.ndarray) -> tuple[Passage, ...]:
+def _find_passages(
+    measured: MeasuredWalk, arc: np.ndarray, chart: np.ndarray
+) -> tuple[SingularPassage, ...]:
     """Where the rank of the equations drops between samples, beside vertices, in their order.
 
     Where the rank is low all along, nothing is said.
     """
-    sizes = _second_least(way.curve, chart)
+    sizes = _second_least(measured.curve, chart)
     usual = float(np.median(sizes))
     if usual < KERNEL:
         return ()
     step, count = float(arc[1]), len(chart)
-    vertices = [known for _, known in way.vertices]
+    vertices = [known for _, known in measured.vertices]
     places: list[float] = []
-    for i in range(0 if way.walk.closed else 1, count - 1):
+    for i in range(0 if measured.walk.closed else 1, count - 1):
         around = sizes[i - 1 if i else count - 2], sizes[i + 1]
         if sizes[i] > min(around) or sizes[i] > PROMISING * usual:
             continue
-        place, least = _find_rank_loss(way.curve, way.points_at, float(arc[i]), step)
-        apart = np.abs(way.distances(np.array([*vertices, *places]), place))
+        place, least = _find_rank_loss(measured.curve, measured.points_at, float(arc[i]), step)
+        apart = np.abs(measured.distances(np.array([*vertices, *places]), place))
         if least < SINGULAR * usual and (apart > step).all():
-            places.append(place % way.length)
+            places.append(place % measured.length)
     every = np.array([*vertices, *places])
-    return tuple(_make_passage(way, place, step, every) for place in sorted(places))
+    return tuple(_make_passage(measured, place, step, every) for place in sorted(places))
 
 
 def _find_rank_loss(
@@ -320,19 +322,21 @@ def _find_rank_loss(
     return place, least
 
 
-def _make_passage(way: Way, place: float, step: float, special: np.ndarray) -> Passage:
+def _make_passage(
+    measured: MeasuredWalk, place: float, step: float, special: np.ndarray
+) -> SingularPassage:
     """The passage at a place, with points beside it that keep away from the other special ones."""
-    gaps = np.abs(way.distances(special, place))
-    if not way.walk.closed:
-        gaps = np.append(gaps, [place, way.length - place])
+    gaps = np.abs(measured.distances(special, place))
+    if not measured.walk.closed:
+        gaps = np.append(gaps, [place, measured.length - place])
     across = BESIDE_PASSAGE[-1] + 1
-    reach = min([step, NEAR_PASSAGE * way.length, *(gaps[gaps > 0] / across)])
+    reach = min([step, NEAR_PASSAGE * measured.length, *(gaps[gaps > 0] / across)])
     arcs = reach * np.array([*(-k for k in reversed(BESIDE_PASSAGE)), *BESIDE_PASSAGE])
-    chart = way.walk.coordinates.make_continuous(way.points_at(place + arcs))
-    found = Passage(place, reach, arcs, chart)
+    chart = measured.walk.coordinates.make_continuous(measured.points_at(place + arcs))
+    found = SingularPassage(place, reach, arcs, chart)
     # Between exact points the place itself is known to all digits, too.
-    beyond, _ = _find_rank_loss(way.curve, found.points_at, 0.0, reach)
-    return Passage((place + beyond) % way.length, reach, arcs - beyond, chart)
+    beyond, _ = _find_rank_loss(measured.curve, found.points_at, 0.0, reach)
+    return SingularPassage((place + beyond) % measured.length, reach, arcs - beyond, chart)
 
 
 def _second_least(curve: Curve, chart: np.ndarray) -> np.ndarray:
@@ -344,7 +348,7 @@ def _second_least(curve: Curve, chart: np.ndarray) -> np.ndarray:
     return np.linalg.svd(rows, compute_uv=False)[:, n - 2]
 
 
-def _measure_walk(curve: Curve, walk: CurveWalk, count: int) -> Way:
+def _measure_walk(curve: Curve, walk: CurveWalk, count: int) -> MeasuredWalk:
     """A walk with more points where bodies move fast, and how far each is."""
     for _ in range(HALVINGS):
         steps = _steps(curve, walk.chart)
@@ -352,17 +356,17 @@ def _measure_walk(curve: Curve, walk: CurveWalk, count: int) -> Way:
         long = np.flatnonzero(steps > arc[-1] / count / FINER)
         if not len(long):
             break
-        between = Way(curve, walk, arc).points_at((arc[long] + arc[long + 1]) / 2)
+        between = MeasuredWalk(curve, walk, arc).points_at((arc[long] + arc[long + 1]) / 2)
         walk = walk.insert(long, between)
     # Of chords and their halves the extrapolated lengths (Richardson), so that samples are at the
     # same places whatever coordinates the curve was found in.
     steps = _steps(curve, walk.chart)
     arc = np.concatenate([[0.0], np.cumsum(steps)])
-    between = Way(curve, walk, arc).points_at((arc[1:] + arc[:-1]) / 2)
+    between = MeasuredWalk(curve, walk, arc).points_at((arc[1:] + arc[:-1]) / 2)
     finer = walk.insert(np.arange(len(between)), between)
     halves = _steps(curve, finer.chart).reshape(-1, 2).sum(axis=1)
     arc = np.concatenate([[0.0], np.cumsum(halves + (halves - steps) / 3)])
-    return Way(curve, walk, arc)
+    return MeasuredWalk(curve, walk, arc)
 
 
 def _steps(curve: Curve, chart: np.ndarray) -> np.ndarray:

@@ -133,7 +133,7 @@ def _refine(
     angle = np.array([each.kind == "angle" for each in coordinates], dtype=bool)[columns]
 
     def values_at(places: np.ndarray) -> np.ndarray:
-        chart = path.way.points_at(path.arc[extremes.index] + places * path.step)
+        chart = path.measured.points_at(path.arc[extremes.index] + places * path.step)
         return joint_values(path.curve.scene, path.curve.poses(chart))
 
     def own_of(there: np.ndarray) -> np.ndarray:
