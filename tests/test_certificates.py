@@ -9,6 +9,7 @@ from fractions import Fraction
 from math import isqrt
 from pathlib import Path
 
+import flint
 import jsonschema
 import numpy as np
 import pytest
@@ -29,7 +30,8 @@ from nag.files.export import write_decomposition
 from nag.files.json_schema import schema
 from nag.files.solutions_export import read_solutions, write_solutions
 from nag.mechanism.model import model
-from nag.numerics.ball_boxes import BallOperator
+from nag.numerics.ball_boxes import BallOperator, box_about
+from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.certified_points import Proof, certify_points, certify_regular_points
 from nag.numerics.claims import Standing
 from nag.numerics.discs import DiscPolynomials, Discs, product
@@ -199,6 +201,29 @@ def test_radii_by_sharp_residuals_hold_the_zero_and_no_more_than_its_distance(
         assert distance - Fraction(1, 10**38) <= Fraction(float(radius))
         assert float(radius) <= 1.001 * float(distance) + 1e-26 * abs(point)
     assert (sharp <= boxes.inner[0]).all()
+
+
+def test_errors_of_zeros_near_another_are_proved_as_sharply_as_those_of_others() -> None:
+    # Residuals in doubles leave boxes of 1e-10 here, the image of which is 1e-14 wide.
+    s = Fraction(1, 10**6)
+    equations = [x**2 - 2 * x + 1 - s**2, y - x]
+    points = np.full((1, 2), float(1 + s), dtype=complex)
+    boxes = prove_boxes(equations, NO_SLICE, points, np.array([1e-6]))
+    sharp = sharpen_boxes(equations, NO_SLICE, boxes, np.array([0]))[0]
+    error = abs(Fraction(float(1 + s)) - 1 - s)
+    assert boxes.inner.min() > 1e-11
+    assert error <= Fraction(float(sharp[0])) and sharp.max() <= 1.001 * float(error) + 1e-26
+
+
+@pytest.mark.parametrize("share", [1.05, 1.3, 2.5])
+def test_a_box_that_is_hardly_mapped_into_itself_tells_its_zero_to_all_digits(share) -> None:
+    # Of sides 2^-16 slopes are 1 / share.
+    s = Fraction(share) / 2**16
+    box = box_about(
+        BallPolynomials.of([x**2 - s**2, y - 1], NO_SLICE), [flint.acb(float(s)), flint.acb(1)]
+    )
+    assert box is not None
+    assert max(map(float, box.inner)) < 1e-30
 
 
 def test_zeros_nearer_than_doubles_see_are_not_proved_from_doubles() -> None:

@@ -193,10 +193,12 @@ class BallOperator:
         if not all(a < r for a, r in zip(image, sides, strict=True)):
             return None
         for _ in range(SMALLER):
-            # Smaller discs have smaller slopes, but images are never below Newton's step.
-            if not all(a < 2 * b for a, b in zip(image, self.far, strict=True)):
+            # Images are never below Newton's step. A first one that is hardly smaller than its
+            # discs is no end: slopes shrink as discs do, and images the faster.
+            near = all(a < 2 * b for a, b in zip(image, self.far, strict=True))
+            if not near:
                 slopes = self.slopes(image)
-            last, image = image, self.image(slopes, image)
-            if not any(2 * a < b for a, b in zip(image, last, strict=True)):
+            image = self.image(slopes, image)
+            if near:
                 break
         return tuple(image)

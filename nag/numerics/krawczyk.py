@@ -25,7 +25,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.array_table import copy_rows, join_columns, map_rows, take_rows
-from nag.numerics.ball_boxes import BITS, FineBox, box_about, holds_conjugate, one_zero
+from nag.numerics.ball_boxes import BITS, SMALLER, FineBox, box_about, holds_conjugate, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import neighbours
 from nag.numerics.digits import in_bits, round_up
@@ -181,7 +181,7 @@ def sharpen_boxes(
     """Smaller radii of boxes that zeros lie in, by residuals in more digits.
 
     The rounding of residuals is nearly all that boxes of doubles hold beside the distance of a
-    point from its zero. All zeros in a box lie in its image, so that one more image is enough.
+    point from its zero. All zeros in a box lie in its image, and in that of this.
 
     Args:
         polynomials, slices: as many rows as unknowns, of `prove_boxes`.
@@ -215,8 +215,16 @@ def sharpen_radii(
     values = _values_in_balls(BallPolynomials.of(polynomials, slices), points)
     with np.errstate(all="ignore"):
         inverse = invert_matrices(system.jacobian(Discs(points, np.zeros(points.shape))).mid)
-        image = _image(system, points, inner, inverse, _step(inverse, values))
-    return {"inner": np.fmin(inner, image)}
+        step = _step(inverse, values)
+        inner, left = inner.copy(), np.arange(len(points))
+        for _ in range(SMALLER):
+            image = _image(system, points[left], inner[left], inverse[left], step[left])
+            inner[left] = np.fmin(inner[left], image)
+            # Images are never below Newton's step.
+            left = left[(image > 2 * step[left]).any(axis=1)]
+            if not len(left):
+                break
+    return {"inner": inner}
 
 
 def _values_in_balls(system: BallPolynomials, points: np.ndarray) -> Discs:
