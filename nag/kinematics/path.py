@@ -353,20 +353,20 @@ def _measure_walk(curve: Curve, walk: CurveWalk, count: int) -> MeasuredWalk:
     for _ in range(HALVINGS):
         steps = _steps(curve, walk.chart)
         arc = np.concatenate([[0.0], np.cumsum(steps)])
-        long = np.flatnonzero(steps > arc[-1] / count / FINER)
+        long = np.flatnonzero(steps > 2 * arc[-1] / count / FINER)
         if not len(long):
             break
         between = MeasuredWalk(curve, walk, arc).points_at((arc[long] + arc[long + 1]) / 2)
         walk = walk.insert(long, between)
-    # Of chords and their halves the extrapolated lengths (Richardson), so that samples are at the
-    # same places whatever coordinates the curve was found in.
+    # Last, all are halved: lengths of chords and of their halves are extrapolated (Richardson), so
+    # that samples are at the same places whatever coordinates the curve was found in.
     steps = _steps(curve, walk.chart)
     arc = np.concatenate([[0.0], np.cumsum(steps)])
     between = MeasuredWalk(curve, walk, arc).points_at((arc[1:] + arc[:-1]) / 2)
-    finer = walk.insert(np.arange(len(between)), between)
-    halves = _steps(curve, finer.chart).reshape(-1, 2).sum(axis=1)
-    arc = np.concatenate([[0.0], np.cumsum(halves + (halves - steps) / 3)])
-    return MeasuredWalk(curve, walk, arc)
+    walk = walk.insert(np.arange(len(between)), between)
+    halves = _steps(curve, walk.chart).reshape(-1, 2)
+    halves += (halves.sum(axis=1) - steps)[:, None] / 6
+    return MeasuredWalk(curve, walk, np.concatenate([[0.0], np.cumsum(halves)]))
 
 
 def _steps(curve: Curve, chart: np.ndarray) -> np.ndarray:
