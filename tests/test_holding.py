@@ -371,6 +371,19 @@ def test_a_body_to_be_placed_that_is_not_there_is_named_though_nothing_else_hold
         nag.motion(open_arm(), pose={"claw": (0, 0, 0)})
 
 
+def test_assemblies_that_differ_by_half_turns_of_all_bodies_are_two() -> None:
+    # An elbow above and one below, each with the shoulder turned either way.
+    turns = [((0, 0, 0), UP), ((0, 0, 1), (0, 1, 0)), ((3, 0, 1), (0, 1, 0)), ((3, 0, 3), (0, 1, 0))]
+    names = ["base", "l1", "l2", "l3", "l4", "hand"]
+    joints = (
+        nag.Joint(f"j{i}", "revolute", (names[i], names[i + 1]), point, axis)
+        for i, (point, axis) in enumerate([*turns, ((4, 0, 3), (1, 0, 0))])
+    )
+    motion = nag.motion(nag.Mechanism("base", tuple(joints)), pose={"hand": ORIGIN})
+    assert [each.values[0] for each in motion.assemblies] == pytest.approx([0, 0, math.pi, math.pi])
+    assert any(np.allclose(each.values, 0, atol=FIT) for each in motion.assemblies)
+
+
 def test_half_turns_are_told_forwards() -> None:
     motion = nag.motion(CASES / "planar" / "five-bar.toml", drive={"A": math.pi, "E": 0.0})
     held = names_of(motion).index("A")

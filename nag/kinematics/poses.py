@@ -110,10 +110,9 @@ def pose_steps(poses: Poses, centres: np.ndarray, size: float) -> np.ndarray:
 
 def pose_distances(one: Poses, other: Poses, centres: np.ndarray, size: float) -> np.ndarray:
     """The same between configurations of two lists, those with the same number."""
-    products = np.abs((one.turns * other.turns).sum(axis=-1))
     # Chords of unit quaternions: arc cosines lose half of the digits where turns are alike.
     chords = np.sqrt(np.maximum(_least_square(one.turns, other.turns), 0.0))
-    angles = np.where(products > 0, 4 * np.arcsin(np.minimum(chords / 2, 1.0)), 0.0)
+    angles = 4 * np.arcsin(np.minimum(chords / 2, 1.0))
     ways = one.places - other.places
     for body, centre in enumerate(centres):
         ways[body] += turn_vectors(one.turns[body], centre)
