@@ -12,7 +12,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import ends
 from nag.decomposition.decompose import decompose
-from nag.decomposition.superset import intersection_order, witness_superset
+from nag.decomposition.superset import Superset, intersection_order, witness_superset
 from nag.tracking.run import Run
 from nag.witness import membership
 from nag.witness.close_to_sets import NearbyZeros
@@ -160,3 +160,8 @@ def test_a_point_is_on_larger_sets_if_it_is_on_one_whatever_others_leave_open(
     rng = np.random.default_rng(0)
     found, counts = membership.is_on_larger_set(np.zeros(1), 1e-15, sets, 0, rng, Run())
     assert found is words[whole] and counts.tracked == len(answers)
+
+
+@pytest.mark.parametrize(("failed", "said"), [(1, "1 path failed"), (2, "2 paths failed")])
+def test_paths_that_failed_are_counted_in_words(failed: int, said: str) -> None:
+    assert Superset({}, PathCounts(9, failed), ()).doubts == [f"{said}; points may be missing"]

@@ -16,6 +16,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.decomposition.ends import SingularEnds, collect
 from nag.decomposition.hypersurface import HypersurfaceSection, hypersurface_section
 from nag.numerics.coincidence import coincident
+from nag.text.table import count_text
 from nag.tracking.run import Run
 from nag.witness.cutting import Equations, dyadic, leading_power
 from nag.witness.fibres import Fibre
@@ -57,7 +58,7 @@ class Superset:
     def doubts(self) -> list[str]:
         """The notes, and what failed paths mean."""
         failed = self.counts.failed
-        lost = [f"{failed} paths failed; points may be missing"] if failed else []
+        lost = [f"{count_text(failed, 'path')} failed; points may be missing"] if failed else []
         return [*self.notes, *lost]
 
     @property
