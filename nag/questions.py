@@ -953,8 +953,8 @@ def _find_in(
     *,
     check: Callable[[PolynomialSystem, Mapping[str, tuple[Number, ...]]], object] | None = None,
     real: bool = False,
-) -> tuple[Decomposition, Mapping[str, tuple[Number, ...]]]:
-    """The same, and the points of a problem by their names.
+) -> tuple[Decomposition, Mapping[str, tuple[Number, ...]], str]:
+    """The same, the points of a problem by their names, and what proves that no point is real.
 
     Args:
         check: called with a problem's system and points before it is decomposed.
@@ -973,7 +973,7 @@ def _find_in(
         found = _of_one_component(given) if one else expand_orbits(given)
         if check is not None:
             check(found.system, {})
-        return found, {}
+        return found, {}, ""
     if is_a(given, "nag.solving.solutions", "SolveResult"):
         raise NagError(
             "given: solutions are given, and components are asked about; give the equations, or "
@@ -982,14 +982,16 @@ def _find_in(
     from nag.mechanism.problem import in_real_coordinates, problem_of
 
     asked = problem_of(given, formulation=formulation)
+    reason = ""
     if real:
-        from nag.mechanism.real_assemblies import of_real_assemblies
+        from nag.mechanism.real_assemblies import obstacle, of_real_assemblies
 
+        reason = "" if asked.parts is None else obstacle(asked.parts)
         asked = of_real_assemblies(in_real_coordinates(asked))
     points = _points(asked)
     if check is not None:
         check(asked.system, points)
-    return expand_orbits(asked.decompose(run=run)), points
+    return expand_orbits(asked.decompose(run=run)), points, reason
 
 
 def _of_one_component(component: WitnessSet) -> Decomposition:
@@ -1083,7 +1085,7 @@ def member(
     from nag.algebra.from_python import exact_number
     from nag.witness.membership import locate_point
 
-    found, points = _find_in(given, run, formulation, check=partial(_point, point))
+    found, points, _ = _find_in(given, run, formulation, check=partial(_point, point))
     at = _point(point, found.system, points)
     known = [x if isinstance(x, complex) else exact_number(x) for x in at]
     return locate_point(found, known, run=run)
@@ -1121,11 +1123,14 @@ def sample(
     >>> nag.sample("x^2 + y^2 - 1", count=5).points.shape
     (5, 2)
     """
-    found, _ = _find_in(given, run, formulation, real=real)
+    found, _, obstacle = _find_in(given, run, formulation, real=real)
     chosen = component_numbered(found, component)
     if real:
-        from nag.real.real_samples import sample_real
+        from nag.real.real_pieces import Reality
+        from nag.real.real_samples import sample_real, say_none_real
 
+        if obstacle:
+            raise say_none_real(found.system, Reality.NONE, obstacle)
         return sample_real(chosen, count, run=run)
     from nag.witness.sampling import sample as sample_component
 
@@ -1164,9 +1169,13 @@ def find_real_points(
     [1, 1, 0, 0]
     """
     from nag.real.real_pieces import find_real_points as find_points_on
+    from nag.real.real_pieces import no_real_points
 
-    found, _ = _find_in(given, run, formulation, real=True)
-    return find_points_on(_one_component(found, component, None), run=run)
+    found, _, obstacle = _find_in(given, run, formulation, real=True)
+    chosen = _one_component(found, component, None)
+    if obstacle:
+        return no_real_points(chosen, obstacle)
+    return find_points_on(chosen, run=run)
 
 
 @takes_components
@@ -1201,7 +1210,7 @@ def find_real_curve(
     """
     from nag.real.find_curve import find_real_curve as find_curve_on
 
-    found, _ = _find_in(given, run, formulation, real=True)
+    found, _, _ = _find_in(given, run, formulation, real=True)
     return find_curve_on(_one_component(found, component, 1), run=run)
 
 
@@ -1827,7 +1836,7 @@ def plot(
         if kind == "onto":
             variables_onto(onto or (), system.own_variables)
 
-    found, _ = _find_in(given, run, formulation, check=check, real=kind == "onto")
+    found, _, _ = _find_in(given, run, formulation, check=check, real=kind == "onto")
     chosen = None if component is None else {component: component_numbered(found, component)}
     return plot_components(found, kind, onto, title, target, run, chosen)
 

@@ -232,6 +232,27 @@ def test_where_none_is_found_the_command_says_so_and_is_not_complete(tmp_path, c
     assert document["points"] == [] and not document["complete"]
 
 
+def test_lengths_that_forbid_assemblies_prove_that_none_is_real(tmp_path, capsys) -> None:
+    # A side that is longer than five others together: too many nearest points to find them all.
+    links = "".join(
+        f'[[link]]\nname = "{name}"\npins = ["{a}", "{b}"]\nlength = {length}\n'
+        for name, a, b, length in zip(
+            "abcdef", "ABCDEF", "BCDEFA", (20, 2, 3, 4, 2, 3), strict=True
+        )
+    )
+    case, out = tmp_path / "open.toml", tmp_path / "out.json"
+    case.write_text(f'title = "t"\nkind = "linkage"\nground = "a"\n{links}')
+    assert main(["sample", str(case), "--real", "--quiet", "--json", str(out)]) == 0
+    assert "real points: none, proved: link a is longer than" in capsys.readouterr().out
+    assert json.loads(out.read_text())["complete"]
+    with pytest.raises(NoRealPointsError, match="none, proved: link a is longer than"):
+        nag.sample(case, real=True)
+    found = nag.find_real_points(case)
+    assert (
+        found.reality is NONE and found.each_piece and found.reason.startswith("link a is longer")
+    )
+
+
 def test_none_is_drawn_where_there_is_none() -> None:
     (sphere,) = nag.decompose("x^2 + y^2 + z^2 = -1").components
     with pytest.raises(NoRealPointsError, match="none, proved"):

@@ -50,7 +50,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     found = read_components(options, real=options.real)
     component = component_of(found, options.component, "--component")
     system = found.decomposition.system
-    samples, none, doubt = _draw(system, component, options)
+    samples, none, doubt = _draw(system, component, options, found.obstacle)
     count = len(samples.points)
     tail = [("points", f"{count}, the first {SHOWN} are shown")] * (count > SHOWN)
     accuracy = f"{magnitude(samples.residual)}, accuracy {magnitude(samples.accuracy)}"
@@ -73,16 +73,23 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
 
 def _draw(
-    system: PolynomialSystem, component: WitnessSet, options: argparse.Namespace
+    system: PolynomialSystem, component: WitnessSet, options: argparse.Namespace, obstacle: str
 ) -> tuple[Samples, str, str]:
-    """Points that are asked for, that there are none if that is proved, and what is not known."""
+    """Points that are asked for, that there are none if that is proved, and what is not known.
+
+    Args:
+        obstacle: what proves that none is real; empty if nothing does.
+    """
     from nag.witness.sampling import NoRealPointsError, SamplingError, sample
 
     how = chosen_run(options)
     try:
         if options.real:
-            from nag.real.real_samples import sample_real
+            from nag.real.real_pieces import Reality
+            from nag.real.real_samples import sample_real, say_none_real
 
+            if obstacle:
+                raise say_none_real(system, Reality.NONE, obstacle)
             samples = sample_real(component, options.count, run=how)
         else:
             samples = sample(system, component, options.count, run=how)

@@ -46,6 +46,8 @@ class ReadComponents:
         file: name of the case file, without its folder.
         points: named points of the case; none if an export was given.
         export: the export that it was read from; empty if a case was decomposed.
+        obstacle: where real points are asked for, why parts that are given by lengths have no real
+            assembly; empty if nothing proves it.
     """
 
     decomposition: Decomposition
@@ -53,6 +55,7 @@ class ReadComponents:
     file: str
     points: Points
     export: str = ""
+    obstacle: str = ""
 
     @property
     def case(self) -> tuple[str, str]:
@@ -118,10 +121,12 @@ def read_components(
         return ReadComponents(expand_orbits(export.decomposition), title, file, {}, options.case)
 
     case, problem = read_problem(options)
+    reason = ""
     if real:
         from nag.mechanism.problem import in_real_coordinates
-        from nag.mechanism.real_assemblies import of_real_assemblies
+        from nag.mechanism.real_assemblies import obstacle, of_real_assemblies
 
+        reason = "" if problem.parts is None else obstacle(problem.parts)
         problem = of_real_assemblies(in_real_coordinates(problem))
     points = {point.name: point.at for point in problem.points}
     if check is not None:
@@ -129,7 +134,8 @@ def read_components(
     decomposition = problem.decompose(run=chosen_run(options))
     if options.progress is not None:
         options.progress.erase()
-    return ReadComponents(expand_orbits(decomposition), case.title, Path(case.path).name, points)
+    found = expand_orbits(decomposition)
+    return ReadComponents(found, case.title, Path(case.path).name, points, obstacle=reason)
 
 
 def component_number(text: str) -> int:

@@ -159,6 +159,12 @@ def find_real_points(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealPi
     return _of_larger_set(component, run)
 
 
+def no_real_points(component: WitnessSet, reason: str) -> RealPieces:
+    """The answer for a component of which something proves that none of its points is real."""
+    n = len(component._known_system().own_variables)
+    return RealPieces(np.zeros((0, n)), (), Reality.NONE, True, reason)
+
+
 def _of_finite_set(component: WitnessSet) -> RealPieces:
     points, doubtful = real_points_of(component)
     if doubtful:

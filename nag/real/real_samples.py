@@ -40,7 +40,13 @@ SPREAD, TRIES = 1.0, 4
 TURN = 0.25
 
 
-def _why_none(system: PolynomialSystem, reality: Reality, reason: str) -> NagError:
+def say_none_real(system: PolynomialSystem, reality: Reality, reason: str) -> NagError:
+    """The error of a component of which no real point is drawn.
+
+    Args:
+        reality: whether there is none, or none was found.
+        reason: why.
+    """
     kind = NoRealPointsError if reality is Reality.NONE else SamplingError
     none = np.zeros((0, system.n))
     nothing = Samples(none, 0.0, EPS, variables=system.own_variables, real=True, unit=system.unit)
@@ -86,7 +92,7 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
             return _of_parts(component, met, find_real_points, "", count, rng, run)
     found = find_real_points(component, run=run)
     if found.reality is not Reality.FOUND:
-        raise _why_none(system, found.reality, found.reason)
+        raise say_none_real(system, found.reality, found.reason)
     if component.dimension == 0:
         return _draw_from(component, found, count, rng)
     return _near(component, np.asarray(found.points), count, rng, run)
@@ -216,7 +222,7 @@ def _of_parts(
     if largest <= 0:
         whole = find_all(component, run=run)
         if whole.reality is not Reality.FOUND:
-            raise _why_none(component._known_system(), whole.reality, whole.reason)
+            raise say_none_real(component._known_system(), whole.reality, whole.reason)
         return _draw_from(component, whole, count, rng)
     chosen = [each for each, f in found if len(f) and max(f.dimensions) == largest]
     shares = rng.multinomial(count, np.full(len(chosen), 1 / len(chosen)))
@@ -259,7 +265,7 @@ def _of_curve(component: WitnessSet, count: int, rng: np.random.Generator, run: 
     isolated = [v.point for v in curve.vertices]
     if not isolated:
         none = Reality.NONE if curve.complete else Reality.NONE_FOUND
-        raise _why_none(component._known_system(), none, curve.reason)
+        raise say_none_real(component._known_system(), none, curve.reason)
     drawn = np.array(isolated)[rng.integers(len(isolated), size=count)]
     return _samples(component, drawn, [0] * count, doubt)
 
