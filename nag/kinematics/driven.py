@@ -20,7 +20,7 @@ from nag.algebra.given import is_a
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
-from nag.kinematics import CLOSE_A_LOOP
+from nag.kinematics import CLOSE_A_LOOP, HOLD_FARTHER
 from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_values
 from nag.kinematics.path import Path
 from nag.kinematics.poses import SAME, Poses, pose_distances, turn_product
@@ -203,7 +203,8 @@ def problem_to_move(mechanism: Any, poses: Sequence[Pose], formulation: str) -> 
     try:
         return in_real_coordinates(problem_of(given, formulation=formulation))
     except NoLoopError as error:
-        raise NoLoopError(f"{error}; {CLOSE_A_LOOP}").mended_by("pose") from None
+        advice = HOLD_FARTHER if poses else CLOSE_A_LOOP
+        raise NoLoopError(f"{error}; {advice}").mended_by("pose") from None
 
 
 def check_drive(scene: Scene, drive: Drive) -> int:

@@ -279,7 +279,9 @@ def _choose_closures(
 
     Also how many bases were looked at, where others were left.
     """
-    single = structure.single is not None
+    # What is held may leave a loop two freedoms, both of which would be eliminated.
+    held = bool(displacements)
+    single = structure.single is not None and not held
     problem = stopped = ""
     for narrow in (False,) if single else (False, True):
         looked_at = 0
@@ -294,7 +296,7 @@ def _choose_closures(
             users = Counter(f for product in products for f in factors_in(product))
             chosen = []
             for loop, product in zip(loops, products, strict=True):
-                best = _choose_closure(product, users, narrow)
+                best = _choose_closure(product, users, narrow, held)
                 if best is None:
                     problem = problem or _nothing_to_eliminate(loop)
                     break
@@ -312,15 +314,18 @@ def _choose_closures(
 
 
 def _choose_closure(
-    product: Sequence[Element], users: Mapping[Factor, int], narrow: bool
+    product: Sequence[Element], users: Mapping[Factor, int], narrow: bool, keeps: bool = False
 ) -> Closure | None:
     """What a loop eliminates of its own.
 
     Args:
         narrow: whether that may be one turn or slide, or nothing, where there is no more.
+        keeps: whether a factor has to be left.
     """
     for ways in (closures, narrow_closures) if narrow else (closures,):
         own = [c for c in ways(product) if all(users[f] == 1 for f in c.lost)]
+        if keeps and factors_in(product):
+            own = [c for c in own if factors_in(c.kept)]
         if own:
             return min(own, key=_cost)
     return None

@@ -28,7 +28,7 @@ from nag.mechanism.model import Model, check_loops
 from nag.mechanism.path_estimates import Alternative, ModelError, path_bound
 from nag.mechanism.quaternion import DualQuaternion, dual_multiply, multiply
 from nag.mechanism.rods import RodModel, rod_model
-from nag.text.table import count_text
+from nag.text.table import count_text, join_words
 
 # Estimated paths up to which a platform's legs are not asked for their equations: these take as
 # long to be made as so many paths.
@@ -240,10 +240,10 @@ def _choose_form(
             if not poses.form.left_out and poses.paths < paths:
                 return poses
     if closures is None:
-        raise ModelError(
-            f"with {', '.join(given.held)} held too little is left that moves; hold less "
-            f"({problem})"
-        )
+        held = join_words(given.held)
+        if not any(joint.of_type.freedoms for joint in structure.joints):
+            raise ModelError(f"with {held} held no joint of a loop is left that moves; hold less")
+        raise ModelError(f"with {held} held too little is left that moves; hold less ({problem})")
     return Alternative("H", closures.model)
 
 

@@ -328,8 +328,8 @@ def check_loops(mechanism: Mechanism, structure: LoopStructure) -> None:
     if structure.groups.is_one_body:
         raise ModelError("all bodies are tied together by rigid joints: nothing moves")
     if not structure.loops:
-        moving = sum(joint.of_type.freedoms > 0 for joint in mechanism.joints)
-        joints = "its joint moves" if moving == 1 else f"its {moving} joints move"
+        moving = sum(joint.of_type.freedoms > 0 for joint in structure.outside)
+        joints = "one joint moves" if moving == 1 else f"{moving} joints move"
         raise NoLoopError(
             f"the mechanism has no loop: {joints} freely, so its mobility is "
             f"{structure.cut_freedoms} and there is nothing to decompose"
