@@ -373,7 +373,12 @@ def test_a_body_to_be_placed_that_is_not_there_is_named_though_nothing_else_hold
 
 def test_assemblies_that_differ_by_half_turns_of_all_bodies_are_two() -> None:
     # An elbow above and one below, each with the shoulder turned either way.
-    turns = [((0, 0, 0), UP), ((0, 0, 1), (0, 1, 0)), ((3, 0, 1), (0, 1, 0)), ((3, 0, 3), (0, 1, 0))]
+    turns = [
+        ((0, 0, 0), UP),
+        ((0, 0, 1), (0, 1, 0)),
+        ((3, 0, 1), (0, 1, 0)),
+        ((3, 0, 3), (0, 1, 0)),
+    ]
     names = ["base", "l1", "l2", "l3", "l4", "hand"]
     joints = (
         nag.Joint(f"j{i}", "revolute", (names[i], names[i + 1]), point, axis)
@@ -382,6 +387,69 @@ def test_assemblies_that_differ_by_half_turns_of_all_bodies_are_two() -> None:
     motion = nag.motion(nag.Mechanism("base", tuple(joints)), pose={"hand": ORIGIN})
     assert [each.values[0] for each in motion.assemblies] == pytest.approx([0, 0, math.pi, math.pi])
     assert any(np.allclose(each.values, 0, atol=FIT) for each in motion.assemblies)
+
+
+def test_a_stretched_arm_whose_pose_is_in_whole_numbers_is_no_rounded_one() -> None:
+    motion = nag.motion(open_arm_of(2, 4), pose={"hand": ORIGIN})
+    assert motion.complete and len(motion.assemblies) == 1
+    turned = nag.motion(open_arm_of(2, 4), pose={"hand": (*ORIGIN, 0.8, 0, 0, 0.6)})
+    assert len(turned.assemblies) == 1 and not turned.complete
+
+
+def open_arm_of(*places: int) -> nag.Mechanism:
+    """An arm in the plane, stretched, with hinges at the origin and so far from it."""
+    points = [0, *places]
+    names = ["base", *(f"link{x}" for x in places), "hand"]
+    return nag.Mechanism(
+        "base",
+        tuple(
+            nag.Joint(f"j{i}", "revolute", (names[i], names[i + 1]), (x, 0, 0), UP)
+            for i, x in enumerate(points)
+        ),
+    )
+
+
+@pytest.mark.parametrize(
+    ("pose", "angles"),
+    [
+        ((0, 0, 0), [(0, 0)]),
+        # The elbow is at (0, 2), the hand not turned.
+        ((-2, 2, 0), [(90, -90)]),
+        ((0, 0, 0, 1, 0, 0, 1), [(90, 0)]),
+        ((1, 1, 0), []),
+    ],
+)
+def test_an_arm_of_two_joints_reaches_a_pose_or_does_not(pose, angles) -> None:
+    motion = nag.motion(open_arm_of(2), pose={"hand": pose})
+    found = [np.degrees(each.values) for each in motion.assemblies]
+    assert motion.complete and np.allclose(found, angles, atol=1e-8)
+    assert len(found) == len(angles)
+
+
+def test_what_holds_too_much_is_told_what_to_hold_instead() -> None:
+    with pytest.raises(nag.NagError, match=r"one joint moves freely.*two joints or more between"):
+        nag.motion(open_arm_of(2), pose={"link2": ORIGIN})
+    five = CASES / "planar" / "five-bar.toml"
+    with pytest.raises(nag.NagError, match=r"no joint of a loop is left that moves; hold less$"):
+        nag.motion(five, drive=dict.fromkeys("ABCDE", 0.0))
+    # Two joints that are left have one assembly.
+    held = nag.motion(five, drive=dict.fromkeys("ABC", 0.0))
+    assert held.complete and np.allclose([each.values for each in held.assemblies], 0, atol=FIT)
+
+
+def test_circuits_and_assemblies_besides_are_in_the_table_of_what_is_held() -> None:
+    # A wrist whose first and last axes are one turns idly; with its middle turned it does not.
+    names = ["base", "l1", "l2", "l3", "l4", "l5", "hand"]
+    y, z = (0, 1, 0), (0, 0, 1)
+    places = [(0, 0, 0), (0, 0, 1), (3, 0, 1), (3, 0, 3), (3, 0, 3), (3, 0, 3)]
+    joints = [
+        nag.Joint(f"j{i}", "revolute", (names[i], names[i + 1]), place, axis)
+        for i, (place, axis) in enumerate(zip(places, (z, y, y, z, y, z), strict=True))
+    ]
+    motion = nag.motion(nag.Mechanism("base", tuple(joints)), pose={"hand": ORIGIN}, samples=12)
+    assert len(motion.circuits) == 2 and len(motion.assemblies) == 4
+    circuits = motion.whole_table()["circuit"].tolist()
+    assert circuits == [1] * 13 + [2] * 13 + [0] * 4
 
 
 def test_half_turns_are_told_forwards() -> None:

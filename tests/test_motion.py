@@ -785,3 +785,21 @@ def test_of_several_components_one_that_is_not_followed_leaves_the_others() -> N
         _real_curve(component, False, DEFAULT_RUN)
     undecided = _real_curve(component, True, DEFAULT_RUN)
     assert not undecided.complete and "not reduced" in undecided.reason and not undecided.edges
+
+
+@pytest.mark.parametrize(
+    ("case", "body"),
+    [
+        ("mobility/delta", "platform"),
+        ("robots/hexapod", "platform"),
+        ("bennett", "B2"),
+        # Both rods are as far.
+        ("planar/five-bar", None),
+    ],
+)
+def test_the_body_that_most_joints_part_from_the_ground_is_a_robots_platform(
+    case: str, body: str | None
+) -> None:
+    scene = scene_of(read_problem(case))
+    found = scene.farthest_body
+    assert (None if found is None else scene.bodies[found]) == body

@@ -79,6 +79,71 @@ def test_assemblies_at_a_value_of_a_joint_are_listed(capsys) -> None:
     assert "44.09\u00b0" in printed
 
 
+def test_assemblies_at_each_value_that_a_joint_is_driven_through_are_listed(capsys) -> None:
+    assert ask(str(CASES / "planar" / "four-bar.toml"), "--drive", "A=30:60:2") == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    start = lines.index(["A", "assembly", "circuit", "D", "B", "C"])
+    assert [row[:4] for row in lines[start + 1 : start + 5]] == [
+        ["30.00\u00b0", "1", "1", "-62.22\u00b0"],
+        ["30.00\u00b0", "2", "2", "44.09\u00b0"],
+        ["60.00\u00b0", "1", "1", "-63.82\u00b0"],
+        ["60.00\u00b0", "2", "2", "36.02\u00b0"],
+    ]
+
+
+def test_what_is_at_a_value_is_all_that_its_table_has(tmp_path, capsys) -> None:
+    table, case = tmp_path / "a.csv", str(CASES / "planar" / "four-bar.toml")
+    assert ask(case, "--drive", "A=30", "--csv", str(table)) == 0
+    assert [line.split(",")[0] for line in table.read_text().splitlines()] == ["circuit", "1", "2"]
+    capsys.readouterr()
+    # The rocker swings from 29.99 to 64.06 degrees, to either side.
+    for value in ("120", "110:120:2"):
+        assert ask(case, "--drive", f"D={value}", "--csv", str(table)) == 0
+        assert len(table.read_text().splitlines()) == 1
+        printed = " ".join(capsys.readouterr().out.split())
+        assert f"table {table}, without rows: there is no assembly" in printed
+    # A circuit that has the value throughout is in it, and assemblies on others.
+    assert ask(KITE, "--drive", "D=0", "--csv", str(table), "--samples", "24") == 0
+    circuits = [line.split(",")[0] for line in table.read_text().splitlines()[1:]]
+    assert circuits == ["1"] * 25 + ["2"] * 2
+
+
+@pytest.mark.parametrize("value", ["0", "0:10:2"])
+def test_each_file_that_is_written_is_named(value: str, tmp_path, capsys) -> None:
+    files = {"table": tmp_path / "a.csv", "page": tmp_path / "a.html", "json": tmp_path / "a.json"}
+    options = [f"--{file.suffix[1:]}" for file in files.values()]
+    words = [x for pair in zip(options, map(str, files.values()), strict=True) for x in pair]
+    case = str(CASES / "planar" / "five-bar.toml")
+    assert ask(case, "--drive", f"A={value}", "--samples", "24", *words) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert all([label, str(file)] in lines and file.exists() for label, file in files.items())
+    assert ask(case, "--drive", "A=0", "--samples", "24", "--json", "-") == 0
+    assert json.loads(capsys.readouterr().out)["format"] == "nag-motion"
+
+
+def test_a_joint_that_is_held_is_said_to_be_and_not_to_stand_still(tmp_path, capsys) -> None:
+    page = tmp_path / "a.html"
+    case = str(CASES / "planar" / "five-bar.toml")
+    assert ask(case, "--drive", "A=30", "--html", str(page)) == 0
+    printed = capsys.readouterr().out
+    assert printed.count("\nA      held\n") == 2 and "never" not in printed
+    assert '["A", "held"]' in page.read_text() or '["A","held"]' in page.read_text()
+
+
+def test_assemblies_of_a_delta_tell_where_its_platform_is(capsys) -> None:
+    held = [word for k in "123" for word in ("--drive", f"R{k}=0")]
+    assert ask(str(CASES / "mobility" / "delta.toml"), *held) == 0
+    printed = capsys.readouterr().out
+    head, *rows = [line.split() for line in printed.split("assembly  ")[1].splitlines()][:9]
+    assert head[3:] == ["platform.x", "platform.y", "platform.z", "platform", "turned"]
+    # Where it is drawn, and on the other side of the arms along the axis (1, 1, 1).
+    zero = "0.00\u00b0"
+    assert [zero, zero, zero, "0", "0", "0", zero] in [row[1:] for row in rows]
+    moved = next(row[4:7] for row in rows if row[7] == zero and row[4] != "0")
+    assert len(set(moved)) == 1
+    assert "platform.x to platform.z: the place of its frame" in printed
+
+
 KITE = str(CASES / "planar" / "four-bar-kite.toml")
 
 
@@ -135,7 +200,8 @@ def test_a_link_that_hangs_neither_moves_as_loops_do_nor_stands_still(
     case.write_text(head + (HANGING + links if first else links + HANGING))
     assert ask(str(case), "--json", str(file)) == 0
     printed = capsys.readouterr().out
-    assert "joint C:pendulum in no loop, moving freely with 1 freedom\n" in printed
+    hanging = "joint C:pendulum in no loop, moving freely with 1 freedom; tables and pages show its"
+    assert f"{hanging} link unturned" in " ".join(printed.split())
     assert "it moves with 2 freedoms, 1 of them of joints in no loop, counting" in printed
     assert printed.count("C:pendulum  moves freely, in no loop\n") == 2
     document = json.loads(file.read_text())
@@ -164,6 +230,7 @@ def test_a_hanging_joint_of_a_mechanism_is_not_still(tmp_path, capsys) -> None:
     assert ask(str(case)) == 0
     printed = capsys.readouterr().out
     assert "never move" not in printed and "\nH      moves freely, in no loop\n" in printed
+    assert "tables and pages show it as drawn" in " ".join(printed.split())
     assert ask(str(case), "--drive", "H=20") == 2
     (line,) = capsys.readouterr().err.splitlines()
     said = "--drive: H is in no loop: it slides freely, and nothing else moves with it"
@@ -171,7 +238,7 @@ def test_a_hanging_joint_of_a_mechanism_is_not_still(tmp_path, capsys) -> None:
     assert ask(str(case), "--drive", "J0=10") == 0
     printed = capsys.readouterr().out
     head = next(line for line in printed.splitlines() if line.startswith("assembly"))
-    assert head.split() == ["assembly", "circuit", "J0", "J1", "J2", "J3"]
+    assert head.split()[:6] == ["assembly", "circuit", "J0", "J1", "J2", "J3"]
 
 
 def test_one_circuit_may_be_asked_for(tmp_path, capsys) -> None:
@@ -213,6 +280,10 @@ def test_bars_in_space_have_no_table_of_joints(capsys) -> None:
         (["robots/3-rps.toml", "--drive", "P1=0.1"], "it moves with 2 freedoms with P1 held"),
         (["mobility/delta.toml", "--drive", "R1=20"], "8 freedoms, 6 of them idle, with R1 held"),
         (["planar/four-bar.toml", "--formulation", "H"], "--formulation is for assembled"),
+        (
+            ["spatial/wren-5.toml"],
+            "(multiplicity 4), and such a motion is not followed; nag mobility",
+        ),
     ],
 )
 def test_bad_input_is_one_line(words: list[str], said: str, capsys) -> None:

@@ -21,6 +21,7 @@ from nag.cli.arguments import (
     whole,
 )
 from nag.cli.running import (
+    STANDARD_OUTPUT,
     CommandAnswer,
     answer_document,
     answer_of,
@@ -29,7 +30,7 @@ from nag.cli.running import (
     write_document,
 )
 from nag.errors import NagError
-from nag.kinematics import CLOSE_A_LOOP, MOST_VALUES
+from nag.kinematics import CLOSE_A_LOOP, HOLD_FARTHER, MOST_VALUES
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -157,7 +158,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
             if name in names[:i]:
                 raise UsageError(f"{option}: {name[:40]!r} is given twice; give it once")
     given = tie_placed_bodies(case, (split_place(body)[0] for body, _ in options.pose or ()))
-    advice = f"{CLOSE_A_LOOP} (--pose BODY=X,Y,Z; --hold LINK)"
+    advice = HOLD_FARTHER if options.pose else f"{CLOSE_A_LOOP} (--pose BODY=X,Y,Z; --hold LINK)"
     problem = problem_of_case(given, options.formulation or "auto", advice)
     drives = _with_radians(problem, options.drive or ())
     ranges = [each for each in drives if len(each[1]) > 1]
@@ -197,10 +198,9 @@ def _run_once(
 
     asked = options.circuit or ("reference" if not held["drive"] else "all")
     found = motion(problem, circuit=asked, **held, run=chosen_run(options, document_of))
-    if options.csv is not None:
-        write_document(_table_text(found.whole_table(angles=options.angles)), options.csv, "csv")
     tail = [*case.note_rows, *(("open", note) for note in found.notes)]
-    tail += [("table", options.csv)] if options.csv is not None else []
+    if options.csv is not None:
+        tail.append(_write_table(options, found.whole_table(angles=options.angles)))
     if options.html is not None and found.circuits:
         from nag.page.motion_page import motion_page
 
@@ -209,15 +209,17 @@ def _run_once(
         tail.append(("page", options.html))
     elif options.html is not None:
         tail.append(_no_page(options.html, "nothing moves"))
+    tail += _document_rows(options)
     blocks: list[Any] = [motion_rows(found), *_circuit_blocks(found)]
     if found.drive is not None or found.held or found.poses:
         driven = [("driven", drive_text(found))]
         if problem.reference is not None:
             driven.append(("angles", "count from the position in which it is drawn"))
+        driven += _hand_rows(found)
         blocks.append(driven)
         blocks.append(assembly_rows(found) if found.assemblies else [])
     elif found.assemblies and joint_coordinates(found.scene):
-        blocks.append(assembly_rows(found))
+        blocks += [_hand_rows(found), assembly_rows(found)]
     answer = answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
     return _with_page(answer, options, bool(found.circuits))
 
@@ -231,7 +233,14 @@ def _run_through(
 ) -> CommandAnswer:
     """What is left of a motion with a joint at one value after another."""
     from nag.kinematics.driven_motion import driven_motion
-    from nag.kinematics.shown import continuation_rows, driven_rows, motion_rows, throughout_rows
+    from nag.kinematics.shown import (
+        continuation_rows,
+        driven_assembly_rows,
+        driven_rows,
+        more_assemblies_text,
+        motion_rows,
+        throughout_rows,
+    )
 
     if options.circuit is not None:
         raise UsageError("--circuit: leave it out where a joint is driven through values")
@@ -248,10 +257,10 @@ def _run_through(
         }
 
     found = driven_motion(problem, *drive, **held, run=chosen_run(options, document_of))
-    if options.csv is not None:
-        write_document(_table_text(found.table(angles=options.angles)), options.csv, "csv")
     tail = case.note_rows
     tail += [("open", f"value {i + 1}: {note}") for i, m in enumerate(found) for note in m.notes]
+    if options.csv is not None:
+        tail.append(_write_table(options, found.table(angles=options.angles)))
     moving = any(each.moves for each in found.continuations)
     if options.html is not None and moving:
         from nag.page.motion_page import driven_page
@@ -261,13 +270,39 @@ def _run_through(
         tail.append(("page", options.html))
     elif options.html is not None:
         tail.append(_no_page(options.html, "at each value nothing moves"))
+    tail += _document_rows(options)
     head = [
         row for row in motion_rows(found[0]) if row[0] in ("model", "mobility", "idle", "hanging")
     ]
     rows = [*continuation_rows(found), *throughout_rows(found)]
-    blocks: list[Any] = [head, driven_rows(found), rows]
+    assemblies = driven_assembly_rows(found)
+    if assemblies:
+        more = more_assemblies_text(found)
+        rows += [("assemblies", f"{more}; --csv and --json have all")] if more else []
+        rows += next((_hand_rows(each) for each in found if each.assemblies), [])
+    blocks: list[Any] = [head, driven_rows(found), rows, assemblies]
     answer = answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
     return _with_page(answer, options, moving)
+
+
+def _hand_rows(found: Motion) -> list[tuple[str, str]]:
+    """What the columns of a table of assemblies are that tell where a body is."""
+    from nag.kinematics.shown import hand_text
+
+    text = hand_text(found) if found.assemblies else ""
+    return [("places", text)] if text else []
+
+
+def _write_table(options: argparse.Namespace, columns: Mapping[str, Any]) -> tuple[str, str]:
+    """Write the file of ``--csv``, and name it; it has no row where there is nothing to list."""
+    write_document(_table_text(columns), options.csv, "csv")
+    empty = "" if len(columns["arc"]) else ", without rows: there is no assembly"
+    return "table", f"{options.csv}{empty}"
+
+
+def _document_rows(options: argparse.Namespace) -> list[tuple[str, str]]:
+    """The file of ``--json``."""
+    return [] if options.json in (None, STANDARD_OUTPUT) else [("json", options.json)]
 
 
 def _no_page(path: str, why: str) -> tuple[str, str]:

@@ -118,14 +118,14 @@ class DrivenMotion(Several[Motion]):
         for k, (value, motion) in enumerate(zip(values, self.motions, strict=True)):
             # Circuits are those of what is left only where the joint is held.
             held = motion.drive is None
-            columns = (motion.whole_table if held else motion.assembly_table)(angles=angles)
+            columns = motion.whole_table(angles=angles)
             if held and motion.circuits:
                 numbers = {
                     motion.circuits[each.members[k - each.first]].number: number
                     for number, each in enumerate(moving, start=1)
                     if 0 <= k - each.first < len(each.members)
                 }
-                own = [numbers[c] for c in columns["circuit"].tolist()]
+                own = [numbers.get(c, 0) for c in columns["circuit"].tolist()]
                 columns = columns | {"circuit": np.array(own, dtype=int)}
             tables.append({"driven": np.full(len(columns["arc"]), value)} | columns)
         return join_tables(tables)

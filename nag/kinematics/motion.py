@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
@@ -40,6 +41,7 @@ from nag.kinematics.scene import Scene, scene_of
 from nag.kinematics.turning_points import Values, values_along
 from nag.kinematics.walks import CurveWalk, walks_of
 from nag.mechanism import PLATFORM_ALONE
+from nag.mechanism.given_rotation import known_multiple
 from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem
@@ -334,9 +336,19 @@ class Motion(Several[Circuit]):
         return columns
 
     def whole_table(self, *, angles: str = "degrees") -> dict[str, np.ndarray]:
-        """All circuits one below the other, or the assemblies where there is no circuit."""
-        tables = [self.table(each.number, angles=angles) for each in self.circuits]
-        return join_tables(tables) if tables else self.assembly_table(angles=angles)
+        """All circuits one below the other, or the assemblies where there is no circuit.
+
+        With joints or bodies held the assemblies are behind the circuits of what is left. With a
+        joint at a value, of one freedom, they are behind those circuits alone that have the value
+        throughout; there may be no row at all.
+        """
+        shown = [
+            c.number for c in self.circuits if self.drive is None or c.number in self.throughout
+        ]
+        tables = [self.table(number, angles=angles) for number in shown]
+        if not tables or self.drive is not None or self.held or self.poses:
+            tables.append(self.assembly_table(angles=angles))
+        return join_tables(tables)
 
     def to_dataframe(self, *, angles: str = "degrees") -> pandas.DataFrame:
         """The same as a frame of pandas.
@@ -559,24 +571,39 @@ def held_motion(
     told = run.convert_found(with_held)
     asked = problem.formulation == PLATFORM_ALONE
     left, scene = hold(problem, drives, poses, PLATFORM_ALONE if asked else "auto")
+    exact = _are_exact(problem, drives, poses)
     if not poses:
         _check_held_freedoms(problem, left, drives)
     try:
-        found, _ = _motion_on(left, scene, "all", samples, told, holding=True)
+        found, _ = _motion_on(left, scene, "all", samples, told, holding=True, exact=exact)
     except PosesError:
         if asked:
             raise
         left, scene = hold(problem, drives, poses, "H")
-        found, _ = _motion_on(left, scene, "all", samples, told, holding=True)
+        found, _ = _motion_on(left, scene, "all", samples, told, holding=True, exact=exact)
     notes = list(found.notes)
     # Counting has the freedoms of parts that turn idly, and of what hangs in no loop, besides.
     counted = found.counted - found.idle_count - found.hanging_count
-    if not found.circuits and not found.assemblies and counted < 0:
+    if not (found.circuits or found.assemblies or exact) and counted < 0:
         notes.append(
             "what is held asks for more than there are freedoms, and its numbers are taken as they "
             "are written: rounded ones leave nothing"
         )
     return replace(with_held(found), notes=tuple(notes))
+
+
+def _are_exact(problem: Problem, drives: Sequence[Drive], poses: Sequence[Pose]) -> bool:
+    """Whether what is held is meant as it is written, and does not stand for other numbers.
+
+    Whole numbers, and angles that are multiples of 15 degrees, are no rounded ones.
+    """
+    kinds = {each.name: each.kind for each in joint_coordinates(scene_of(problem))}
+    angles = [each.value for each in drives if kinds.get(each.coordinate) == "angle"]
+    numbers = [each.value for each in drives if kinds.get(each.coordinate) != "angle"]
+    numbers += [x for each in poses for x in (*each.place, *(each.quaternion or ()))]
+    return all(x.is_integer() for x in numbers) and all(
+        known_multiple(Fraction(repr(x))) is not None for x in angles
+    )
 
 
 def _check_held_freedoms(problem: Problem, left: Problem, drives: Sequence[Drive]) -> None:
@@ -715,6 +742,7 @@ def _motion_on(
     run: Run,
     *,
     holding: bool = False,
+    exact: bool = False,
     curve_of: Callable[[WitnessSet], RealCurve] | None = None,
 ) -> tuple[Motion, list[_FoundCircuit]]:
     """The circuits in a scene, and what they were made of.
@@ -722,6 +750,7 @@ def _motion_on(
     Args:
         holding: whether assemblies that do not move are wanted though nothing else does, as joints
             or bodies are held.
+        exact: whether no rounded number holds them.
     """
     if not isinstance(samples, int) or not LEAST_SAMPLES <= samples <= MOST_SAMPLES:
         raise NagError(f"samples: give a whole number from {LEAST_SAMPLES} to {MOST_SAMPLES}")
@@ -742,7 +771,7 @@ def _motion_on(
     )
     found = [configurations.everything.components[i] for i in own]
     several = len(found) > 1
-    curve_of = curve_of or (lambda component: _real_curve(component, several, inner))
+    curve_of = curve_of or (lambda component: _real_curve(component, several, inner, holding))
     made, (idle, idle_count) = problem.model, _find_idle(problem, inner)
     curves: list[RealCurve] = []
     walks: list[_FoundCircuit] = []
@@ -785,7 +814,7 @@ def _motion_on(
     known = dict(zip(own, curves, strict=True))
     rigid = find_rigid_assemblies(scene, configurations, known, inner)
     notes += rigid.doubts
-    if holding:
+    if holding and not exact:
         notes += find_doubts_of_held(problem, rigid.assemblies, configurations.finite)
     if not circuits and not notes and not holding:
         raise MotionError(_no_motion(len(rigid.assemblies), rigid.not_looked_for))
@@ -793,20 +822,33 @@ def _motion_on(
     return motion_so_far(finished, notes, rigid), circuits
 
 
-def _real_curve(component: WitnessSet, several: bool, run: Run) -> RealCurve:
+def _real_curve(component: WitnessSet, several: bool, run: Run, holding: bool = False) -> RealCurve:
     """The real points of a component, of several an undecided curve where they are not found.
 
     Raises:
         RealCurveError: if they are not found and there is no other component.
     """
-    from nag.real.find_curve import RealCurveError, find_real_curve, undecided_curve
+    from nag.real.find_curve import (
+        NotReducedError,
+        RealCurveError,
+        find_real_curve,
+        undecided_curve,
+    )
 
     try:
         return find_real_curve(component, run=run)
     except RealCurveError as error:
+        reason = str(error)
+        if isinstance(error, NotReducedError):
+            advice = "nag mobility says how the mechanism moves at one of them"
+            reason = (
+                "the component is not reduced: all its configurations are singular (multiplicity "
+                f"{component.multiplicity}), and such a motion is not followed; "
+                f"{'hold other values' if holding else advice}"
+            )
         if not several:
-            raise
-        return undecided_curve(component._known_system(), str(error))
+            raise RealCurveError(reason) from None
+        return undecided_curve(component._known_system(), reason)
 
 
 def _distinct_configurations(problem: Problem, decomposition: Decomposition) -> Configurations:

@@ -118,6 +118,22 @@ class Scene(FixedArrays):
         return tuple(joint for joint in self.joints if not joint.in_loop)
 
     @cached_property
+    def farthest_body(self) -> int | None:
+        """The body with the most joints of loops between the ground and itself, a robot's hand.
+
+        None if several have as many.
+        """
+        reached, distances = {self.ground}, [[self.ground]]
+        while distances[-1]:
+            pairs = [joint.bodies for joint in self.joints if joint.in_loop]
+            pairs += [(b, a) for a, b in pairs]
+            following = sorted({b for a, b in pairs if a in distances[-1]} - reached)
+            reached |= set(following)
+            distances.append(following)
+        last = distances[-2]
+        return last[0] if len(last) == 1 and len(distances) > 2 else None
+
+    @cached_property
     def size(self) -> float:
         """The largest distance of two joints of one body; 1 where all are in one place."""
         largest = 0.0

@@ -6,14 +6,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from nag.kinematics.driven import DrivenAssembly
 from nag.kinematics.driven_motion import DrivenMotion, range_of
 from nag.kinematics.joint_values import Coordinate, joint_coordinates
 from nag.kinematics.motion import Circuit, Crossing, Motion
+from nag.kinematics.poses import turn_product
 from nag.kinematics.turning_points import STILL, TurningPoint, Values
 from nag.text.table import align, count_text, join_words, lines_of
 
-# Coordinates whose dead points are written out, and assemblies besides circuits; more are counted.
-MOST_POINTS, MOST_BESIDES = 6, 20
+# Coordinates whose dead points are written out, assemblies besides circuits, and those of a joint
+# that is driven through values; more are counted.
+MOST_POINTS, MOST_BESIDES, MOST_DRIVEN = 6, 20, 60
 
 
 def value_text(coordinate: Coordinate, value: float) -> str:
@@ -29,11 +32,13 @@ def _no_zero(value: float) -> float:
     return 0.0 if abs(value) < STILL else float(value)
 
 
-def range_text(values: Values, index: int) -> str:
+def range_text(motion: Motion, values: Values, index: int) -> str:
     """How far a joint moves in a circuit."""
     each = values.coordinates[index]
     if not each.in_loop:
         return "moves freely, in no loop"
+    if each.name in _held_names(motion):
+        return "held"
     if values.still[index]:
         return "does not move"
     low, high = (value_text(each, x) for x in values.ranges[index])
@@ -93,7 +98,7 @@ def circuit_rows(motion: Motion, circuit: Circuit) -> list[str]:
             texts.append(text)
         if len(own) > MOST_POINTS:
             texts.append(f"and {len(own) - MOST_POINTS} more")
-        rows.append([each.name, range_text(values, i), ", ".join(texts)])
+        rows.append([each.name, range_text(motion, values, i), ", ".join(texts)])
     return align(rows, left=(0, 1, 2))
 
 
@@ -149,7 +154,19 @@ def hanging_text(motion: Motion) -> str:
         return ""
     noun = "joint" if len(names) == 1 else "joints"
     freedoms = count_text(motion.hanging_count, "freedom")
-    return f"{noun} {join_words(names)} in no loop, moving freely with {freedoms}"
+    if motion.scene.from_reference:
+        shown = f"{'it' if len(names) == 1 else 'them'} as drawn"
+    else:
+        shown = "its link unturned" if len(names) == 1 else "their links unturned"
+    return (
+        f"{noun} {join_words(names)} in no loop, moving freely with {freedoms}; tables and pages "
+        f"show {shown}"
+    )
+
+
+def _held_names(motion: Motion) -> set[str]:
+    """Angles and slides that are held, where circuits are those of what is left."""
+    return {drive.coordinate for drive in motion.held}
 
 
 def rigid_text(motion: Motion) -> str:
@@ -172,32 +189,97 @@ def rigid_text(motion: Motion) -> str:
 
 
 def _never_moving(motion: Motion) -> list[str]:
-    """Joints that stand still in all circuits."""
+    """Joints that stand still in all circuits, but for what is held of them."""
     if not motion.circuits:
         return []
     still = np.all([c.values.still for c in motion.circuits], axis=0)
-    names = [c.joint for c in motion.circuits[0].values.coordinates]
+    coordinates, held = motion.circuits[0].values.coordinates, _held_names(motion)
+    own = [(c.joint, s) for c, s in zip(coordinates, still, strict=True) if c.name not in held]
     return [
-        name
-        for name in dict.fromkeys(names)
-        if all(s for s, other in zip(still, names, strict=True) if other == name)
+        joint
+        for joint in dict.fromkeys(joint for joint, _ in own)
+        if all(s for other, s in own if other == joint)
     ]
 
 
 def assembly_rows(motion: Motion) -> list[str]:
     """The table of assemblies: a line for each; of those besides circuits for the first ones.
 
-    Joints in no loop may have any value in each, and are left out.
+    Joints in no loop may have any value in each, and are left out. The place of the body that is
+    farthest from the ground stands behind the joints.
     """
-    coordinates = joint_coordinates(motion.scene)
+    besides = motion.circuits and motion.drive is None
+    shown = motion.assemblies[: MOST_BESIDES if besides else None]
+    cells = _assembly_cells(motion, shown, joint_coordinates(motion.scene))
+    numbers = ["assembly", *(str(k) for k in range(1, len(shown) + 1))]
+    return align([[number, *own] for number, own in zip(numbers, cells, strict=True)])
+
+
+def _assembly_cells(
+    motion: Motion, shown: Sequence[DrivenAssembly], coordinates: Sequence[Coordinate]
+) -> list[list[str]]:
+    """Headings of assemblies' circuits, angles and slides and the hand's place, and their texts.
+
+    Args:
+        coordinates: of all joints, in their order.
+    """
     own = [i for i, each in enumerate(coordinates) if each.in_loop]
-    circuit = ["circuit"] if motion.drive is not None else []
-    besides = motion.circuits and not circuit
-    rows = [["assembly", *circuit, *(coordinates[i].name for i in own)]]
-    for number, each in enumerate(motion.assemblies[: MOST_BESIDES if besides else None], start=1):
-        texts = [value_text(coordinates[i], each.values[i]) for i in own]
-        rows.append([str(number), *(str(each.circuit or "-") for _ in circuit), *texts])
-    return align(rows)
+    on_circuits = motion.drive is not None
+    heads = [*["circuit"] * on_circuits, *(coordinates[i].name for i in own)]
+    rows = [heads + _hand_heads(motion)]
+    for each in shown:
+        texts = [str(each.circuit or "-")] * on_circuits
+        texts += [value_text(coordinates[i], each.values[i]) for i in own]
+        rows.append(texts + _hand_cells(motion, each))
+    return rows
+
+
+def _hand_of(motion: Motion) -> int | None:
+    """The body whose place is told of assemblies; None of what is placed, or not drawn at all."""
+    scene = motion.scene
+    return scene.farthest_body if scene.from_reference and not motion.poses else None
+
+
+def _hand_axes(motion: Motion) -> list[int]:
+    """Along which axes it moves: not along a normal of the plane of motion."""
+    normal = motion.scene.planar
+    return [k for k in range(3) if normal is None or abs(normal[k]) < 1 - STILL]
+
+
+def _hand_heads(motion: Motion) -> list[str]:
+    """Headings of the columns that tell a body's place in assemblies; none if none do."""
+    body = _hand_of(motion)
+    if body is None:
+        return []
+    name = motion.scene.bodies[body]
+    return [*(f"{name}.{'xyz'[k]}" for k in _hand_axes(motion)), f"{name} turned"]
+
+
+def _hand_cells(motion: Motion, assembly: DrivenAssembly) -> list[str]:
+    """Where that body's frame is, and by how much it is turned from how it is drawn."""
+    body = _hand_of(motion)
+    if body is None:
+        return []
+    scene, place = motion.scene, assembly.poses.places[body, 0]
+    end, joint = next((j.bodies.index(body), j) for j in scene.joints if body in j.bodies)
+    turn = turn_product(assembly.poses.turns[body, 0], joint.frames[end])
+    along = turn[1:] @ scene.planar if scene.planar is not None else np.linalg.norm(turn[1:])
+    angle = (2 * np.arctan2(along, turn[0]) + np.pi) % (2 * np.pi) - np.pi
+    if scene.planar is None:
+        angle = abs(angle)
+    texts = [f"{_no_zero(place[k]):.5g}" for k in _hand_axes(motion)]
+    return [*texts, value_text(Coordinate("", "", "angle"), angle)]
+
+
+def hand_text(motion: Motion) -> str:
+    """What is told of that body's place, in words; empty if nothing is."""
+    heads = _hand_heads(motion)
+    if not heads:
+        return ""
+    return (
+        f"{heads[0]} to {heads[-2]}: the place of its frame, which is how far it is moved from "
+        "where it is drawn"
+    )
 
 
 def drive_text(motion: Motion) -> str:
@@ -262,6 +344,30 @@ def driven_rows(driven: DrivenMotion) -> list[str]:
         shown = value_text(driven.coordinate, value)
         rows.append([shown, str(len(moving)), lengths, str(len(motion.assemblies))])
     return align(rows, left=(2,))
+
+
+def driven_assembly_rows(driven: DrivenMotion) -> list[str]:
+    """The assemblies at each value of a joint: a line for each of the first ones; none if none."""
+    head, rows = list[str](), list[list[str]]()
+    for value, motion in zip(driven.values, driven.motions, strict=True):
+        coordinates = joint_coordinates(motion.scene)
+        cells = _assembly_cells(motion, motion.assemblies, coordinates)
+        own = [k for k, name in enumerate(cells[0]) if name != driven.coordinate.name]
+        head = head or [cells[0][k] for k in own]
+        at = value_text(driven.coordinate, value)
+        for number, row in enumerate(cells[1:], start=1):
+            rows.append([at, str(number), *(row[k] for k in own)])
+    if not rows:
+        return []
+    return align([[driven.coordinate.name, "assembly", *head], *rows[:MOST_DRIVEN]])
+
+
+def more_assemblies_text(driven: DrivenMotion) -> str:
+    """How many assemblies there are, where not all of them are shown; else empty."""
+    count = sum(len(motion.assemblies) for motion in driven.motions)
+    if count <= MOST_DRIVEN:
+        return ""
+    return f"{count}, of which the first {MOST_DRIVEN} are shown"
 
 
 def continuation_rows(driven: DrivenMotion) -> list[tuple[str, str]]:

@@ -507,7 +507,7 @@ def _circuit_data(
         "dead": [_dead_data(circuit, p, frames) for p in circuit.values.turning],
         "crossings": [_crossing_data(motion, circuit, c, frames) for c in circuit.crossings],
         "facts": [
-            [each.name, range_text(circuit.values, i)]
+            [each.name, range_text(motion, circuit.values, i)]
             for i, each in enumerate(circuit.values.coordinates)
         ],
     }

@@ -81,6 +81,10 @@ class RealCurveError(ComponentError):
     """A component whose real curve is not found, with the reason."""
 
 
+class NotReducedError(RealCurveError):
+    """A component of which its equations are singular at all points."""
+
+
 @takes_run
 def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCurve:
     """The complete real part of a one-dimensional component.
@@ -161,9 +165,10 @@ def _equations(
         return system.polynomials
     if len(fibres) == 1 and not fibres[0].cut.aux:
         return fibres[0].cut.polynomials
-    raise RealCurveError(
+    raise NotReducedError(
         "the component is not reduced: its equations are singular at all of its points, and only "
-        "with unknowns added they are not; give equations of which it is a simple zero set"
+        "with unknowns added they are not; if you gave the equations, give some of which it is a "
+        "simple zero set"
     )
 
 
