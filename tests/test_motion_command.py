@@ -135,11 +135,11 @@ def test_assemblies_of_a_delta_tell_where_its_platform_is(capsys) -> None:
     assert ask(str(CASES / "mobility" / "delta.toml"), *held) == 0
     printed = capsys.readouterr().out
     head, *rows = [line.split() for line in printed.split("assembly  ")[1].splitlines()][:9]
-    assert head[3:] == ["platform.x", "platform.y", "platform.z", "platform", "turned"]
+    assert head[:5] == ["platform.x", "platform.y", "platform.z", "platform", "turned"]
     # Where it is drawn, and on the other side of the arms along the axis (1, 1, 1).
     zero = "0.00\u00b0"
-    assert [zero, zero, zero, "0", "0", "0", zero] in [row[1:] for row in rows]
-    moved = next(row[4:7] for row in rows if row[7] == zero and row[4] != "0")
+    assert ["0", "0", "0", zero, zero, zero, zero] in [row[1:] for row in rows]
+    moved = next(row[1:4] for row in rows if row[4] == zero and row[1] != "0")
     assert len(set(moved)) == 1
     assert "platform.x to platform.z: the place of its frame" in printed
 
@@ -238,7 +238,7 @@ def test_a_hanging_joint_of_a_mechanism_is_not_still(tmp_path, capsys) -> None:
     assert ask(str(case), "--drive", "J0=10") == 0
     printed = capsys.readouterr().out
     head = next(line for line in printed.splitlines() if line.startswith("assembly"))
-    assert head.split()[:6] == ["assembly", "circuit", "J0", "J1", "J2", "J3"]
+    assert head.split()[-4:] == ["J0", "J1", "J2", "J3"]
 
 
 def test_one_circuit_may_be_asked_for(tmp_path, capsys) -> None:

@@ -206,7 +206,7 @@ def assembly_rows(motion: Motion) -> list[str]:
     """The table of assemblies: a line for each; of those besides circuits for the first ones.
 
     Joints in no loop may have any value in each, and are left out. The place of the body that is
-    farthest from the ground stands behind the joints.
+    farthest from the ground stands before the joints, which may be many.
     """
     besides = motion.circuits and motion.drive is None
     shown = motion.assemblies[: MOST_BESIDES if besides else None]
@@ -218,19 +218,18 @@ def assembly_rows(motion: Motion) -> list[str]:
 def _assembly_cells(
     motion: Motion, shown: Sequence[DrivenAssembly], coordinates: Sequence[Coordinate]
 ) -> list[list[str]]:
-    """Headings of assemblies' circuits, angles and slides and the hand's place, and their texts.
+    """Headings of assemblies' circuits, the hand's place, angles and slides, and their texts.
 
     Args:
         coordinates: of all joints, in their order.
     """
     own = [i for i, each in enumerate(coordinates) if each.in_loop]
     on_circuits = motion.drive is not None
-    heads = [*["circuit"] * on_circuits, *(coordinates[i].name for i in own)]
-    rows = [heads + _hand_heads(motion)]
+    joints = [coordinates[i].name for i in own]
+    rows = [[*["circuit"] * on_circuits, *_hand_heads(motion), *joints]]
     for each in shown:
-        texts = [str(each.circuit or "-")] * on_circuits
-        texts += [value_text(coordinates[i], each.values[i]) for i in own]
-        rows.append(texts + _hand_cells(motion, each))
+        texts = [str(each.circuit or "-")] * on_circuits + _hand_cells(motion, each)
+        rows.append(texts + [value_text(coordinates[i], each.values[i]) for i in own])
     return rows
 
 
