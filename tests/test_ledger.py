@@ -158,6 +158,45 @@ def test_damaged_blocks_are_worked_out_again_and_said(seed: int, tmp_path: Path)
     assert {file: file.read_bytes() for file in blocks_in(tmp_path)} == whole
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes")
+@pytest.mark.parametrize("kind", ["pipe", "device", "loop"])
+def test_what_is_no_file_is_not_read_and_the_block_is_worked_out_again(
+    kind: str, tmp_path: Path
+) -> None:
+    plain = solved(CYCLIC, resume=tmp_path)
+    made = blocks_in(tmp_path)
+    whole = {file: file.read_bytes() for file in made}
+    made[0].unlink()
+    match kind:
+        case "pipe":
+            os.mkfifo(made[0])
+        case "device":
+            made[0].symlink_to("/dev/zero")
+        case "loop":
+            made[0].symlink_to(made[0].name)
+    with pytest.warns(UserWarning, match="1 of these were damaged"):
+        assert solved(CYCLIC, resume=tmp_path) == plain
+    assert {file: file.read_bytes() for file in blocks_in(tmp_path)} == whole
+    assert made[0].is_file() and not made[0].is_symlink()
+
+
+def test_a_folder_under_the_name_of_a_block_is_refused_before_any_work(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = str(ROOT / "cases" / "benchmarks" / "katsura-6.toml")
+    words = ["solve", case, "--start", "total", "--resume", str(tmp_path)]
+    assert main([*words, "--quiet"]) == 0
+    (block,) = blocks_in(tmp_path)
+    block.unlink()
+    block.mkdir()
+    answer = tmp_path / "answer.json"
+    capsys.readouterr()
+    assert main([*words, "--quiet", "--json", str(answer)]) == 2
+    said = f"nag: {block}: is a folder, where a block is to be kept; remove it\n"
+    assert capsys.readouterr().err == said
+    assert block.is_dir() and not answer.exists()
+
+
 def test_other_questions_find_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     solved(CYCLIC, resume=tmp_path)
     made = set(blocks_in(tmp_path))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import io
 import os
+import stat
 import uuid
 import zipfile
 from collections.abc import Mapping
@@ -63,14 +64,22 @@ class Ledger:
         return cls(path)
 
     def find(self, key: bytes) -> dict[str, np.ndarray] | None:
-        """The block of a key, if it is there and whole."""
+        """The block of a key, if it is there and whole.
+
+        Raises:
+            nag.errors.InputError: if a folder has its name, which none can replace.
+        """
         file = self._file(key)
         try:
-            content = file.read_bytes()
+            mode = file.stat().st_mode
+            # To read a pipe or a device may never end.
+            content = file.read_bytes() if stat.S_ISREG(mode) else b""
         except FileNotFoundError:
             return None
         except OSError:
-            content = b""
+            mode, content = 0, b""
+        if stat.S_ISDIR(mode):
+            raise InputError(f"{file}: is a folder, where a block is to be kept; remove it")
         arrays = _unpacked(content, key)
         if arrays is None:
             self.damaged.append(file.name)
