@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import tracemalloc
 import warnings
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from systems import system
 
+import nag
+from nag.algebra import evaluation
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
+from nag.bench.path_costs import katsura
+from nag.numerics.linear_algebra_threads import one_thread
 
 N = 3
 EXPONENTS = st.tuples(*[st.integers(0, 3)] * N)
@@ -90,3 +96,23 @@ def test_balanced_jacobians_of_many_points_are_those_of_each() -> None:
         assert found.shape == (len(points), 2, 2)
         for each, point in zip(found, points, strict=True):
             assert np.allclose(each, evaluator.balanced_jacobian(point), rtol=1e-14)
+
+
+def test_many_points_take_no_more_memory_than_few_and_give_the_same_values(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # 170 monomials at 4,096 points are 11 MB.
+    equations = nag.system(katsura(16))
+    evaluator = Evaluator.of(equations.polynomials, equations.n)
+    rng = np.random.default_rng(0)
+    points = rng.standard_normal((4096, equations.n)) + 1j * rng.standard_normal((4096, 17))
+    with one_thread():
+        tracemalloc.start()
+        try:
+            residuals = evaluator.residuals(points)
+            _, peak = tracemalloc.get_traced_memory()
+        finally:
+            tracemalloc.stop()
+        assert peak < 7e6
+        monkeypatch.setattr(evaluation, "TOGETHER", 1 << 30)
+        assert np.array_equal(evaluator.residuals(points), residuals)

@@ -3,6 +3,7 @@
 import mmap
 import os
 import pickle
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import pytest
 import nag
 from nag.numerics import large_arrays
 from nag.numerics.array_table import copy_rows, join_columns, map_rows, take_rows
+from nag.numerics.coincidence import conjugates_present
 from nag.numerics.large_arrays import empty_array, full_array, leave_to_file
 from nag.solving.certificate import certify_solutions
 
@@ -81,3 +83,19 @@ def test_solutions_in_files_are_those_in_memory(monkeypatch: pytest.MonkeyPatch)
     again = certify_solutions(found)
     assert again == proved
     assert again.all_proved
+
+
+def test_conjugates_of_many_points_are_compared_some_at_a_time() -> None:
+    rng = np.random.default_rng(4)
+    half = rng.standard_normal((10_000, 17)) + 1j * rng.standard_normal((10_000, 17))
+    points = np.concatenate([half, half.conj()[rng.permutation(len(half))]])
+    ones = np.ones(len(points), dtype=np.int64)
+    given = points, np.full(len(points), 1e-15), ones, np.zeros(len(points), dtype=bool)
+    tracemalloc.start()
+    try:
+        assert conjugates_present(*given)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 5e6
+    assert not conjugates_present(*(column[1:] for column in given))

@@ -14,6 +14,8 @@ from nag.algebra.polynomial import Polynomial
 HUGE = 1e30
 # Larger Jacobians are summed up term by term.
 MOST_ENTRIES = 20_000
+# Values of monomials that are in memory at once; more points are gone through in blocks.
+TOGETHER = 1 << 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +55,7 @@ class Evaluator:
     @np.errstate(over="ignore", invalid="ignore")
     def values(self, points: np.ndarray) -> np.ndarray:
         """Values, shape ``(P, rows)``, at ``points`` of shape ``(P, n)``."""
-        return self._monomials(np.asarray(points, dtype=complex)) @ self.coefficients.T
+        return self._monomials.combine(np.asarray(points, dtype=complex), self.coefficients.T)
 
     @np.errstate(over="ignore", invalid="ignore")
     def last_coefficients(self, series: np.ndarray) -> np.ndarray:
@@ -74,13 +76,13 @@ class Evaluator:
         Shape ``(P, rows)``. Without that floor a single term would never be small beside itself.
         """
         floored = np.maximum(np.abs(points), 1.0)
-        sizes = self._monomials(floored) @ np.abs(self.coefficients).T
+        sizes = self._monomials.combine(floored, np.abs(self.coefficients).T)
         return np.where(sizes == 0, 1.0, sizes)
 
     @np.errstate(over="ignore", invalid="ignore")
     def absolute(self, points: np.ndarray) -> np.ndarray:
         """Sums of the absolute values of the terms, shape ``(P, rows)``."""
-        return self._monomials(np.abs(points)) @ np.abs(self.coefficients).T
+        return self._monomials.combine(np.abs(points), np.abs(self.coefficients).T)
 
     def residuals(self, points: np.ndarray) -> np.ndarray:
         """Absolute values over sizes, shape ``(P, rows)``: 1e-16 is rounding at any scale."""
@@ -282,6 +284,23 @@ class _Monomials:
         for places in self.factors[1:]:
             values *= table[:, places]
         return values
+
+    def combine(self, points: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        """Combinations of the values at points of shape ``(P, n)``, shape ``(P, rows)``.
+
+        Args:
+            weights: of the monomials, shape ``(M, rows)``.
+        """
+        # Matrix products round alike in blocks of a multiple of 64 rows.
+        together = 64 * max(1, TOGETHER // (64 * max(1, len(weights))))
+        if len(points) <= together:
+            return self(points) @ weights
+        kind = np.result_type(points, weights)
+        result = np.empty((len(points), weights.shape[1]), dtype=kind)
+        for first in range(0, len(points), together):
+            some = slice(first, first + together)
+            result[some] = self(points[some]) @ weights
+        return result
 
     def last_coefficients(self, series: np.ndarray) -> np.ndarray:
         """Coefficients of the highest power at power series, ``(P, n, K)``, shape ``(P, M)``."""

@@ -36,7 +36,7 @@ NEAR = 1e-6
 
 
 # Pairs of neighbours that are looked at together.
-PAIRS = 1 << 14
+PAIRS = 1 << 11
 
 
 def radii_of_balls(points: np.ndarray, errors: np.ndarray | float) -> np.ndarray:
