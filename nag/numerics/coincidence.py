@@ -8,6 +8,7 @@ classes, each labelled by its smallest index.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -56,6 +57,46 @@ def coincident(points: np.ndarray, x: np.ndarray, error: np.ndarray | float) -> 
     return np.linalg.norm(points - x, axis=1) <= radii_of_balls(x[None], error)
 
 
+@dataclass(frozen=True, eq=False)
+class SortedPoints:
+    """Points that are asked for by where they may be.
+
+    Attributes:
+        points: complex, shape ``(P, n)``.
+        key: of each a sum of its real parts with weights of at most 1, in increasing order.
+        order: whose they are.
+    """
+
+    points: np.ndarray
+    key: np.ndarray
+    order: np.ndarray
+
+    @classmethod
+    def of(cls, points: np.ndarray) -> SortedPoints:
+        """The same points, sorted once."""
+        key = map_rows(lambda some: some.real @ _weights(points.shape[1]), points)
+        order = np.argsort(key, kind="stable")
+        return cls(points, key[order], order)
+
+    def near(self, x: np.ndarray, radius: float) -> np.ndarray:
+        """Indices, increasing, of all points within a distance of ``x``, and of some beyond."""
+        middle = float(x.real @ _weights(len(x)))
+        # What rounding adds to a sum is far less than the ball is wider by.
+        width = (1 + LEAST) * np.sqrt(len(x)) * radius + LEAST * (1 + np.linalg.norm(x))
+        first, last = np.searchsorted(self.key, [middle - width, middle + width])
+        return np.sort(self.order[first:last])
+
+    def coincident(self, x: np.ndarray, error: float) -> np.ndarray:
+        """Indices, increasing, of the points that may be the one at ``x``; see `coincident`."""
+        near = self.near(x, float(radii_of_balls(x[None], error)[0]))
+        return near[coincident(self.points[near], x, error)]
+
+
+def _weights(n: int) -> np.ndarray:
+    """Weights of real parts, which a point and its conjugate share."""
+    return np.cos(np.arange(1, n + 1) ** 2)
+
+
 def neighbours(key: np.ndarray, width: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Pairs of indices whose keys differ by at most the width, the first one's or the second's.
 
@@ -69,12 +110,16 @@ def neighbours(key: np.ndarray, width: np.ndarray) -> Iterator[tuple[np.ndarray,
     """
     order = np.argsort(key, kind="stable")
     key, width = key[order], width[order]
-    widest = float(width.max(initial=0.0))
+    # Those whose width reaches up, and down, so many places: farther off there are fewer.
+    up = down = np.arange(len(key))
     for apart in range(1, len(key)):
-        difference = key[apart:] - key[:-apart]
-        if not (difference <= widest).any():
+        up = up[up < len(key) - apart]
+        up = up[key[up + apart] - key[up] <= width[up]]
+        down = down[down >= apart]
+        down = down[key[down] - key[down - apart] <= width[down]]
+        near = np.union1d(up, down - apart)
+        if not len(near):
             return
-        near = np.flatnonzero(difference <= np.maximum(width[apart:], width[:-apart]))
         for first in range(0, len(near), PAIRS):
             some = near[first : first + PAIRS]
             yield order[some], order[some + apart]
@@ -161,8 +206,7 @@ def conjugates_present(
     n = points.shape[1]
     tolerance = 2 * radii_of_balls(points, accuracy)
     # Conjugate points share their real parts.
-    weights = np.exp(1j * np.arange(1, n + 1) ** 2).real
-    key = map_rows(lambda some: some.real @ weights, points)
+    key = map_rows(lambda some: some.real @ _weights(n), points)
     for i, j in neighbours(key, np.sqrt(n) * tolerance):
         distance = np.linalg.norm(points[i] - points[j].conj(), axis=1)
         pair = (distance <= np.maximum(tolerance[i], tolerance[j])) & ~taken[i] & ~taken[j]

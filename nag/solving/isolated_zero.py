@@ -10,7 +10,7 @@ import flint
 import numpy as np
 
 from nag.numerics.array_table import RecordTable, map_rows
-from nag.numerics.coincidence import SAFETY
+from nag.numerics.coincidence import SAFETY, SortedPoints
 from nag.numerics.digits import bits_of, in_bits, number_of_words
 from nag.numerics.precise_point import WORKING_DIGITS, PrecisePoint
 from nag.numerics.singular_point import SingularEnd
@@ -137,8 +137,11 @@ def which_are_real(zeros: IsolatedZeros) -> np.ndarray:
         over = parts / np.maximum(fine.radii, VANISHES * (1 + np.abs(points[i])))
         imaginary[i], errors[i] = over.max(initial=0.0), SAFETY
     real = imaginary <= errors
-    for i in np.flatnonzero(in_doubles & ~real & (imaginary <= REAL * sizes)).tolist():
-        apart = np.abs(points - points[i].conj()).max(axis=1)
-        apart[i] = np.inf
-        real[i] = apart.min() > errors[i]
+    asked = np.flatnonzero(in_doubles & ~real & (imaginary <= REAL * sizes)).tolist()
+    every = SortedPoints.of(points if asked else points[:0])
+    for i in asked:
+        x = points[i].conj()
+        near = every.near(x, np.sqrt(len(x)) * errors[i])
+        apart = np.abs(points[near[near != i]] - x).max(axis=1)
+        real[i] = not (apart <= errors[i]).any()
     return real

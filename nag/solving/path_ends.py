@@ -7,7 +7,7 @@ says where a lost path must have led: of a simple zero, exactly one path ends th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
@@ -16,7 +16,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.array_table import map_rows, take_rows
-from nag.numerics.coincidence import clusters, coincident, conjugates_present
+from nag.numerics.coincidence import SortedPoints, clusters, conjugates_present
 from nag.numerics.doubles import MULTIPLE
 from nag.numerics.singular_point import Place, SingularEnd
 from nag.numerics.zero_values import ON, vanishes_at, vanishes_at_point
@@ -90,12 +90,17 @@ class _Zeros:
         found = clusters(self.points[several], self.accuracy[several])
         return [several[group] for group in found]
 
-    def conjugate(self, i: int, among: Sequence[np.ndarray]) -> int | None:
-        """Which of some points is the conjugate of a singular end, if one is."""
+    @cached_property
+    def sorted(self) -> SortedPoints:
+        """The points, to be asked for by where they are."""
+        return SortedPoints.of(self.points)
+
+    def conjugate(self, i: int, among: Collection[int]) -> int | None:
+        """The first of some ends, by their indices, that is the conjugate of a singular one."""
         if self.regular[i] or not among:
             return None
-        same = coincident(np.array(among), self.points[i].conj(), self.accuracy[i])
-        return int(same.argmax()) if same.any() else None
+        same = self.sorted.coincident(self.points[i].conj(), float(self.accuracy[i]))
+        return next((k for k in same.tolist() if k in among), None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +139,7 @@ def sort_ends(
     ends = f"{count_text(rough, 'end point')} {roughly} of the equations only roughly"
     unclear = [ends] if lost else []
     undecided: list[np.ndarray] = []
-    sets: list[tuple[np.ndarray, bool | None]] = []
+    sets: dict[int, bool | None] = {}
     close: list[int] = []
     each = problem.added or problem.squared
     regular = zeros.regular_indices()
@@ -163,8 +168,7 @@ def sort_ends(
                 unclear.append(f"{len(group)} paths end at a zero of multiplicity {multiplicity}")
         elif found.place is Place.ON_COMPONENT:
             # Where equations were added, an end stands for one point of a component.
-            points = zeros.points[[best] if problem.added else group]
-            sets.extend((x, found.excluded) for x in points)
+            sets |= dict.fromkeys([best] if problem.added else group.tolist(), found.excluded)
         elif found.place is not None:
             # That one of several zeros was met leaves open which the other paths met.
             undecided.extend(zeros.points[group])
@@ -183,7 +187,9 @@ def sort_ends(
     every = known.join(isolated)
     return SortedEnds(
         *_solutions(problem, every),
-        LargerSets.of(n, sets).map_points(original),
+        LargerSets.of(n, [(zeros.points[i], answer) for i, answer in sets.items()]).map_points(
+            original
+        ),
         original(np.array(undecided).reshape(-1, n)),
         tuple(unclear),
         np.array(sorted(close), dtype=np.int64),
@@ -259,15 +265,16 @@ def _judge_in_blocks(
         best = [i for i in best if problem.may_be_excluded(zeros.points[i])]
     else:
         best = [i for i in best if not zeros.regular[i]]
-    first: list[int] = []
+    # A map, as it keeps their order and is asked in no time.
+    first: dict[int, None] = {}
     later: list[tuple[int, int]] = []
     for i in best:
-        known = zeros.conjugate(i, [zeros.points[k] for k in first])
+        known = zeros.conjugate(i, first)
         if known is None:
-            first.append(i)
+            first[i] = None
         else:
-            later.append((i, first[known]))
-    singular.judge_in_blocks(first)
+            later.append((i, known))
+    singular.judge_in_blocks(list(first))
     singular.judge_in_blocks(
         [i for i, k in later if singular.judge(k).place is not Place.ON_COMPONENT]
     )
@@ -300,9 +307,8 @@ def _judge_end(
     end = singular.judge(i)
     members = [end]
     if end.place is Place.CLUSTER:
-        met = coincident(
-            zeros.points[zeros.regular_indices()], end.point, max(accuracy, end.accuracy)
-        )
+        near = zeros.sorted.coincident(end.point, max(accuracy, end.accuracy))
+        met = zeros.regular[near]
         if end.dimension and met.sum() == sum(z.multiplicity for z in end.nearby):
             # All that is isolated there are ends of other paths.
             return _EndPlace(Place.ON_COMPONENT, excluded=_is_excluded(problem, end))
@@ -351,7 +357,7 @@ def _judge_group(
     zeros: _Zeros,
     group: np.ndarray,
     whole: bool,
-    sets: Sequence[tuple[np.ndarray, bool | None]],
+    sets: Mapping[int, bool | None],
 ) -> tuple[int, _EndPlace]:
     """The best known one of ends at one place, and where it lies.
 
@@ -361,13 +367,13 @@ def _judge_group(
     Args:
         judge: where an end lies.
         whole: whether as many paths lead to a zero as its multiplicity is.
-        sets: points that lie on components, and whether these are excluded. The conjugates of
+        sets: ends that lie on components, and whether these are excluded. The conjugates of
             these do so as well, as the equations are real.
     """
     best = _best_of(zeros, group)
-    known = zeros.conjugate(best, [x for x, _ in sets])
+    known = zeros.conjugate(best, sets)
     if known is not None:
-        return best, _EndPlace(Place.ON_COMPONENT, excluded=sets[known][1])
+        return best, _EndPlace(Place.ON_COMPONENT, excluded=sets[known])
     found = judge(best)
     if not whole or found.place is not Place.ISOLATED:
         return best, found
