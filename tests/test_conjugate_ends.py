@@ -133,10 +133,10 @@ def test_zeros_are_counted_where_paths_were_lost_to_conjugates(
 
 def test_the_conjugate_of_a_singular_end_on_a_component_is_not_judged_again() -> None:
     on, other = np.array([1 + 2j, 3 - 1j]), np.array([1 + 2j, 3 - 1j + 1e-6])
-    points = np.array([on.conj(), other.conj(), on.conj()])
-    errors = np.full(3, 1e-15)
+    points = np.array([on.conj(), other.conj(), on.conj(), on])
+    errors = np.full(4, 1e-15)
     zeros = path_ends._Zeros(
-        np.arange(3), points, errors, errors, regular=np.array([False, False, True])
+        np.arange(4), points, errors, errors, regular=np.array([False, False, True, False])
     )
     asked = []
 
@@ -145,7 +145,7 @@ def test_the_conjugate_of_a_singular_end_on_a_component_is_not_judged_again() ->
         return path_ends._EndPlace(Place.UNDECIDED)
 
     places = [
-        path_ends._judge_group(judge, zeros, np.array([i]), True, [(on, None)])[1].place
+        path_ends._judge_group(judge, zeros, np.array([i]), True, {3: None})[1].place
         for i in range(3)
     ]
     assert places == [Place.ON_COMPONENT, Place.UNDECIDED, Place.UNDECIDED]
