@@ -237,7 +237,7 @@ class Path:
     """Samples of one motion.
 
     Attributes:
-        measured: the motion.
+        measured: all of the motion.
         arc: how far each sample is from the first, in radians and sizes, shape ``(k,)``.
         chart: of the samples, shape ``(k, size)``, in the coordinates of the walk.
         poses: at the samples, with continuous signs.
