@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from nag.numerics.double_ranks import SINGULAR
-from nag.real.arc_tracing import Intervals, TracingError, trace_arcs
+from nag.real.arc_tracing import CHORD, Intervals, TracingError, trace_arcs
 from nag.real.closure import AT_INFINITY, ProjectiveClosure
 from nag.real.curve import (
     PieceKind,
@@ -165,6 +165,8 @@ def _end_of_interval(
         nearest = order[:, 0]
         by_row = np.take_along_axis(distances, order, axis=1)
         clear = len(special.points) == 1 or (by_row[:, 0] < NEARER * by_row[:, 1]).all()
+        # What is farther from its vertex than a step of tracing may lie beyond it in another chart.
+        clear &= bool((by_row[real, 0] < CHORD).all())
         counts = np.bincount(nearest, minlength=len(special.points))
         if clear and (counts == special.sheets).all() and special.real[nearest[real]].all():
             return _Stop(angle, points, real, nearest)
