@@ -625,6 +625,43 @@ def test_assemblies_next_to_a_crossing_of_circuits_stay_on_their_own(angle: floa
         assert joint_errors(motion.scene, each.poses).max() < FIT
 
 
+@pytest.mark.parametrize("seed", [0, 1, 3, 5])
+def test_a_parallelogram_in_half_angles_turns_fully_with_each_seed(seed: int) -> None:
+    motion = nag.motion(CASES / "planar-four-bar.toml", circuit="all", samples=60, seed=seed)
+    parallelogram, other = motion.circuits
+    assert motion.complete and parallelogram.through_reference
+    # Two bodies turn about the ground by a whole turn, the third one's middle runs along a circle.
+    assert np.abs(parallelogram.values.turns).tolist() == [1, 1, 1, 1]
+    assert not parallelogram.values.turning
+    assert other.length == pytest.approx(11.0214, rel=1e-4)
+
+
+NEARLY_FLAT = [
+    # Base, crank, coupler, rocker: next to folding, by Grashof's rule in so many circuits.
+    ((7.8119, 6.432, 2.743, 1.363), 2),
+    ((5.79, 6.392, 3.245, 3.846), 1),
+    ((7.0001, 3, 6, 4), 1),
+    ((7.000001, 3, 6, 4), 1),
+]
+
+
+@pytest.mark.parametrize(("lengths", "circuits"), NEARLY_FLAT)
+def test_circuits_and_dead_points_of_four_bars_that_nearly_fold(lengths, circuits) -> None:
+    base, crank, coupler, rocker = lengths
+    for seed in range(3):
+        given = four_bar([Fraction(str(x)) for x in lengths])
+        motion = nag.motion(linkage_model(given), circuit="all", seed=seed)
+        assert motion.complete and len(motion.circuits) == circuits
+        for circuit in motion.circuits:
+            assert len(circuit.values.turning) <= 8
+            if circuits == 1 and base - rocker > abs(crank - coupler):
+                # The angle at B is least where base and rocker are on a line.
+                diagonal = crank**2 + coupler**2 - (base - rocker) ** 2
+                least = math.acos(diagonal / (2 * crank * coupler))
+                folded = np.abs(np.angle(np.exp(1j * circuit.values.ranges[2]))).max()
+                assert folded == pytest.approx(math.pi - least, abs=1e-9)
+
+
 def test_an_isolated_real_point_of_a_curve_is_an_assembly_that_cannot_move() -> None:
     # With the crank turned back the other links reach just as far as they have to.
     lengths = {"crank": ("A", "B", 2), "rod": ("B", "C", 2), "arm": ("C", "D", 2)}

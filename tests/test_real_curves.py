@@ -356,3 +356,15 @@ def test_a_shaft_between_universal_joints_has_all_of_its_circuits() -> None:
     (curve,) = real_curves(answer)
     assert curve.complete and counted([curve]) == ({LOOP: 6}, {}, 6)
     assert curve.residual < 1e-14
+
+
+@pytest.mark.parametrize("gap", ["1/10^4", "1/10^6", "1/10^8", "1/10^10"])
+def test_loops_that_nearly_meet_are_not_joined(gap: str) -> None:
+    # Viviani's window, moved off the node by so little: the loops are twice its root apart.
+    (window,) = nag.decompose(["x^2 + y^2 + z^2 = 4", f"(x - 1 + {gap})^2 + y^2 = 1"])
+    for seed in range(4):
+        curve = nag.find_real_curve(window, seed=seed)
+        assert str(curve.verdict) == "complete"
+        assert [piece.kind for piece in curve.pieces] == [PieceKind.CLOSED_LOOP] * 2
+        heights = [np.sign(edge.points[:, 2]) for edge in curve.edges]
+        assert sorted(h[0] for h in heights) == [-1, 1] and all((h == h[0]).all() for h in heights)

@@ -13,7 +13,7 @@ from nag.numerics.read_only import BooleanArray, FixedArrays, IntegerArray, Real
 # Decides: By how much a joint moves that never does: 1e-14 was seen; others moved by 1e-3 and more.
 STILL = 1e-9
 # Shares of the way between samples by which the parabolas through three points narrow.
-NARROWER = (1.0, 0.05, 0.05)
+NARROWER = (1.0, 0.3, 0.1, 0.03, 0.01)
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,8 @@ def values_along(path: Path) -> Values:
     if path.closed:
         angles = np.array([each.kind == "angle" for each in coordinates], dtype=bool)
         whole[angles] = np.round((values[-1] - values[0])[angles] / (2 * np.pi)).astype(int)
-    turning = _refine(path, coordinates, values, _find_extremes(path, values, in_loop & ~still))
+    extremes = _find_extremes(path, coordinates, in_loop & ~still)
+    turning = _refine(path, coordinates, values, extremes)
     ranges = np.stack([values.min(axis=0), values.max(axis=0)], axis=-1)
     for i, each in enumerate(coordinates):
         own = [p.value for p in turning if p.coordinate == each.name]
@@ -86,19 +87,34 @@ def values_along(path: Path) -> Values:
 
 @dataclass(frozen=True, eq=False)
 class _Extremes:
-    """Samples next to dead points: of each its index, coordinate, kind, and value, ``(E,)``."""
+    """Points of a walk next to dead points, shape ``(E,)``.
 
-    index: np.ndarray
+    Attributes:
+        arc: how far along they are; width: how far their neighbours are from them, at the most.
+        column: the coordinate that is extreme; smallest: whether it is smallest; near: its value.
+    """
+
+    arc: np.ndarray
+    width: np.ndarray
     column: np.ndarray
     smallest: np.ndarray
     near: np.ndarray
 
 
-def _find_extremes(path: Path, values: np.ndarray, moving: np.ndarray) -> _Extremes:
-    """The samples at which coordinates that move reverse."""
+def _find_extremes(
+    path: Path, coordinates: tuple[Coordinate, ...], moving: np.ndarray
+) -> _Extremes:
+    """The points of the walk at which coordinates that move reverse.
+
+    They are nearer to each other than samples where the curve turns sharply.
+    """
+    curve, arc = path.curve, path.measured.arc
+    poses = curve.poses(path.measured.walk.chart)
+    values = unwrap_angles(coordinates, joint_values(curve.scene, poses))
     if path.closed:
-        # One sample more before the first, which is the last but one.
+        # One point more before the first, which is the last but one.
         values = np.vstack([values[-2] - values[-1] + values[0], values])
+        arc = np.concatenate([[arc[-2] - arc[-1]], arc])
     found = []
     for column in np.flatnonzero(moving).tolist():
         steps = np.diff(values[:, column])
@@ -110,8 +126,8 @@ def _find_extremes(path: Path, values: np.ndarray, moving: np.ndarray) -> _Extre
                 found.append((i, column, sign > 0))
             before = sign or before
     at, columns, smallest = np.array(found, dtype=int).reshape(-1, 3).T
-    index = at - 1 if path.closed else at
-    return _Extremes(index, columns, smallest.astype(bool), values[at, columns])
+    width = np.maximum(arc[at + 1] - arc[at], arc[at] - arc[at - 1])
+    return _Extremes(arc[at], width, columns, smallest.astype(bool), values[at, columns])
 
 
 def _nearest_turns(
@@ -133,14 +149,14 @@ def _refine(
     angle = np.array([each.kind == "angle" for each in coordinates], dtype=bool)[columns]
 
     def values_at(places: np.ndarray) -> np.ndarray:
-        chart = path.measured.points_at(path.arc[extremes.index] + places * path.step)
+        chart = path.measured.points_at(extremes.arc + places * extremes.width)
         return joint_values(path.curve.scene, path.curve.poses(chart))
 
     def own_of(there: np.ndarray) -> np.ndarray:
         own = there[np.arange(len(there)), columns]
         return np.where(angle, near + (own - near + np.pi) % (2 * np.pi) - np.pi, own)
 
-    # Places in steps of samples from the nearest one.
+    # Places in widths from the nearest point.
     at, curved = np.zeros(len(near)), np.ones(len(near), dtype=bool)
     for width in NARROWER:
         low, middle, high = (own_of(values_at(at + width * k)) for k in (-1.0, 0.0, 1.0))
@@ -153,12 +169,12 @@ def _refine(
     better = np.isfinite(last) & np.where(extremes.smallest, last <= near, last >= near)
     best = np.where(better, last, near)
     turning = []
-    for k, index in enumerate(extremes.index.tolist()):
-        arc = float(path.arc[index] + at[k] * path.step)
+    for k, arc in enumerate((extremes.arc + at * extremes.width).tolist()):
         # What is the first sample to rounding is not the last.
         arc = arc % path.length if path.closed and abs(arc) > STILL else max(arc, 0.0)
-        there = _nearest_turns(coordinates, every[k], values[index])
+        sample = round(arc / path.step)
+        there = _nearest_turns(coordinates, every[k], values[sample])
         kind = "smallest" if extremes.smallest[k] else "largest"
         name = coordinates[columns[k]].name
-        turning.append(TurningPoint(name, round(arc / path.step), arc, float(best[k]), kind, there))
+        turning.append(TurningPoint(name, sample, arc, float(best[k]), kind, there))
     return sorted(turning, key=lambda p: (p.arc, p.coordinate))

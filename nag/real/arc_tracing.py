@@ -30,6 +30,12 @@ SHRINK = 0.05
 EASY = 0.25
 # Newton's corrections that are rounding: certainly, and where they do not shrink any more.
 ARRIVED, ROUNDED = 1e-13, 1e-10
+# Decides: By how much slopes may change in a step, in units in which they are 1 where it begins:
+# where they change by as much as they are, another branch may be next to the point that is found.
+CHANGE = 0.5
+# How far before a place where the equations are singular, but not the curve, that is stepped over;
+# distance from the tangent beside that; and step below which that is done where places are unknown.
+JUMP, ASIDE, BLIND = 0.02, 0.1, 1e-5
 # Part of a step that rounding may move a point by.
 MOVED = 1e-2
 MOST_CORRECTIONS = 6
@@ -85,6 +91,7 @@ def trace_arcs(
     starts: np.ndarray,
     begin: np.ndarray,
     end: np.ndarray,
+    crossed: np.ndarray | None = None,
 ) -> list[tuple[np.ndarray, np.ndarray]]:
     """The arcs from angles to others: for each its angles, and its points, normalised.
 
@@ -93,6 +100,8 @@ def trace_arcs(
     Args:
         starts: homogeneous real points, shape ``(E, size)``.
         begin, end: angles, shape ``(E,)``.
+        crossed: smooth points of the curve at which its equations are singular, as another one
+            crosses it there, shape ``(K, size)``; None where they are not known.
 
     Raises:
         TracingError: if steps become too short, or angles do not grow.
@@ -110,8 +119,11 @@ def trace_arcs(
     angles = [[a] for a in angle]
     points = [[p] for p in x.copy()]
     active = np.arange(count)
+    tried = np.zeros(count, dtype=bool)
     while len(active):
-        h, old = step[active], angle[active]
+        over = _steps_over(closure, x[active], tangent[active], step[active], crossed)
+        over[tried[active]] = 0
+        h, old = np.where(over > 0, over, step[active]), angle[active]
         guess = x[active] + h[:, None] * tangent[active] + (h**2 / 2)[:, None] * bend[active]
         found, first, good = bring_to_curve(closure, guess, tangent[active], h)
         found = closure.align_signs(found, x[active])
@@ -122,6 +134,8 @@ def trace_arcs(
         gain = (there - old) * sense[active]
         good &= (first <= CORRECTION * h + ROUNDED) & (chord < CHORD) & (cosine > TURN)
         good &= (gain > 0) & (gain < LARGEST)
+        change = _change_of_slopes(closure, x[active], tangent[active], found)
+        good &= (change < CHANGE) | (over > 0)
         # Beyond a fold the arc would lead back.
         crossing = _crossing(closure, intervals.only(active), there, found, next_)
         good &= crossing * forward[active] > 0
@@ -129,16 +143,18 @@ def trace_arcs(
         beyond = gain > left + REACHED
         taken = active[good & ~beyond]
         some = good & ~beyond
+        tried[active] = ~some & ((over > 0) | tried[active])
         bend[taken] = (next_[some] - tangent[taken]) / h[some, None]
         angle[taken], x[taken], tangent[taken] = there[some], found[some], next_[some]
         for i in taken:
             angles[i].append(angle[i])
             points[i].append(x[i].copy())
         easy = (first < EASY * CORRECTION * h) & (cosine > 1 - EASY * (1 - TURN))
-        easy &= (chord < CHORD / 2) & (gain < LARGEST / 2)
+        easy &= (chord < CHORD / 2) & (gain < LARGEST / 2) & (change < CHANGE / 2)
         # Nearly all of the way to the end, and then all of it.
         shorter = np.where(good & beyond, h * left / np.where(gain > 0, gain, 1), h / 3)
-        step[active] = np.where(some, np.where(easy, 2 * h, h), shorter)
+        longer = np.where(easy & (over == 0), 2 * h, np.where(over > 0, h / 4, h))
+        step[active] = np.where(some, longer, shorter)
         if (step[active] < least[active]).any():
             raise TracingError("an arc was lost: steps became too short")
         active = active[np.abs(end[active] - angle[active]) > REACHED]
@@ -159,6 +175,51 @@ def _matrices(
     matrix = np.concatenate([slopes, patches, normal[:, None]], axis=1)
     right = np.concatenate([values, np.zeros((len(x), len(closure.groups) + 1))], axis=1)
     return matrix, right
+
+
+def _steps_over(
+    closure: ProjectiveClosure,
+    x: np.ndarray,
+    tangent: np.ndarray,
+    step: np.ndarray,
+    crossed: np.ndarray | None,
+) -> np.ndarray:
+    """Steps over places ahead where the equations are singular; 0 where there is none.
+
+    No step towards them would be short enough, though the curve itself is smooth.
+    """
+    if crossed is None:
+        return np.where(step < BLIND, 8 * BLIND, 0.0)
+    over = np.zeros(len(x))
+    for place in crossed:
+        gap = closure.align_signs(np.repeat(place[None], len(x), axis=0), x) - x
+        ahead = (gap * tangent).sum(axis=1)
+        aside = np.linalg.norm(gap - ahead[:, None] * tangent, axis=1)
+        near = (ahead > 0) & (ahead < JUMP) & (aside < ASIDE * ahead)
+        over = np.where(near & ((over == 0) | (2 * ahead < over)), 2 * ahead, over)
+    return over
+
+
+@np.errstate(all="ignore")
+def _change_of_slopes(
+    closure: ProjectiveClosure, x: np.ndarray, tangent: np.ndarray, found: np.ndarray
+) -> np.ndarray:
+    """By how much the equations' slopes differ at other points, whatever the equations' scales.
+
+    The norm of ``M(x)^-1 (J(y) - J(x))``, with ``M`` of `_matrices`, shape ``(P,)``; below 1
+    Newton's method with ``M(x)`` contracts along the chord (Kantorovich): no two branches meet it.
+    """
+    matrix, _ = _matrices(closure, x, tangent)
+    rows = len(closure.equations) - 2
+    apart = closure.jacobians(found)[:, :rows] - matrix[:, :rows]
+    q, r = np.linalg.qr(matrix)
+    product = np.einsum("pij,pik->pjk", q[:, :rows], apart)
+    diagonal = np.abs(np.diagonal(r, axis1=1, axis2=2)).min(axis=1)
+    safe = (diagonal > 0) & np.isfinite(product).all(axis=(1, 2))
+    result = np.full(len(x), np.inf)
+    if safe.any():
+        result[safe] = np.linalg.norm(np.linalg.solve(r[safe], product[safe]), 2, axis=(1, 2))
+    return result
 
 
 def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:

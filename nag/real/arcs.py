@@ -68,8 +68,12 @@ def find_arcs(
     closure: ProjectiveClosure,
     specials: Sequence[SpecialFibre],
     radius: float,
+    crossed: np.ndarray | None,
 ) -> list[Arc]:
     """All arcs between special fibres, of which the last is that over infinity.
+
+    Args:
+        crossed: of `trace_arcs`.
 
     Raises:
         TracingError: if arcs are lost or mixed up.
@@ -103,7 +107,7 @@ def find_arcs(
         return []
     intervals = Intervals(np.array(first), np.array(last))
     begin = np.full(len(starts), np.pi / 2)
-    traced = trace_arcs(closure, intervals, np.array(starts), begin, np.array(ends))
+    traced = trace_arcs(closure, intervals, np.array(starts), begin, np.array(ends), crossed)
     arcs: list[Arc] = []
     place = 0
     for left_stop, right_stop in zip(goals[::2], goals[1::2], strict=True):

@@ -91,12 +91,17 @@ def _insert_points(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray
 
 
 def _thinned(points: np.ndarray, least: float) -> list[int]:
-    """Indices of points that are not nearer to each other than ``least``, both ends among them."""
-    kept = [0]
+    """Indices of points, both ends among them; of those nearer than ``least`` where it turns."""
+    chords = np.diff(points, axis=0)
+    chords /= np.linalg.norm(chords, axis=1)[:, None]
+    turns = np.arccos(np.clip((chords[1:] * chords[:-1]).sum(axis=1), -1, 1))
+    kept, turned = [0], 0.0
     for i in range(1, len(points) - 1):
+        turned += turns[i - 1]
         apart = (np.linalg.norm(points[i] - points[k]) for k in (kept[-1], -1))
-        if min(apart) >= least:
+        if min(apart) >= least or turned > TURN:
             kept.append(i)
+            turned = 0.0
     return [*kept, len(points) - 1]
 
 

@@ -280,7 +280,7 @@ class _Projected:
             if digits is None
             else self._in_digits(closure, form, radius, digits, rng)
         )
-        arcs = find_arcs(table, closure, specials, radius)
+        arcs = find_arcs(table, closure, specials, radius, crossed)
         skeleton = join_arcs(closure, specials, arcs, self.turns)
         # Of a factor of an equation the determinants say nothing of the other ones.
         whole = set(self.square) <= set(system.polynomials)
