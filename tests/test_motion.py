@@ -662,6 +662,50 @@ def test_circuits_and_dead_points_of_four_bars_that_nearly_fold(lengths, circuit
                 assert folded == pytest.approx(math.pi - least, abs=1e-9)
 
 
+RSE = """
+title = "RSE"
+kind = "mechanism"
+ground = "base"
+
+[[joint]]
+name = "R"
+type = "revolute"
+bodies = ["base", "a"]
+point = [0, 0, 0]
+axis = [0, 0, 1]
+
+[[joint]]
+name = "S"
+type = "spherical"
+bodies = ["a", "c"]
+point = [2, 0, 1]
+
+[[joint]]
+name = "E"
+type = "planar"
+bodies = ["c", "base"]
+point = [3, 4, 2]
+axis = [1, 2, 2]
+"""
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_circuit_passes_the_reference_with_whatever_signs_of_euler_parameters(
+    tmp_path: Path, seed: int
+) -> None:
+    case = tmp_path / "rse.toml"
+    case.write_text(RSE)
+    motion = nag.motion(case, circuit="all", seed=seed, samples=24)
+    assert [circuit.through_reference for circuit in motion.circuits] == [True, False]
+
+
+def test_a_joint_that_stands_still_is_at_no_value_beside_its_own() -> None:
+    # A kite whose crank and coupler lie on each other turns as one bar, with the arm at rest.
+    for angle, throughout in ((0.0, 1), (1e-7, 0)):
+        motion = nag.motion(CASES / "planar" / "four-bar-kite.toml", drive=("D", angle))
+        assert len(motion.throughout) == throughout
+
+
 def test_an_isolated_real_point_of_a_curve_is_an_assembly_that_cannot_move() -> None:
     # With the crank turned back the other links reach just as far as they have to.
     lengths = {"crank": ("A", "B", 2), "rod": ("B", "C", 2), "arm": ("C", "D", 2)}

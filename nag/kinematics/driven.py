@@ -375,17 +375,16 @@ def has_value(scene: Scene, assembly: DrivenAssembly, drive: Drive) -> bool:
 def has_value_throughout(scene: Scene, values: Values, drive: Drive) -> bool:
     """Whether a joint stands still at a value all along a motion."""
     column = check_drive(scene, drive)
-    return bool(values.still[column]) and _is_at(
-        scene, column, values.values[0, column], drive.value
-    )
+    value = values.values[0, column]
+    return bool(values.still[column]) and _is_at(scene, column, value, drive.value, STILL)
 
 
-def _is_at(scene: Scene, column: int, value: float, target: float) -> bool:
+def _is_at(scene: Scene, column: int, value: float, target: float, tolerance: float = SAME) -> bool:
     """Whether a coordinate's value is another one; angles that differ by whole turns are one."""
     away = float(value - target)
     if joint_coordinates(scene)[column].kind == "angle":
-        return abs((away + np.pi) % (2 * np.pi) - np.pi) < SAME
-    return abs(away) < SAME * scene.size
+        return abs((away + np.pi) % (2 * np.pi) - np.pi) < tolerance
+    return abs(away) < tolerance * scene.size
 
 
 def find_doubts_of_held(

@@ -933,17 +933,28 @@ def _circuits_on(
     problem: Problem, scene: Scene, number: int, real: RealCurve, which: Which, samples: int
 ) -> list[_FoundCircuit]:
     """The circuits on a curve, or those through the reference configuration, without numbers."""
-    reference = None
-    if scene.from_reference and problem.reference is not None:
-        reference = np.array([float(x) for x in problem.reference])
+    references = _references(problem) if scene.from_reference else []
     curve = Curve(real, problem.system, scene)
     found = []
     for walk in walks_of(real, curve.coordinates):
-        begun = None if reference is None else _begin_at(curve, walk, reference)
-        if begun is not None or which != "reference":
-            on = begun is not None
-            found.append(_sample(0, number, curve, begun or walk, on, samples))
+        begun = (_begin_at(curve, walk, reference) for reference in references)
+        first = next((each for each in begun if each is not None), None)
+        if first is not None or which != "reference":
+            on = first is not None
+            found.append(_sample(0, number, curve, first or walk, on, samples))
     return found
+
+
+def _references(problem: Problem) -> list[np.ndarray]:
+    """The points of the reference configuration: with all signs of Euler parameters."""
+    if problem.reference is None:
+        return []
+    points = [np.array([float(x) for x in problem.reference])]
+    if isinstance(problem.model, Model) and problem.model.sign_group > 1:
+        for g in problem.symmetries:
+            images = [g.of_point(x) for x in points]
+            points += [y for y in images if not any(np.array_equal(y, x) for x in points)]
+    return points
 
 
 def _each_once(scene: Scene, circuits: Iterable[_FoundCircuit]) -> list[_FoundCircuit]:
