@@ -295,6 +295,18 @@ def test_tutorials_are_notebooks_that_run(page: str, tmp_path, monkeypatch) -> N
         exec(compile(cell, page, "exec"), space)
 
 
+def test_the_website_installs_what_its_tutorials_need() -> None:
+    """Which are run while it is built: modules by their imports, others by what asks for them."""
+    programs = "".join(text for page, text in PAGES.items() if "/tutorials/" in page)
+    needed = {
+        name for name in ("matplotlib", "sympy") if re.search(rf"^import {name}", programs, re.M)
+    }
+    needed |= {"pandas"} if "to_dataframe(" in programs else set()
+    extra = PROJECT["project"]["optional-dependencies"]["docs"]
+    assert needed == {"matplotlib", "pandas"}
+    assert needed <= {re.match(r"[a-z]+", requirement)[0] for requirement in extra}
+
+
 RATIONAL = PAGES["docs/coming-from/rational-linkages.md"]
 
 
