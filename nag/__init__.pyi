@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any, Literal, Protocol, TypeAlias, TypedDict, Unpack, overload
+from typing import Any, Literal, Protocol, SupportsFloat, TypeAlias, TypedDict, Unpack, overload
 
 import networkx
 import numpy as np
@@ -131,9 +131,14 @@ Point: TypeAlias = (
     str | Mapping[str, complex | RealNumber] | Sequence[complex | RealNumber] | np.ndarray
 )
 Formulation: TypeAlias = Literal["auto", "E", "H", "S", "P"]
+# How paths begin: a start system, or the loops of a family.
+Start: TypeAlias = Literal[
+    "auto", "total", "multihomogeneous", "polyhedral", "monodromy", "parameter"
+]
 Circuits: TypeAlias = Literal["reference", "all"] | int
 Drives: TypeAlias = tuple[str, float] | Mapping[str, float]
-Poses: TypeAlias = Mapping[str, Sequence[float]]
+# Texts of decimals as well, as a command line has them.
+Poses: TypeAlias = Mapping[str, Sequence[str | SupportsFloat] | np.ndarray]
 
 def certify(
     given: SolveResult | Decomposed,
@@ -362,7 +367,7 @@ def solve(
     *,
     imaginary: str | None = None,
     formulation: Formulation = "auto",
-    start: str = "auto",
+    start: Start = "auto",
     **options: Unpack[Options],
 ) -> SolveResult: ...
 def solve_family(
@@ -378,7 +383,7 @@ def solve_family(
     *,
     imaginary: str | None = None,
     formulation: Formulation = "auto",
-    start: str = "auto",
+    start: Start = "auto",
     count: int | None = None,
     known: tuple[Sequence[complex] | np.ndarray, np.ndarray] | None = None,
     **options: Unpack[Options],

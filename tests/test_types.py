@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -20,12 +21,27 @@ import nag
 
 ROOT = Path(nag.__file__).parent.parent
 STUB = ast.parse((ROOT / "nag" / "__init__.pyi").read_text("utf-8"))
+
+
+def programs_of(page: Path) -> list[str]:
+    """The programs that a page shows; a tutorial is one."""
+    blocks = re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), re.DOTALL)
+    return ["\n".join(blocks)] if page.parent.name == "tutorials" else blocks
+
+
 DTYPES = {
     "ComplexArray": np.complex128,
     "RealArray": np.float64,
     "IntegerArray": np.int64,
     "ByteArray": np.int8,
     "BooleanArray": np.bool_,
+}
+# A program that is shown need not say the types of its own functions.
+UNTYPED = "# mypy: allow-untyped-defs, allow-untyped-calls\n"
+PROGRAMS = {
+    f"{page.stem}_{k}".replace("-", "_"): program
+    for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+    for k, program in enumerate(programs_of(page))
 }
 USER = Path(__file__).with_name("typed_user.py")
 
@@ -66,10 +82,22 @@ def test_arrays_of_results_hold_what_their_type_says(name: str) -> None:
 
 
 @pytest.mark.skipif(find_spec("mypy") is None, reason="mypy is not installed")
-def test_mypy_finds_no_any_where_a_type_is_known(tmp_path: Path) -> None:
+def test_mypy_finds_no_any_where_a_type_is_known_and_no_error_in_what_pages_show(
+    tmp_path: Path,
+) -> None:
+    shown = [tmp_path / f"{name}.py" for name in PROGRAMS]
+    for file, program in zip(shown, PROGRAMS.values(), strict=True):
+        file.write_text(f"{UNTYPED}{program}", encoding="utf-8")
     command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent"]
     done = subprocess.run(
-        [*command, "--ignore-missing-imports", "--cache-dir", str(tmp_path), str(USER)],
+        [
+            *command,
+            "--ignore-missing-imports",
+            "--cache-dir",
+            str(tmp_path),
+            str(USER),
+            *map(str, shown),
+        ],
         env=os.environ | {"MYPYPATH": str(ROOT)},
         cwd=tmp_path,
         capture_output=True,

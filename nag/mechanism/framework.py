@@ -68,7 +68,7 @@ class Framework:
     def of(
         cls,
         points: Mapping[str, Sequence[Any]] | Iterable[str],
-        bars: Iterable[Bar],
+        bars: Iterable[Sequence[str]],
         lengths: Iterable[Any] | None = None,
         *,
         dimension: int = 2,

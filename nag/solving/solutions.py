@@ -415,9 +415,18 @@ class SolveResult(Several[Solution]):
         return self.positive_dimensional or len(self.on_doubtful) > 0
 
     @property
-    def entries(self) -> Sequence[Solution]:
+    def entries(self) -> Solutions:
         """The isolated solutions."""
-        return self.solutions
+        return self.table
+
+    @overload
+    def __getitem__(self, index: int) -> Solution: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Solutions: ...
+
+    def __getitem__(self, index: int | slice) -> Solution | Solutions:
+        return self.table[index]
 
     @overload
     def to_numpy(self, real: Literal[False] = False) -> ComplexArray: ...
