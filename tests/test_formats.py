@@ -810,3 +810,17 @@ def test_what_singular_prints_is_the_ideal_that_it_was_given(
     file.write_text(printed)
     with pytest.raises(CaseError, match="write the ring before it"):
         read_case(file)
+
+
+@pytest.mark.skipif(shutil.which("Singular") is None, reason="Singular is not installed")
+def test_singular_takes_variables_whatever_they_are_called(tmp_path: Path) -> None:
+    of_kernel = {"QQ", "ZZ", "Current", "Standard", "Top", "basering", "pyobject"}
+    names = sorted(of_kernel | words.SINGULAR | {"nagring", "nagideal", "RR", "x_1", "lambda"})
+    file = tmp_path / "named.sing"
+    nag.write(nag.system([f"{name}^2 - 3*{name}" for name in names], names), file)
+    script = f"{file.read_text()}print(size(nagideal));\nquit;\n"
+    command = ["Singular", "-q", "--no-rc"]
+    printed = subprocess.run(
+        command, input=script, capture_output=True, text=True, timeout=60
+    ).stdout
+    assert printed.split() == [str(len(names))]

@@ -1,11 +1,11 @@
 """Words of other programs that are no names of variables there.
 
 Each word of a program was tried as the only variable of a ring, in whose ideal it occurs:
-Macaulay2 1.21 with all words of its dictionaries, Singular 4.3.1 with those of ``reservedName()``
-and the procedures that it begins with. These are the ones that were refused. Those of the other
-programs are from their grammars: of Bertini the declarations, functions and numbers of Bertini 1
-and 2, of Julia its keywords and what a module is born with, of Python its keywords; besides, what a
-written file uses itself.
+Macaulay2 1.21 with all words of its dictionaries, Singular 4.3.1 with those of ``reservedName()``,
+the procedures that it begins with, the words in its library, and names of two characters. These
+are the ones that were refused. Those of the other programs are from their grammars: of Bertini the
+declarations, functions and numbers of Bertini 1 and 2, of Julia its keywords and what a module is
+born with, of Python its keywords; besides, what a written file uses itself.
 """
 
 from __future__ import annotations
@@ -169,26 +169,26 @@ ZeroExpression zeta ZZ
 
 SINGULAR = frozenset(
     """
-alias align and apply ASSUME attrib bareiss betti bigint bigintmat bracket branchTo break
+alias align and apply ASSUME attrib bareiss basering betti bigint bigintmat bracket branchTo break
 breakpoint char charstr chinrem cleardenom close coef coeffs continue contract convhull cring
-crossprod datetime dbprint def defined deg degBound degree delete denominator det diff dim div
-division dump echo eliminate else envelope ERROR eval example execute exit export exportto extgcd
-facstd factmodd factorize farey fetch fglm fglmquot find finduni Float for forif fprintf freemodule
-fres frwalk GCD gcd gen getdump groebner help highcorner hilb hilbRing homog hres ideal if imap
-impart importfrom IN indepSet insert int interpolation interred intersect intmat intvec jacob janet
-jet kbase keepring kernel kill killattrib koszul kres laguerre lead leadcoef leadexp leadmonom LIB
-lift liftstd link list listvar load lres ludecomp luinverse lusolve map matrix max maxideal memory
-min minbase minor minpoly minres mod module modulo monitor monomial mpresmat mres mstd mult
-multBound multiplicity nameof names ncalgebra ncols newline newstruct NF noether not npars nres
-nrows number numerator nvars open oppose opposite option or ord ordstr package pagewidth par
-par2varRing parameter pardeg parstr pause poly polyBucket preimage prime primefactors print printf
-printlevel proc prune qhweight qrds qring qslimgb quit quot quote quotient quotient1 quotient2
-quotient3 quotient4 quotient5 quotientList random rank read reduce regularity repart res
-reservedName reservedNameList resolution restart resultant RETURN return rightstd ring ringlist
-rtimer rvar sba setring short simplex simplify size slimgb smatrix sortvec sprintf sqrfree sres
-status std stdfglm stdhilb string subst system syz tensor test timer TRACE trace transpose twostd
-type typeof univariate uressolve vandermonde var variables varstr vdim vector verbose voice waitall
-waitfirst wedge weight weightKB while whileif write
+crossprod Current datetime dbprint def defined deg degBound degree delete denominator det diff dim
+div division dump echo eliminate else envelope ERROR eval example execute exit export exportto
+extgcd facstd factmodd factorize farey fetch fglm fglmquot find finduni Float for forif fprintf
+freemodule fres frwalk GCD gcd gen getdump groebner help highcorner hilb hilbRing homog hres ideal
+if imap impart importfrom IN indepSet insert int interpolation interred intersect intmat intvec
+jacob janet jet kbase keepring kernel kill killattrib koszul kres laguerre lead leadcoef leadexp
+leadmonom LIB lift liftstd link list listvar load lres ludecomp luinverse lusolve map matrix max
+maxideal memory min minbase minor minpoly minres mod module modulo monitor monomial mpresmat mres
+mstd mult multBound multiplicity nagideal nagring nameof names ncalgebra ncols newline newstruct NF
+noether not npars nres nrows number numerator nvars open oppose opposite option or ord ordstr
+package pagewidth par par2varRing parameter pardeg parstr pause poly polyBucket preimage prime
+primefactors print printf printlevel proc prune pyobject qhweight QQ qrds qring qslimgb quit quot
+quote quotient quotient1 quotient2 quotient3 quotient4 quotient5 quotientList random rank read
+reduce regularity repart res reservedName reservedNameList resolution restart resultant RETURN
+return rightstd ring ringlist rtimer rvar sba setring short simplex simplify size slimgb smatrix
+sortvec sprintf sqrfree sres Standard status std stdfglm stdhilb string subst system syz tensor test
+timer Top TRACE trace transpose twostd type typeof univariate uressolve vandermonde var variables
+varstr vdim vector verbose voice waitall waitfirst wedge weight weightKB while whileif write ZZ
 """.split()  # noqa: SIM905
 )
 
