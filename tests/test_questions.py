@@ -583,3 +583,27 @@ def test_statements_of_the_papers_are_checked_as_by_the_command(tmp_path) -> Non
     assert found.complete and len(found) == 10
     with pytest.raises(nag.NagError, match="the papers give no components of it"):
         nag.check_statements("x^2 - 1")
+
+
+def test_answers_have_the_documents_that_commands_write(tmp_path: Path) -> None:
+    def written(*words: str) -> dict[str, object]:
+        file = tmp_path / "answer.json"
+        assert main([*words, "--json", str(file), "--quiet"]) == 0
+        return json.loads(file.read_text("utf-8"))
+
+    system, values = tmp_path / "system.txt", tmp_path / "values.csv"
+    system.write_text("x^2 = a\n")
+    values.write_text("a\n1\n-2\n")
+    rhombus, bennett = str(CASES / "rhombus.toml"), str(CASES / "bennett.toml")
+    for answer, document in (
+        (
+            nag.solve_family(system, "a", values),
+            written("family", str(system), "--values", str(values)),
+        ),
+        (
+            nag.sweep_parameter(rhombus, "b", [1, 2]),
+            written("decompose", rhombus, "--sweep", "b=1:2:2"),
+        ),
+        (nag.mobility(bennett), written("mobility", bennett)),
+    ):
+        assert answer.document().items() <= document.items()

@@ -155,18 +155,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
 def _fields(found: FamilySolutions) -> dict[str, Any]:
     """What the document says of the members."""
-    columns = (found.counts, found.real_counts, found.complete, found.one_by_one)
-    numbers = zip(*(column.tolist() for column in columns), strict=True)
-    return {
-        "format": FORMAT,
-        "notes": [],
-        "variables": list(found.variables),
-        "parameters": list(found.parameters),
-        "solutions": len(found.start.points),
-        "members": [
-            {"solutions": n, "real": r, "complete": c, "one_by_one": o} for n, r, c, o in numbers
-        ],
-    }
+    return {"format": FORMAT, "notes": [], **found.document()}
 
 
 def _missing(complete: bool) -> str:

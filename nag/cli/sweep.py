@@ -74,6 +74,7 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
     arguments.set = [*settings, (asked.name, asked.values[0])]
     case, first = read_problem(arguments)
 
+    from nag.decomposition.sweep import Sweep
     from nag.questions import sweep_parameter
     from nag.text.table import align, sheet
     from nag.tracking.run import ENDED_EARLY
@@ -82,9 +83,8 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
         fields = {
             "format": FORMAT,
             "notes": [ENDED_EARLY] if ended else [],
-            "parameter": asked.name,
+            **Sweep(asked.name, tuple(values)).document(),
             "count": len(asked.values),
-            "values": [each.document() for each in values],
         }
         complete = not ended and all(each.decomposition.complete for each in values)
         return answer_document(arguments, name_case(case), fields, complete)

@@ -114,6 +114,11 @@ class Sweep(Several[Swept]):
         """Whether those for every value are complete."""
         return all(each.decomposition.complete for each in self.members)
 
+    def document(self) -> dict[str, Any]:
+        """The components for each value as a JSON object, witness sets left out."""
+        values = [each.document() for each in self.members]
+        return {"parameter": self.parameter, "count": len(values), "values": values}
+
     @property
     def followed_count(self) -> int:
         """For how many values the components were followed from a general one."""

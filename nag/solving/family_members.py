@@ -145,6 +145,20 @@ class FamilySolutions(Several[ComplexArray]):
         columns["error"] = self.errors[members, places]
         return data_frame(columns)
 
+    def document(self) -> dict[str, Any]:
+        """The numbers of solutions of each member as a JSON object, the solutions left out."""
+        columns = (self.counts, self.real_counts, self.complete, self.one_by_one)
+        numbers = zip(*(column.tolist() for column in columns), strict=True)
+        return {
+            "variables": list(self.variables),
+            "parameters": list(self.parameters),
+            "solutions": len(self.start.points),
+            "members": [
+                {"solutions": n, "real": r, "complete": c, "one_by_one": o}
+                for n, r, c, o in numbers
+            ],
+        }
+
     @property
     def real_counts(self) -> IntegerArray:
         """Numbers of distinct real solutions, shape ``(M,)``."""
