@@ -472,3 +472,19 @@ def test_what_was_asked_is_the_first_line_and_in_python_the_answer(
     assert title and not empty and said.startswith(first)
     assert any(line.startswith(before) for line in others)
     assert str(nag.mobility(path)).startswith("mobility    ")
+
+
+def test_components_without_real_assemblies_are_told_apart() -> None:
+    """Two triangles with three bars between them, of which there are most often complex ones."""
+    bars = ["AB", "BC", "CA", "DE", "EF", "FD", "AD", "BE", "CF"]
+    frame = nag.Framework.of("ABCDEF", bars, [3, 4, 5, 3, 4, 5, 2, "5/2", "11/5"])
+    every = nag.decompose(frame)
+    points = [x for component in every for x in component.points]
+    real = sum(nag.model(frame).is_real(x) for x in points)
+    report = nag.mobility(frame)
+    assert (len(report.components), report.without_real) == (real, len(points) - real)
+    said = dict(report.rows())["components"]
+    assert 0 < real < len(points)
+    assert said == (
+        f"{real} of dimension 0, degree 1, with real assemblies; {len(points) - real} without"
+    )

@@ -582,6 +582,7 @@ def _in_general(
         if forced is not None:
             raise NoAssembly(f"its parts have no real assembly: {forced.text}, and do not fit so")
         raise NoAssembly("its parts cannot be assembled, not even with complex coordinates")
+    every = len(components)
     if found.complete and problem.parts is not None and not any(c.dimension for c in components):
         components = _with_real_ones(problem, components, forced)
     general = max(components, key=lambda c: (c.dimension, c.corank), default=None)
@@ -609,6 +610,7 @@ def _in_general(
         multiplicities=tuple(c.multiplicity for c in components) if found.complete else (),
         doubt=doubt,
         in_line="" if forced is None else forced.text,
+        without_real=every - len(components),
         rests_on=ALL_COMPONENTS if found.complete else "",
     )
     if report.local_dimension == 0:

@@ -104,11 +104,14 @@ class MobilityReport:
         free_of: whose the ``free`` ones are, as text; empty where there are none.
         zero_links: which links have length zero, as text.
         general: of parts that are not assembled, a component of the largest dimension: the report
-            is of a general configuration on it, and ``components`` are all that there are.
+            is of a general configuration on it, and ``components`` are all that there are, but for
+            those of ``without_real``.
         doubt: of such parts that move, why it is not known that they do with real coordinates;
             empty where it is.
         in_line: of such parts, which places their lengths put in line in every real assembly; all
             that is said is of those, but the tangent dimension, which is that of the lengths.
+        without_real: of such parts that do not move, how many components more have no real
+            assembly.
         least_degree: what the degree of the one component through a smooth configuration is at
             least, where it is not known.
         rests_on: what ``components`` are known by, and why a degree is not; empty where nothing is.
@@ -145,6 +148,7 @@ class MobilityReport:
     general: WitnessSet | None = None
     doubt: str = ""
     in_line: str = ""
+    without_real: int = 0
     least_degree: int | None = None
     rests_on: str = ""
     moving: MovingParts | None = None
@@ -459,7 +463,10 @@ def _components_text(report: MobilityReport) -> str:
         for (d, degree), m, own in zip(report.components, known, real, strict=True)
     ]
     if report.general is not None:
-        return "in all " + "; ".join(f"{count} of {k}" for k, count in Counter(kinds).items())
+        listed = "; ".join(f"{count} of {k}" for k, count in Counter(kinds).items())
+        if report.without_real:
+            return f"{listed}, with real assemblies; {report.without_real} without"
+        return f"in all {listed}"
     if report.least_degree is not None:
         ((dimension, _),) = report.components
         return (
