@@ -277,7 +277,7 @@ def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
 
         reason = obstacle(problem.parts)
         if reason:
-            raise UsageError(f"{options.case}: its parts have no real assembly: {reason}")
+            raise UsageError(f"{options.case}: it cannot be assembled (proved): {reason}")
         if options.local:
             raise UsageError(
                 f"{options.case}: its parts are not assembled: give --at, or leave out --local"

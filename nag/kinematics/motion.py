@@ -499,7 +499,7 @@ def motion(
     problem = problem_to_move(mechanism, poses, formulation)
     reason = "" if problem.parts is None else obstacle(problem.parts)
     if reason:
-        raise MotionError(f"its parts have no real assembly: {reason}")
+        raise MotionError(f"it cannot be assembled (proved): {reason}")
     problem = of_real_assemblies(problem)
     poses = place_frames(problem, poses)
     if poses or len(drives) > 1 or (drives and has_several_freedoms(problem, run)):

@@ -580,8 +580,8 @@ def _in_general(
     components = expand_orbits(found).components
     if found.complete and not components:
         if forced is not None:
-            raise NoAssembly(f"its parts have no real assembly: {forced.text}, and do not fit so")
-        raise NoAssembly("its parts cannot be assembled, not even with complex coordinates")
+            raise NoAssembly(f"it cannot be assembled: {forced.text}, and do not fit so")
+        raise NoAssembly("it cannot be assembled, not even with complex coordinates")
     every = len(components)
     if found.complete and problem.parts is not None and not any(c.dimension for c in components):
         components = _with_real_ones(problem, components, forced)
@@ -642,7 +642,7 @@ def _with_real_ones(
     assert parts is not None
     reason = obstacle(parts)
     if reason:
-        raise NoAssembly(f"its parts have no real assembly: {reason}")
+        raise NoAssembly(f"it cannot be assembled (proved): {reason}")
     number, real = count_real(problem, components)
     if real is None:
         return list(components)
@@ -651,7 +651,7 @@ def _with_real_ones(
     each = count_text(number, "complex one") if number > 1 else "the only complex one"
     what = f"none of {each} is" if number > 1 else f"{each} is not"
     where = "" if forced is None else f"; in one {forced.text}"
-    raise NoAssembly(f"its parts have no real assembly: {what} real{where}")
+    raise NoAssembly(f"it cannot be assembled: {what} real{where}")
 
 
 def _with_near_motion(
