@@ -740,9 +740,7 @@ def test_slides_of_a_planar_joint_are_along_the_drawings_axes_where_they_can_be(
 
 def test_an_open_arm_is_told_how_to_be_held() -> None:
     joint = nag.Joint("A", "revolute", ("base", "arm"), (0, 0, 0), (0, 0, 1))
-    with pytest.raises(
-        NagError, match=r"no loop.*the hand at a pose, or, .* a link where it stands"
-    ):
+    with pytest.raises(NagError, match=r"no loop.*the hand at a pose"):
         nag.motion(nag.Mechanism("base", (joint,)))
 
 

@@ -381,3 +381,16 @@ def test_postures_say_what_was_moved_and_what_angles_count_from(
     # The elbow is on one side or on the other.
     assert f"driven {hand} moved by (0, 0, 0) from where it is drawn: 2 real assemblies" in found
     assert "angles count from the position in which it is drawn" in found
+
+
+def test_an_arm_whose_held_hand_keeps_it_still_is_told_how_its_postures_are_found(
+    tmp_path: Path, capsys
+) -> None:
+    path, stand = str(written(tmp_path, SCARA)), ["--at", "j2=pi/3"]
+    assert main(["motion", path, "--hold", "l4", *stand, "--quiet"]) == 2
+    said = capsys.readouterr().err
+    assert said.endswith("; for its postures: --pose l4=0,0,0 in place of --hold\n")
+    assert main(["motion", path, "--pose", "l4=0,0,0", *stand, "--quiet"]) == 0
+    assert "2 real assemblies" in capsys.readouterr().out
+    assert main(["motion", path, "--quiet"]) == 2
+    assert "--hold" not in capsys.readouterr().err

@@ -158,7 +158,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
             if name in names[:i]:
                 raise UsageError(f"{option}: {name[:40]!r} is given twice; give it once")
     given = tie_placed_bodies(case, (split_place(body)[0] for body, _ in options.pose or ()))
-    advice = HOLD_FARTHER if options.pose else f"{CLOSE_A_LOOP} (--pose BODY=X,Y,Z; --hold LINK)"
+    advice = HOLD_FARTHER if options.pose else f"{CLOSE_A_LOOP} (--pose BODY=X,Y,Z)"
     problem = problem_of_case(given, options.formulation or "auto", advice)
     drives = _with_radians(problem, options.drive or ())
     ranges = [each for each in drives if len(each[1]) > 1]
@@ -169,10 +169,16 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         "pose": dict(options.pose or ()),
         "samples": options.samples,
     }
+    from nag.kinematics.motion import StillError
+
     try:
         if ranges:
             return _run_through(options, case, problem, ranges[0], held)
         return _run_once(options, case, problem, held)
+    except StillError as error:
+        link = next(iter(options.hold), None)
+        postures = f"; for its postures: --pose {link}=0,0,0 in place of --hold" if link else ""
+        raise error_in_file(options.case, StillError(f"{error}{postures}")) from None
     except NagError as error:
         raise error_in_file(options.case, error) from None
 

@@ -13,8 +13,5 @@ another).
 # For whoever must not load the rest. Values that a joint is driven through, at most.
 MOST_VALUES = 1_000
 # What is said to whoever gives an open arm, and to whoever places a body on it that is too near.
-CLOSE_A_LOOP = (
-    "hold a body to close a loop: the hand at a pose, or, of a robot in URDF or MJCF, a link where "
-    "it stands"
-)
+CLOSE_A_LOOP = "hold a body to close a loop: the hand at a pose"
 HOLD_FARTHER = "a body that is placed needs two joints or more between the ground and itself"

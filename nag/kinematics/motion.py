@@ -86,6 +86,10 @@ class FreedomsError(MotionError):
     """What moves with two freedoms or more."""
 
 
+class StillError(MotionError):
+    """What does not move."""
+
+
 @dataclass(frozen=True)
 class Crossing:
     """A singular configuration on a circuit, where a motion may go on as another one.
@@ -893,7 +897,7 @@ def _choose_components(
         if largest > 1:
             raise _several_freedoms(problem, largest, where)
         advice = "see nag mobility, with tolerance 1e-3 if its numbers are rounded"
-        raise MotionError(f"it does not move {where}".rstrip() + f"; {advice}")
+        raise StillError(f"it does not move {where}".rstrip() + f"; {advice}")
     larger = sum(components[i].dimension > 1 for i in own)
     left_out = f"{count_text(larger, 'component')} of dimension 2 or more" if larger else ""
     return curves, left_out
