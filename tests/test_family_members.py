@@ -218,7 +218,7 @@ def test_values_in_a_table_are_read_as_in_a_case(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ("", "is empty; its first line names parameters: r,a"),
+        ("", "is empty; its first line names parameters, of r, a"),
         ("r,b\n1,2\n", "line 1: 'b' is no parameter of the family"),
         ("r,r\n1,2\n", "line 1: 'r' is there twice"),
         ("r,a\n1\n", "line 2: 1 values, not 2"),
@@ -226,7 +226,7 @@ def test_values_in_a_table_are_read_as_in_a_case(tmp_path: Path) -> None:
         ("r\n1/0\n", "line 2: '1/0' is no number"),
         ("r,a\n1,9^9^9^9\n", "line 2: '9^9^9^9' is no number"),
         ("r\n", "has no values below its first line"),
-        ("r\ninf\n", "those of member 1 are not all finite"),
+        ("r\n1\ninf\n", "values.csv: line 3: 'inf' is not finite; leave the line out"),
     ],
 )
 def test_a_bad_table_is_one_line(
@@ -285,3 +285,26 @@ def test_a_frame_has_a_row_for_each_solution() -> None:
     assert [len(points) for points in found] == [2, 2, 1]
     assert [len(points) for points in found[::-1]] == [1, 2, 2] and len(found[-1]) == 1
     assert repr(found) == "<FamilySolutions: 5 solutions of 3 members>"
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("", "is empty; its first line names parameters, of a, x"),
+        ("a,d\n1,2\n", "line 1: 'd' does not occur; the names are a, x"),
+        (
+            "1,2\n3,4\n",
+            "line 1: '1' does not occur; write a line of names above the numbers, of a, x",
+        ),
+        ("a;x\n1;2\n", "line 1: 'a;x' does not occur; write commas between names"),
+        ("a\n1\nnan\n", "line 3: 'nan' is not finite"),
+    ],
+)
+def test_a_bad_table_for_a_system_without_parameters_is_one_line_that_names_it(
+    content: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    system, table = tmp_path / "system.txt", tmp_path / "values.csv"
+    system.write_text("x^2 = a\n")
+    table.write_text(content)
+    assert main(["family", str(system), "--values", str(table)]) == 2
+    assert f"nag: {table}: {message}" in capsys.readouterr().err

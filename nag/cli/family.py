@@ -65,7 +65,7 @@ def _family_by_columns(options: argparse.Namespace, case: Case) -> Family:
     """
     from nag.errors import NagError
     from nag.files.cases import freed_system
-    from nag.files.member_values import read_member_names
+    from nag.files.member_values import check_names, read_member_names
     from nag.solving.family_members import family_of
 
     system = case.system
@@ -73,6 +73,8 @@ def _family_by_columns(options: argparse.Namespace, case: Case) -> Family:
     if system is not None and not system.nonzero and set(names) <= set(case.parameters):
         system = freed_system(case, names)
     known = () if system is None or system.nonzero else system.own_variables
+    if known and not os.fspath(options.values).endswith(".npy"):
+        check_names(options.values, names, list(dict.fromkeys([*known, *case.parameters])))
     if system is None or not names or not set(names) <= set(known):
         raise UsageError(
             f"{options.case}: has no [family]; name the parameters that differ there, as in "

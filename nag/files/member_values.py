@@ -6,6 +6,7 @@ import contextlib
 import csv
 import os
 import re
+from cmath import isfinite
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NoReturn
@@ -61,6 +62,33 @@ def read_member_names(path: str | os.PathLike[str]) -> list[str]:
         return [name.strip() for name in next(csv.reader(stream), [])]
 
 
+def check_names(
+    path: object, names: Sequence[str], known: Sequence[str], wrong: str = "does not occur"
+) -> None:
+    """That the names in the first line of a table are known, each there once.
+
+    Args:
+        wrong: what is said of one that is not.
+
+    Raises:
+        InputError: if they are not; one line.
+    """
+    if not any(names):
+        _fail(path, f"is empty; its first line names parameters, of {', '.join(known)}")
+    for name in names:
+        if name in known:
+            if names.count(name) > 1:
+                _fail(path, f"line 1: {name!r} is there twice")
+            continue
+        if ";" in name:
+            advice = "; write commas between names, and between values"
+        elif _is_number(name):
+            advice = f"; write a line of names above the numbers, of {', '.join(known)}"
+        else:
+            advice = f"{nearest(name, known)}; the names are {', '.join(known)}"
+        _fail(path, f"line 1: {quote(name)} {wrong}{advice}")
+
+
 @contextlib.contextmanager
 def _refuse_other_files(path: object) -> Iterator[None]:
     """One line of what cannot be read, or is no table."""
@@ -87,6 +115,9 @@ def _read_array(file: Path, k: int) -> np.ndarray:
         _fail(file, "holds no numbers; save an array of doubles")
     if array.ndim != 2 or array.shape[1] != k:
         _fail(file, f"has shape {array.shape}; of {k} parameters it must be (members, {k})")
+    rows = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    if len(rows):
+        _fail(file, f"row {rows[0] + 1} has a value that is not finite; leave the row out")
     return array
 
 
@@ -94,18 +125,7 @@ def _read_table(
     file: Path, lines: csv.Reader, parameters: Sequence[str], given: Sequence[complex]
 ) -> np.ndarray:
     names = [name.strip() for name in next(lines, [])]
-    if not names:
-        _fail(file, f"is empty; its first line names parameters: {','.join(parameters)}")
-    for name in names:
-        if name not in parameters:
-            advice = nearest(name, parameters)
-            _fail(
-                file,
-                f"line 1: {quote(name)} is no parameter of the family{advice}; "
-                f"write {','.join(parameters)}",
-            )
-        if names.count(name) > 1:
-            _fail(file, f"line 1: {name!r} is there twice")
+    check_names(file, names, parameters, "is no parameter of the family")
     rows = []
     for line in lines:
         if not line:
@@ -114,12 +134,19 @@ def _read_table(
             _fail(file, f"line {lines.line_num}: {len(line)} values, not {len(names)}")
         try:
             rows.append([_number(text) for text in line])
+            finite = [isfinite(value) for value in rows[-1]]
         except ValueError:
             wrong = next(text for text in line if not _is_number(text))
             _fail(
                 file,
                 f"line {lines.line_num}: {quote(wrong)} is no number; write 0.5, or as in a case "
                 "1/3, sqrt(2), 1 + 2*I",
+            )
+        if not all(finite):
+            _fail(
+                file,
+                f"line {lines.line_num}: {quote(line[finite.index(False)])} is not finite; leave "
+                "the line out",
             )
     if not rows:
         _fail(file, "has no values below its first line")
