@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from systems import system
 
+import nag
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
 from nag.numerics.singular_point import Place
@@ -150,3 +151,11 @@ def test_the_conjugate_of_a_singular_end_on_a_component_is_not_judged_again() ->
     ]
     assert places == [Place.ON_COMPONENT, Place.UNDECIDED, Place.UNDECIDED]
     assert asked == [1, 2]
+
+
+def test_bounds_for_one_value_of_the_unit_and_paths_for_both_are_told_apart() -> None:
+    equations = ["x^2*y - 2*x*z*I + 3/2*x*z - 3", "5/2*x*I + y^2 + y*z - I - 1"]
+    reason = nag.solve([*equations, "x*y + z^2 - 1/4*z + 1/3*I"], imaginary="I").reason
+    assert "total degree 24" in reason and "not computed" not in reason
+    assert ", for both values of I; " in reason
+    assert reason.endswith("no more than 10 for each value of I")

@@ -155,7 +155,11 @@ class PathSearch:
         doubts, reason = list(ends.notes), self.reason
         if self.bound is not None and seen is Completeness.ALL:
             most = self.problem.on_one_side(self.zeros)
-            reason = f"{reason}; {self.bound.source} no more than {most}"
+            unit, one = "", ""
+            if self.problem.sides > 1:
+                name = self.problem.system.variables[-1]
+                unit, one = f", for both values of {name}", f" for each value of {name}"
+            reason = f"{reason}{unit}; {self.bound.source} no more than {most}{one}"
         else:
             doubts = [*ends.unclear, *list_doubts(begin, self.paths), *doubts]
         if self.bound is not None and seen in (Completeness.MISSING, Completeness.TOO_MANY):

@@ -121,7 +121,7 @@ def _least_work(
         except StartError as error:
             counts.append(str(error))
     elif least > 1:
-        counts.append("so few that the mixed volume was not computed")
+        counts.append("so few that the mixed volume was not needed")
     if number < tracked:
         start = replace(
             multihomogeneous(target, groups, rng), known=KnownOfPaths(most, bound=bound)
