@@ -265,7 +265,10 @@ def test_a_table_of_values_names_the_parameters_of_a_system_in_plain_text(
     assert np.allclose(np.sort(roots[..., 1].real), np.sort(points[..., 1].real))
     (tmp_path / "values.csv").write_text("b\n2\n")
     assert main(words) == 2
-    assert "has no [family]" in capsys.readouterr().err
+    assert (
+        "values.csv: line 1: 'b' does not occur; the names are a, r, x, y"
+        in capsys.readouterr().err
+    )
 
 
 def test_who_certifies_a_case_is_told_what_writes_an_export(
@@ -274,3 +277,17 @@ def test_who_certifies_a_case_is_told_what_writes_an_export(
     assert main(["certify", str(CASES / "bennett.toml")]) == 2
     told = capsys.readouterr().err
     assert "is no export" in told and "--json FILE" in told and told.count("\n") == 1
+
+
+def test_a_certificate_is_shown_as_what_its_exit_status_says(tmp_path: Path, capsys) -> None:
+    """Which is of the points: completeness that is not proved is no answer that is incomplete."""
+    export, certificate = str(tmp_path / "solved.json"), str(tmp_path / "proved.json")
+    quartic = nag.solve(["x^2*y + x - 3", "x*y^2 - y + 1 + x"], start="total", seed=1)
+    nag.write(quartic, export)
+    assert main(["certify", export, "--json", certificate, "--quiet"]) == 0
+    capsys.readouterr()
+    assert main(["show", certificate]) == 0
+    shown = capsys.readouterr().out
+    assert "proved      all points" in shown and "INCOMPLETE" not in shown
+    complete = nag.read(certificate)["complete"]
+    assert f"complete    {'proved' if complete else 'not proved'}\n" in shown

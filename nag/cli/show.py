@@ -130,7 +130,11 @@ def _describe_answer(document: dict[str, Any]) -> list[Row]:
     rows: list[Row] = [("holds", f"{document['format']}: {about.rstrip('.')}")]
     if case:
         rows.append(("of", f"{case['title']} ({case['file']})"))
-    if "complete" in document:
+    if "all_proved" in document:
+        rows.append(("proved", "all points" if document["all_proved"] else "NOT all points"))
+        complete = document["complete"]
+        rows.append(("complete", "proved" if complete else "not proved"))
+    elif "complete" in document:
         rows.append(("answer", "complete" if document["complete"] else "INCOMPLETE"))
     if isinstance(document.get("arrays"), str):
         rows.append(("solutions", f"in the arrays of {document['arrays']}"))
