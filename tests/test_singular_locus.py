@@ -307,3 +307,9 @@ def test_the_command_tells_the_components_first(capsys: pytest.CaptureFixture[st
         lines[2]
         == "of      3 components of dimension 1, degree 2, whose singular points are looked for"
     )
+
+
+def test_a_multiple_point_is_told_as_that() -> None:
+    found = nag.singular(["(x - 1)^2*x", "y*x"])
+    (note,) = found.notes
+    assert note.endswith("is a point of multiplicity 2")

@@ -248,6 +248,9 @@ class _SingularSearch:
     def on_component(self, i: int) -> None:
         """Points of a component where the rank of its own equations drops."""
         (system, component), name = self.with_equations[i], f"component {i + 1}"
+        if component.dimension == 0 and component.multiplicity > 1:
+            self.notes.append(f"{name} is a point of multiplicity {component.multiplicity}")
+            return
         if component.multiplicity != 1:
             self.notes.append(f"{name} is not reduced; its own singular points are not known")
             return
