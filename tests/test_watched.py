@@ -82,6 +82,17 @@ def test_ctrl_c_ends_what_holds_the_interpreter_and_the_child_with_it(stage, tmp
     assert is_gone(child)
 
 
+@pytest.mark.parametrize("lines", ["['one component']", "[]"])
+def test_what_is_printed_above_is_spoken_of_where_something_is(lines: str, tmp_path: Path) -> None:
+    process, _ = start(tmp_path, f"options.write({lines}); sys.stdout.flush(); time.sleep(60)")
+    if lines != "[]":
+        assert process.stdout.readline() == "one component\n"
+    time.sleep(0.2)
+    process.send_signal(signal.SIGINT)
+    err = process.communicate(timeout=30)[1]
+    assert ("what is printed above holds" in err) is (lines != "[]")
+
+
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_other_signals_end_both_as_they_end_any_process(number, tmp_path) -> None:
     process, child = start(tmp_path, STAGES["Python"])

@@ -143,14 +143,15 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
     begin(options)
     settle_stance(options)
     forget_unfinished(options)
-    told = write
+    told, tell = write, getattr(options, "tell", None)
     if getattr(options, "json", None) == STANDARD_OUTPUT:
         # The document is all that is written there.
         write = _write_nothing
+    elif tell is not None:
+        write = tell.telling(write)
     options.write, options.said = write, list[str]()
     with show_progress(options) as options.progress, shared_work(options):
         answer = options.module.run(options)
-    tell = getattr(options, "tell", None)
     try:
         if answer.document is not None and options.json == STANDARD_OUTPUT:
             document = answer.document()
@@ -426,6 +427,10 @@ def check_option_target(option: str, target: str, source: str = "") -> None:
         raise UsageError(f"--{option}: {target}: is the case file; name another file")
 
 
+# What a child tells when it has printed something of its answer.
+PRINTED = "\t"
+
+
 class TellParent:
     """Tells the process that watches this one what `ProgressLine` is to show.
 
@@ -448,6 +453,16 @@ class TellParent:
         """Have the line taken off the terminal, and wait until it is."""
         self._write("\n")
         os.read(self._acknowledged, 1)
+
+    def telling(self, write: Callable[[Sequence[str]], None]) -> Callable[[Sequence[str]], None]:
+        """The same writing of lines, of which the other process is told."""
+
+        def tell_and_write(lines: Sequence[str]) -> None:
+            write(lines)
+            if lines:
+                self._write(f"{PRINTED}\n")
+
+        return tell_and_write
 
     def _write(self, text: str) -> None:
         # Without the parent there is no one to work for.

@@ -24,7 +24,7 @@ from types import FrameType
 from typing import IO, TextIO
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import TellParent, forget_unfinished, take_unfinished
+from nag.cli.running import PRINTED, TellParent, forget_unfinished, take_unfinished
 from nag.text.progress_line import ProgressLine
 
 # Seconds in which the child may end by itself, its files cleared away; then it is killed. Ctrl-C is
@@ -171,6 +171,7 @@ class _Watch:
         self._started = time.monotonic()
         self._kill_at = float("inf")
         self._why = ""
+        self._printed = False
         self._status = INTERRUPTED
         self._rest = b""
         self._line = ProgressLine(sys.stderr, quiet=getattr(options, "quiet", True))
@@ -218,7 +219,9 @@ class _Watch:
             self._heard = -1
         *told, self._rest = (self._rest + data).split(b"\n")
         for each in told:
-            if each:
+            if each == PRINTED.encode():
+                self._printed = True
+            elif each:
                 stage, done, total = each.decode().rsplit("\t", 2)
                 self._line(stage, int(done), int(total))
             else:
@@ -287,7 +290,8 @@ class _Watch:
             how += "; with --resume DIR it would go on"
         if folder is not None:
             how = f"the same command goes on with what {folder} holds"
-        return "".join(words) + f"{kept}; what is printed above holds, {how}"
+        held = "what is printed above holds, " if self._printed else ""
+        return "".join(words) + f"{kept}; {held}{how}"
 
 
 def _memory_of(process: int) -> int:
