@@ -306,7 +306,7 @@ def test_loops_of_parameters_are_refused_where_there_is_no_family() -> None:
         (("x^2 + y^2 - p", "3*x*y - q"), 4, True, "Bezout's bound agrees"),
         (("x^2*y - p", "x*y^2 - q + x"), 4, True, "a count modulo two primes agrees"),
         # Beside the line x = 0 nothing counts isolated zeros.
-        (("x*(x - p)", "x*(y - q)"), 1, True, "rests on `solutions = 1` of [family], which is giv"),
+        (("x*(x - p)", "x*(y - q)"), 1, True, "rests on the given number of solutions, 1, not"),
     ],
 )
 def test_a_number_of_solutions_that_a_case_gives_is_checked_or_said_not_to_be(
@@ -319,3 +319,23 @@ def test_a_number_of_solutions_that_a_case_gives_is_checked_or_said_not_to_be(
     result = nag.solve(nag.read_case(path), start="parameter")
     assert len(result.solutions) == given and result.complete is complete
     assert said in " ".join((result.reason, *result.notes))
+    # Many members are judged as one is.
+    members = nag.solve_family(path, values={"p": [3, 5], "q": [2, 7]})
+    assert members.counts.tolist() == [given] * 2
+    assert members.complete.tolist() == [complete] * 2
+    assert said in " ".join((members.start.detail, *members.start.notes))
+
+
+@pytest.mark.parametrize("count", [-1, 0, 2.5, "foo"])
+def test_a_number_of_solutions_is_a_whole_number(count: object) -> None:
+    for how in ({"start": "parameter"}, {"known": ([1], [[1], [-1]])}):
+        with pytest.raises(nag.NagError, match=r"^count: .* is given; give a whole number from 1"):
+            nag.solve_family("x^2 - a", ["a"], [[1]], count=count, **how)
+
+
+def test_a_number_that_is_too_small_makes_no_member_complete() -> None:
+    known = ([1], [[1]])
+    for how in ({"start": "parameter"}, {"known": known}):
+        found = nag.solve_family("x^2 - a", ["a"], [[1], [2]], count=1, **how)
+        assert not found.complete.any()
+        assert "2 are counted modulo primes" in found.start.notes[0]

@@ -148,6 +148,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         rows.append(("open", f"members {', '.join(str(k + 1) for k in incomplete[:5])}{more}"))
     if options.points is None and options.json is None:
         rows.append(("written", "nowhere: --points FILE writes all solutions"))
+    rows += [("note", note) for note in solved.notes]
     complete = bool(found.complete.all())
     fields = _fields(found)
     if options.points is not None:
@@ -157,7 +158,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
 def _fields(found: FamilySolutions) -> dict[str, Any]:
     """What the document says of the members."""
-    return {"format": FORMAT, "notes": [], **found.document()}
+    return {"format": FORMAT, "notes": list(found.start.notes), **found.document()}
 
 
 def _missing(complete: bool) -> str:

@@ -35,7 +35,13 @@ from nag.numerics.read_only import (
     handed_over,
 )
 from nag.solving.member_lines import MemberLines
-from nag.solving.parameter import Solved, solve_generic, solve_targets
+from nag.solving.parameter import (
+    Solved,
+    check_count,
+    compare_with_count,
+    solve_generic,
+    solve_targets,
+)
 from nag.solving.start.family_monodromy import random_values
 from nag.text.table import count_text, data_frame, lines_of, one_line
 from nag.tracking import blocks
@@ -122,6 +128,7 @@ class FamilySolutions(Several[ComplexArray]):
         if self.one_by_one.any():
             rows.append(("by themselves", count_text(int(self.one_by_one.sum()), "member")))
         title = f"FamilySolutions of {', '.join(self.variables)} by {', '.join(self.parameters)}"
+        rows += [("note", note) for note in self.start.notes]
         return lines_of(title, rows)
 
     def to_dataframe(self, real: bool = False) -> pandas.DataFrame:
@@ -315,6 +322,7 @@ def _solve_from_known(
     family: Family, known: tuple[Any, Any], count: int | None, run: Run
 ) -> Solved:
     """The family at random parameters, by paths from a member whose solutions are known."""
+    check_count(count)
     here = check_values(family, [known[0]])[0]
     points = np.asarray(known[1], dtype=np.complex128)
     n = len(family.own_variables)
@@ -331,7 +339,8 @@ def _solve_from_known(
         lost = len(points) - len(regular)
         raise StartError(f"known: {lost} of {len(points)} solutions are not regular, or none")
     ends = line.affine(paths.points)
-    return Solved(family, there, ends, len(points) == count, f"{len(points)} known solutions")
+    detail = f"{len(points)} known solutions"
+    return compare_with_count(Solved(family, there, ends, len(points) == count, detail), count, run)
 
 
 class _Block(NamedTuple):

@@ -8,10 +8,12 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 import numpy as np
 
 from nag.algebra.family import Family
+from nag.algebra.given import check_whole
 from nag.algebra.imaginary_unit import append_unit, as_real, has_unit
 from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.rational_map import MapError
@@ -43,6 +45,9 @@ from nag.tracking.track import track
 
 __all__ = ["Family", "Solved", "solve_generic", "solve_member", "solve_targets"]
 
+# The stream of random numbers of the member whose zeros are counted, and its largest parameter.
+COUNTED, LARGEST_VALUE = 1 << 32, 1000
+
 
 @dataclass(frozen=True, eq=False)
 class Solved(FixedArrays):
@@ -55,6 +60,7 @@ class Solved(FixedArrays):
             find no more of them than the number that is known.
         detail: how they were found.
         classes: one solution of each class, where only these are followed.
+        notes: what is to be said of a number of solutions that is given.
     """
 
     family: Family
@@ -63,6 +69,7 @@ class Solved(FixedArrays):
     complete: bool
     detail: str = ""
     classes: SolvedClasses | None = None
+    notes: tuple[str, ...] = ()
 
     __eq__ = equal_values
 
@@ -85,19 +92,21 @@ def solve_generic(
             family's own parameters. That takes a few paths for each solution there is, and is what
             ``"auto"`` means for a symmetric family.
         count: with ``"parameter"``, the known number of solutions; without it an answer is not
-            called complete, as loops prove nothing.
+            called complete, as loops prove nothing. Algebra is asked what it says of that number.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
+        NagError: if ``count`` is no number of solutions.
         StartError: if there would be too many paths, or loops have nothing to begin with.
         nag.algebra.rational_map.MapError: if the symmetries do not fit the family.
     """
+    check_count(count)
     rng = run.random()
     given = family if isinstance(family, SymmetricFamily) else SymmetricFamily(family)
     family = given.original
     if start == "parameter" or (start == "auto" and len(given) > 1):
         classes = solve_random_member(given, count, rng, run.threads, run.progress)
-        return Solved(
+        solved = Solved(
             family,
             given.outer_values(classes.values),
             given.outer(classes.members.reshape(-1, family.n)),
@@ -105,6 +114,7 @@ def solve_generic(
             classes.detail,
             classes,
         )
+        return compare_with_count(solved, count, run)
     values = unit(rng, len(family.parameters)) * (0.5 + rng.random(len(family.parameters)))
     target = Target(family.n, family.terms([complex(v) for v in values]))
     begin, _ = choose(target, start, (), rng, run.threads)
@@ -141,7 +151,8 @@ def solve_targets(
         whole = _with_unit(solved) if is_complex else solved
         begin = _start(whole, values)
         paths = track(begin.homotopy, begin.points, run.settings, run.threads)
-        reason = f"parameter homotopy: {len(begin.points)} solutions for random parameters"
+        detail = solved.detail or f"{len(begin.points)} solutions for random parameters"
+        reason = f"parameter homotopy: {detail}"
         system = whole.family.at(values)
         task = SolveTask(SystemFacts(system), "auto", run)
         problem = SquareProblem.as_given(task.system)
@@ -196,33 +207,56 @@ def solve_member(
     except MapError as error:
         raise StartError(f"[family]: {error}") from None
     (result,) = solve_targets(generic, [member.values], run=run)
-    result = replace(result, system=system)
-    if result.complete and member.solutions is not None:
-        return _compare_with_count(result, member.solutions, task.facts)
-    return result
+    return replace(result, system=system, notes=(*result.notes, *generic.notes))
 
 
-def _compare_with_count(result: SolveResult, given: int, facts: SystemFacts) -> SolveResult:
-    """An answer that is complete if a case gives the right number, and what algebra says of that.
+def check_count(count: int | None) -> None:
+    """Make sure that a number of solutions, if one is given, is a whole number from 1 up.
 
-    Bezout's bounds and a count modulo two primes are of the system itself, of its finitely many
-    zeros by their multiplicities; the answer's are simple.
+    Raises:
+        NagError: if it is not.
     """
-    found, source = len(result.solutions), f"`solutions = {given}` of [family]"
-    if bound_of_zeros(result.system)[0] == found:
-        return replace(result, reason=f"{result.reason}, and Bezout's bound agrees")
+    if count is not None:
+        check_whole(count, "count", 1)
+
+
+def compare_with_count(solved: Solved, given: int | None, run: Run) -> Solved:
+    """A family with as many solutions as were given, and what algebra says of that number.
+
+    Bezout's bounds and a count modulo two primes are of a member with random rational parameters,
+    of its finitely many zeros by their multiplicities; those that were found are simple.
+    """
+    if given is None or not solved.complete:
+        return solved
+    rng = run.random(COUNTED)
+    values = [Fraction(v) for v in rng.integers(1, LARGEST_VALUE, len(solved.values)).tolist()]
+    system = solved.family.at(values)
+    found = len(solved.points)
+    if bound_of_zeros(system)[0] == found:
+        return _with_detail(solved, "and Bezout's bound agrees")
     # Those of the conjugate system are counted with them.
-    sides = 1 + result.system.imaginary
-    count = facts.count_zeros(sides * found, False)
+    sides = 1 + system.imaginary
+    count = SystemFacts(system).count_zeros(sides * found, False)
     seen = judge_number(sides * found, count)
     if seen is Completeness.ALL:
-        return replace(result, reason=f"{result.reason}, and a count modulo two primes agrees")
+        return _with_detail(solved, "and a count modulo two primes agrees")
     if count is not None and seen is not Completeness.UNKNOWN:
         counted = count.bound // sides
-        note = f"{source} is wrong, or zeros are multiple: {counted} are counted modulo primes"
-        return replace(result, complete=False, notes=(*result.notes, note))
-    note = f"that these are all rests on {source}, which is given, not checked"
-    return replace(result, notes=(*result.notes, note))
+        note = (
+            f"{counted} are counted modulo primes: the given number of solutions, {given}, is "
+            "wrong, or zeros are multiple"
+        )
+        classes = solved.classes and replace(solved.classes, complete=False)
+        return replace(solved, complete=False, classes=classes, notes=(note,))
+    note = f"that these are all rests on the given number of solutions, {given}, not checked"
+    return replace(solved, notes=(note,))
+
+
+def _with_detail(solved: Solved, more: str) -> Solved:
+    """The same with more of how its solutions were found."""
+    detail = f"{solved.detail}, {more}"
+    classes = solved.classes and replace(solved.classes, detail=detail)
+    return replace(solved, detail=detail, classes=classes)
 
 
 def begin_of_family(
