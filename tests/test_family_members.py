@@ -83,6 +83,15 @@ def test_what_does_not_end_regularly_is_solved_by_itself() -> None:
     assert np.allclose(np.sort(found.at(2).real.ravel()), [1 - 2.0**-25, 1 + 2.0**-25], rtol=1e-14)
 
 
+@pytest.mark.parametrize("size", [1e14, 1e16, 1e300, 1e-200, 1e14j])
+def test_a_member_far_from_random_parameters_is_solved_without_its_family(size: complex) -> None:
+    found = nag.solve_family(["x^2 - a", "x*y + y^2 - 2*x"], ["a"], [[size], [2.0]])
+    assert found.complete.all() and found.counts.tolist() == [4, 4]
+    roots = found.points[0, :, 0] / np.sqrt(complex(size))
+    assert np.allclose(np.sort(roots.real), [-1, -1, 1, 1], rtol=1e-14)
+    assert np.abs(roots.imag).max() < 1e-14
+
+
 def test_members_with_fewer_solutions_are_complete_without_the_others() -> None:
     found = nag.solve_family("a*x^2 - 2*x + b", ["a", "b"], [[1, -3], [0, 4]], seed=1)
     assert found.counts.tolist() == [2, 1] and found.complete.all()

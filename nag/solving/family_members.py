@@ -3,7 +3,8 @@
 The family is solved once, for random parameters. From there all members are tracked in lanes, as
 many paths each as there are solutions, with coefficients of their own. Where these end in as many
 distinct regular zeros, Newton's method proves them, and there are no more; any other member is
-solved by itself, as `nag.solving.parameter.solve_targets` solves one.
+solved by itself, as `nag.solving.parameter.solve_targets` solves one, and where paths are lost even
+so, without its family.
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ from nag.numerics.read_only import (
     fixed_array,
     handed_over,
 )
+from nag.solving.certificate import bound_of_zeros
 from nag.solving.member_lines import MemberLines
 from nag.solving.parameter import (
     Solved,
@@ -42,6 +44,7 @@ from nag.solving.parameter import (
     solve_generic,
     solve_targets,
 )
+from nag.solving.solve import solve
 from nag.solving.start.family_monodromy import random_values
 from nag.text.table import count_text, data_frame, lines_of, one_line
 from nag.tracking import blocks
@@ -53,12 +56,17 @@ from nag.tracking.track import track, track_members
 if TYPE_CHECKING:
     import pandas
 
+    from nag.solving.solutions import SolveResult
+
 __all__ = ["FamilySolutions", "family_of", "solve_family_members", "solve_members"]
 
 # Members that are tracked together, and paths; neither changes an answer.
 MEMBERS, PATHS = 1000, 1 << 16
 # Bytes of the results of one call.
 MOST_BYTES = 1 << 34
+# Zeros, by Bezout's bound, of a member that is solved without its family, where paths from that are
+# lost.
+MOST_ZEROS = 10_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -500,6 +508,8 @@ def _solve_alone(
     exact = [exact_complex(v, "values") for v in values.tolist()]
     alone = replace(run, progress=None, found=None)
     (result,) = solve_targets(replace(solved, classes=None), [exact], run=alone)
+    if result.paths.failed:
+        result = _solve_without_family(result, solved.family.at(exact), alone)
     found = result.solutions[:S]
     for i, each in enumerate(found):
         points[i], errors[i] = each.point[:n], each.accuracy
@@ -508,3 +518,20 @@ def _solve_alone(
     if whole:
         status[len(found) :] = PathStatus.AT_INFINITY
     return points, status, errors, whole
+
+
+def _solve_without_family(result: SolveResult, system: PolynomialSystem, run: Run) -> SolveResult:
+    """The better answer, of that to which paths from random parameters led and one without these.
+
+    Doubles do not resolve the way from random parameters to ones of another size altogether; the
+    system by itself is solved in coordinates that suit it.
+    """
+    bound = bound_of_zeros(system)[0]
+    if bound is None or bound > MOST_ZEROS:
+        return result
+    try:
+        other = solve(system, run=run)
+    except StartError:
+        return result
+    better = other.complete or len(other.solutions) > len(result.solutions)
+    return other if better else result
