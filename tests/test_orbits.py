@@ -9,6 +9,7 @@ import pytest
 from solved import components_of
 from systems import system
 
+import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.decomposition.decompose import decompose
@@ -189,3 +190,17 @@ def test_ends_are_located_among_many_points_as_among_few() -> None:
         off = points[7] + np.array([0, 1j * error * size, 0])
         assert locate_points(np.vstack([ends, off]), beside) is None
         assert locate_points(off[None], points[:5]).tolist() == [-1]
+
+
+def test_numbers_of_components_mean_the_same_everywhere() -> None:
+    pentagon = {"A": (0, 0), "B": (3, 0), "C": (4, 2), "D": ("3/2", 4), "E": (-1, 2)}
+    found = nag.decompose(nag.Framework.of(pentagon, ["AB", "BC", "CD", "DE", "EA", "AC", "AD"]))
+    assert len(found.components) == 4 and len(found) == 8 == len(list(found))
+    assert found.to_dataframe()["number"].tolist() == list(range(1, 9))
+    assert found.to_dataframe()["orbit"].tolist() == [2] * 8
+    assert found.rows()[1][0] == "1-8"
+    for number, component in enumerate(found, 1):
+        own = nag.sample(found, number, count=1).points[0]
+        assert np.allclose(own, component.points[0]) and np.allclose(own, found[number - 1].points)
+    with pytest.raises(nag.NagError, match="there are components 1 to 8"):
+        nag.sample(found, 9)

@@ -134,7 +134,7 @@ class Sweep(Several[Swept]):
         Raises:
             nag.NagError: if pandas is not installed.
         """
-        found = [(each, c) for each in self.members for c in each.decomposition.components]
+        found = [(each, c) for each in self.members for c in each.decomposition]
         return data_frame(
             {
                 self.parameter: [float(each.value) for each, _ in found],

@@ -79,7 +79,7 @@ class ModesAnswer(Several[ClassAnswer]):
             nag.NagError: if pandas is not installed.
         """
         classes = enumerate(self.classes, 1)
-        found = [(k, a, c) for k, a in classes for c in a.decomposition.components]
+        found = [(k, a, c) for k, a in classes for c in a.decomposition]
         return data_frame(
             {
                 "class": [k for k, _, _ in found],

@@ -500,11 +500,14 @@ class PathCounts:
 
 @dataclass(frozen=True)
 class Decomposition(Several[WitnessSet]):
-    """The irreducible components of the zero set of ``system``.
+    """The irreducible components of the zero set of ``system``, in the order of their numbers.
+
+    Those that symmetries carry into each other are items one by one, as they are numbered.
 
     Attributes:
         system: the exact system.
-        components: by falling dimension, then rising degree.
+        components: by falling dimension, then rising degree; of an orbit, whose symmetries are
+            known, the first one.
         paths: what the run did.
         seed: seed of the random numbers.
         settings: of tracking, or their name; those of one's own are exported as ``custom``.
@@ -540,16 +543,30 @@ class Decomposition(Several[WitnessSet]):
 
     @property
     def entries(self) -> tuple[WitnessSet, ...]:
-        """The components."""
-        return self.components
+        """All components, each one of an orbit by itself, on a slice of its own."""
+        from nag.witness.frame import expand_orbits
+
+        return expand_orbits(self).components
+
+    def __len__(self) -> int:
+        return len(self._firsts)
+
+    @property
+    def _firsts(self) -> list[WitnessSet]:
+        """For each component the first one of its orbit."""
+        from nag.witness.frame import count_expanded
+
+        return [c for c in self.components for _ in range(count_expanded(c))]
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A row for each component: number, dimension, degree, multiplicity, status, orbit.
 
+        ``orbit`` is the size of the one that it is of.
+
         Raises:
             nag.NagError: if pandas is not installed.
         """
-        facts = [c.facts(k) | {"orbit": c.orbit} for k, c in enumerate(self.components, 1)]
+        facts = [c.facts(k) | {"orbit": c.orbit} for k, c in enumerate(self._firsts, 1)]
         names = ("number", "dimension", "degree", "multiplicity", "status", "orbit")
         return data_frame({name: [row[name] for row in facts] for name in names})
 
