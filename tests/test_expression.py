@@ -121,7 +121,12 @@ REFUSED = [
     ("(2 x)", "column 4: 'x' follows '2'; write '*'"),
     ("sin", "column 1: sin needs parentheses; write sin(...)"),
     ("tan(1)", "column 1: 'tan' is not a function; write sqrt, sin or cos"),
-    ("sin(x)", "column 1: sin of a variable is no polynomial"),
+    (
+        "sin(x)",
+        "column 1: sin of a variable is no polynomial; take a cosine and a sine for variables, "
+        "with the equation c^2 + s^2 = 1",
+    ),
+    ("sqrt(x)", "column 1: sqrt of a variable is no polynomial; write a constant in it"),
     ("sqrt(-2)", "column 1: square root of a negative number ('-2')"),
     ("sqrt(1 - sqrt(2))", "column 1: square root of a negative number"),
     ("z", "column 1: unknown name 'z'; variables and parameters here: x, y"),
@@ -160,7 +165,10 @@ REFUSED = [
     ("x = y = 1", "column 7: '=' has no meaning here; leave out all but one"),
     ("= x", "column 1: '=' is out of place"),
     ("x, y", "column 2: ',' has no meaning here"),
-    ("x²", "column 2: '²' has no meaning here"),
+    ("x²", "column 2: '²' has no meaning here; write ^2"),
+    ("2·x", "column 2: '·' has no meaning here; write *"),
+    ("x − 1", "column 3: '−' has no meaning here; write -"),  # noqa: RUF001
+    ("x^2 = 1\ny - x", "column 9: 'y' begins another line; write one equation a text"),
     ("x\x00", "has no meaning here"),
     ("__import__('os')", 'column 12: "\'" has no meaning here'),
     ("x.__class__", "column 2: '.' has no meaning here"),

@@ -128,7 +128,7 @@ class _Parser:
         budget: Budget,
         unit: str | None = None,
     ) -> None:
-        self.tokens = tokenize(text)
+        self.text, self.tokens = text, tokenize(text)
         budget.spend(len(self.tokens))
         self.at = 0
         self.depth = 0
@@ -182,6 +182,8 @@ class _Parser:
         if token.text == "=":
             self._fail(token, f"'=' has no meaning here; {instead_of_equals}")
         before = self.tokens[self.at - 1]
+        if "\n" in self.text[before.column : token.column]:
+            self._fail(token, f"{quote(token.text)} begins another line; write one equation a text")
         if before.kind == "name" and token.text == "(":
             self._fail(
                 before,
@@ -268,7 +270,10 @@ class _Parser:
             self._fail(name, f"{name.text} needs parentheses; write {name.text}(...)")
         value = self._closed(self._next())
         if isinstance(value, Polynomial):
-            self._fail(name, f"{name.text} of a variable is no polynomial; write a constant in it")
+            mend = "write a constant in it"
+            if name.text != "sqrt":
+                mend = "take a cosine and a sine for variables, with the equation c^2 + s^2 = 1"
+            self._fail(name, f"{name.text} of a variable is no polynomial; {mend}")
         try:
             return check_size(_FUNCTIONS[name.text](value))
         except ExpressionError as error:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
+import unicodedata
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -31,6 +32,10 @@ _TOKEN = re.compile(
 _SPACE = re.compile(r"\s*")
 _NAME = re.compile(_WORD)
 _PARTS = re.compile(r"\d+|\D+")
+
+
+# Signs of typesetting, and what is written for them.
+MEANT = dict.fromkeys("\u00b7\u00d7\u2217\u22c5", "*") | dict.fromkeys("\u2212\u2013", "-")
 
 
 class ExpressionError(EquationError):
@@ -69,16 +74,19 @@ def tokenize(text: str) -> list[Token]:
     while at < len(text):
         match = _TOKEN.match(text, at)
         if match is None:
-            raise ExpressionError(
-                f"{quote(text[at])} has no meaning here; "
-                "write numbers, names, + - * / ^ and parentheses",
-                at + 1,
-            )
+            mend = MEANT.get(text[at]) or superscript_mend(text[at])
+            mend = mend or "numbers, names, + - * / ^ and parentheses"
+            raise ExpressionError(f"{quote(text[at])} has no meaning here; write {mend}", at + 1)
         kind = str(match.lastgroup)
         tokens.append(Token(kind, match[kind], at + 1))
         at = match.end()
     tokens.append(Token("end", "", len(text) + 1))
     return tokens
+
+
+def superscript_mend(sign: str) -> str:
+    """The power that a raised digit stands for; empty for any other sign."""
+    return f"^{unicodedata.digit(sign)}" if sign.isdigit() and not sign.isdecimal() else ""
 
 
 def names_in(text: str) -> frozenset[str]:
