@@ -207,6 +207,12 @@ def test_a_superscript_is_no_part_of_a_name() -> None:
         ("R = QQ[x]\n", "line 1, column 10", "there is no ideal"),
         ("R = QQ[x]\nI = ideal(x)\nJ = ideal(x^2)\n", "line 3, column 1", "a second ideal"),
         ("R = QQ[x, x]\nI = ideal(x)\n", "line 1, column 11", "is there twice"),
+        (
+            "R = QQ[x, y]\nI = ideal(x) + ideal(y)\n",
+            "line 2, column 5",
+            "sums of ideals are not read; write one ideal(..., ...)",
+        ),
+        ('R = QQ[x]\nI = ideal "x2-1"\n', "line 2, column 5", "polynomials in quotes are not read"),
         ("ring r = 32003, (x), dp;\nideal i = x;\n", "line 1, column 10", "a ring over '32003'"),
         (
             "ring r = 0, (x), dp;\nideal i = x;\ni = i + 1;\n",
@@ -810,6 +816,12 @@ def test_what_singular_prints_is_the_ideal_that_it_was_given(
     file.write_text(printed)
     with pytest.raises(CaseError, match="write the ring before it"):
         read_case(file)
+
+
+def test_numbers_of_a_ring_are_numbers(tmp_path: Path) -> None:
+    file = tmp_path / "ideal.m2"
+    file.write_text("R = QQ[x]\nI = ideal(x^2 - 2_R, 0_R)\n")
+    assert read_case(file).system.polynomials == nag.system(["x^2 - 2", "0"], "x").polynomials
 
 
 @pytest.mark.skipif(shutil.which("Singular") is None, reason="Singular is not installed")

@@ -24,6 +24,10 @@ _FINITE = re.compile(r"\b(?:ZZ\s*/\s*\w+|GF\b[^\[\n]{0,99})\s*\[")
 _OPERATIONS = re.compile(
     r"\b(minors|pfaffians|intersect|saturate|eliminate|radical|quotient|trim|kernel|ker|gens|sum)\b"
 )
+_SUM = re.compile(r"\bideal\b[^;\n]*\+[ \t]*ideal\b")
+_QUOTED = re.compile(r'\bideal\b[ \t(]*"')
+# A number as an element of a ring, 0_R.
+_IN_RING = re.compile(r"\b([0-9]+)(_[A-Za-z]\w*)\b")
 _IDEAL = re.compile(r"\bideal[ \t]*\(")
 _ASSIGNED = re.compile(r"\s*([A-Za-z]\w*)\s*:?=(?!=)\s*")
 _OF_LIST = re.compile(r"ideal\b\s*\(?\s*([A-Za-z]\w*)\s*\)?")
@@ -63,6 +67,7 @@ def read(source: SourceFile) -> GivenSystem:
     source.refuse_towers()
     # The same length, so that columns stay.
     subscripts = _SUBSCRIPT.sub(lambda m: f"{m[1]}_{{{m[2]}}}", source.text)
+    subscripts = _IN_RING.sub(lambda m: m[1] + " " * len(m[2]), subscripts)
     units = [m["unit"] for m in _UNIT.finditer(subscripts) if _is_of_unit(m)]
     plain = _UNIT.sub(lambda m: "QQ".ljust(len(m[0])) if _is_of_unit(m) else m[0], subscripts)
     source = SourceFile(source.file, plain)
@@ -113,7 +118,14 @@ def _is_of_unit(field: re.Match[str]) -> bool:
 
 
 def _refuse_operations(source: SourceFile, start: int) -> None:
-    """Refuse an operation that would make an ideal, by its name."""
+    """Refuse an operation that would make an ideal, by its name, and other ways to write one."""
+    for pattern, message in (
+        (_SUM, "sums of ideals are not read; write one ideal(..., ...)"),
+        (_QUOTED, "polynomials in quotes are not read; write ideal(..., ...), with '*' and '^'"),
+    ):
+        written = pattern.search(source.text, start)
+        if written is not None:
+            source.fail(written.start(), message)
     found = _OPERATIONS.search(source.text, start)
     if found is not None:
         source.fail(
