@@ -9,6 +9,7 @@ as everywhere in text.
 from __future__ import annotations
 
 import os
+import re
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -18,7 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 
 from nag.algebra.given import check_choice, check_whole, is_a, value_text
-from nag.errors import ComponentError, InputError, NagError, unreadable
+from nag.errors import ComponentError, EquationError, InputError, NagError, unreadable
 from nag.numerics.read_only import equal_values
 from nag.text.table import join_words
 from nag.tracking.run import DEFAULT_RUN, Run, answers_early, takes_run
@@ -113,6 +114,12 @@ NOT_WRITTEN = (".json", ".urdf", ".xml")
 MOST_NAMES = 12
 # What is said of a component of an export on which paths fail.
 UNTESTED = "the trace of its points could not be tested"
+
+
+# A text that looks like the name of a file rather than like an equation.
+_PATH = re.compile(
+    r"[\w.~-]*[A-Za-z]{2}[\w.~-]*([/\\][\w.~-]+)+|[\w-]*[A-Za-z]{2}[\w-]*\.[A-Za-z]\w*"
+)
 
 
 # --- Files
@@ -372,7 +379,12 @@ def takes_files(
             _refuse_export(os.fspath(asked), opened, exports)
         if convert is not None and opened is not asked:
             opened = convert(opened)
-        return function(opened, *rest, **named)
+        try:
+            return function(opened, *rest, **named)
+        except EquationError as error:
+            if isinstance(asked, str) and opened is asked and _PATH.fullmatch(asked):
+                error.args = (f"{error} (no file of this name; read as an equation)",)
+            raise
 
     taken = [
         Parameter(name, Parameter.KEYWORD_ONLY, default=default)

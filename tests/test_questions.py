@@ -608,3 +608,12 @@ def test_answers_have_the_documents_that_commands_write(tmp_path: Path) -> None:
         (nag.mobility(bennett), written("mobility", bennett)),
     ):
         assert answer.document().items() <= document.items()
+
+
+@pytest.mark.parametrize("text", ["data/system", "nofile.xyz"])
+def test_a_text_that_looks_like_a_path_is_said_to_be_no_file(text: str) -> None:
+    hint = r" \(no file of this name; read as an equation\)$"
+    with pytest.raises(nag.EquationError, match=hint):
+        nag.solve(text)
+    with pytest.raises(nag.EquationError, match=r"divisor contains a variable; [^()]*$"):
+        nag.solve("1/x - 2")
