@@ -466,3 +466,18 @@ def test_a_link_of_a_table_with_irrational_twists_is_told() -> None:
     table = nag.DHLoop.of([{"a": "5/3", "alpha": "pi/2"}, {"a": "5/6", "alpha": "pi/6"}] * 2)
     moving = nag.mobility(table, of="link2").moving
     assert moving is not None and "1 freedom" in str(moving.body)
+
+
+def test_a_body_that_hangs_on_one_joint_may_be_another_one_misspelled() -> None:
+    def chain(last: str) -> str:
+        places = {"A": (0, 0), "B": (1, 2), "C": (4, 3), "D": (5, 0), "E": (2, 5)}
+        bodies = ["base crank", "crank coupler", "coupler rocker", "rocker base", f"coupler {last}"]
+        joints = [
+            nag.Joint(name, "revolute", tuple(pair.split()), (*place, 0), (0, 0, 1))
+            for (name, place), pair in zip(places.items(), bodies, strict=True)
+        ]
+        return dict(nag.mobility(nag.Mechanism("base", tuple(joints))).rows())["hanging"]
+
+    assert chain("rockr") == "rockr (did you mean 'rocker'?) turns about E"
+    assert chain("rockers") == "rockers turns about E"
+    assert chain("pendulum") == "pendulum turns about E"

@@ -9,6 +9,7 @@ clear, nothing is said.
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -36,17 +37,19 @@ class IdleFreedom:
         count: of the freedoms.
         turns: whether it is one, a turn about a line or, if three, about a point.
         joint: the only one by which the body is joined to others, if it turns about it; else empty.
+        meant: another body that is perhaps the same, its name spelled otherwise; mostly empty.
     """
 
     bodies: tuple[str, ...]
     count: int
     turns: bool
     joint: str = ""
+    meant: str = ""
 
     @property
-    def alike(self) -> tuple[int, bool, int, str]:
+    def alike(self) -> tuple[int, bool, int, str, str]:
         """What freedoms have in common that are told together."""
-        return self.count, self.turns, len(self.bodies), self.joint
+        return self.count, self.turns, len(self.bodies), self.joint, self.meant
 
     def document(self) -> dict[str, Any]:
         """As a JSON object."""
@@ -153,12 +156,27 @@ class MovingParts:
         }
 
 
+def _meant_by(name: str, mechanism: Mechanism) -> str:
+    """A body of nearly the same name, a letter more or less inside it; empty if there is none."""
+    others = [
+        other
+        for other in sorted({body for joint in mechanism.joints for body in joint.bodies})
+        if abs(len(other) - len(name)) == 1
+        and f"{name}{other}".isalpha()
+        and not other.startswith(name)
+        and not name.startswith(other)
+    ]
+    return next(iter(difflib.get_close_matches(name, others, n=1, cutoff=0.85)), "")
+
+
 def describe_parts(parts: Sequence[IdleFreedom]) -> str:
     """Which parts move by themselves, and how."""
     texts = []
-    for count, turns, bodies, joint in sorted({e.alike for e in parts}):
-        own = [e for e in parts if e.alike == (count, turns, bodies, joint)]
+    for alike in sorted({e.alike for e in parts}):
+        count, turns, _, joint, meant = alike
+        own = [e for e in parts if e.alike == alike]
         names = join_words([" with ".join(e.bodies) for e in own])
+        names += f" (did you mean {meant!r}?)" if meant else ""
         one = len(own) == 1
         about = "itself" if one else "themselves"
         if turns:
@@ -274,7 +292,9 @@ def _idle(
         at = [j for j in mechanism.joints if len({unit_of[b] for b in j.bodies} - set(own)) == 1]
         at = [j for j in at if {unit_of[b] for b in j.bodies} & set(own)]
         joint = at[0].name if turns and count == 1 and len(at) == 1 else ""
-        part = IdleFreedom(tuple(body for k in own for body in units[k]), count, turns, joint)
+        bodies = tuple(body for k in own for body in units[k])
+        meant = _meant_by(bodies[0], mechanism) if len(bodies) == len(at) == 1 else ""
+        part = IdleFreedom(bodies, count, turns, joint, meant)
         beside = {welded[b] for j in at for b in j.bodies if unit_of[b] not in own}
         (hanging if len(beside) == 1 else found).append(part)
     return found, hanging
