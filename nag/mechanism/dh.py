@@ -25,6 +25,7 @@ from typing import Any
 from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.from_python import exact_number
+from nag.algebra.given import check_listed
 from nag.algebra.number import Number, brief_number_text, cosine, is_zero, pi_multiple, sine
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
@@ -156,6 +157,7 @@ class DHLoop:
         >>> nag.mobility(nag.DHLoop.of(rows)).local_dimension
         0
         """
+        check_listed(rows, "rows", "a list of rows, each a dict")
         return cls(tuple(_row_of(i, row) for i, row in enumerate(rows)))
 
     def __post_init__(self) -> None:

@@ -16,6 +16,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.from_python import exact_number, exact_vector
+from nag.algebra.given import check_listed, value_text
 from nag.algebra.number import Number, brief_number_text, is_zero, square_root
 from nag.errors import MechanismError
 from nag.mechanism.graph import connected_to
@@ -90,7 +91,8 @@ class Framework:
         >>> len(nag.solve(nag.Framework.of("ABC", bars, [3, 4, 5])))
         2
         """
-        pairs = [(str(first), str(second)) for first, second in bars]
+        check_listed(bars, "bars", "a list of pairs of names")
+        pairs = [_bar_of(bar, i) for i, bar in enumerate(bars)]
         if isinstance(points, Mapping):
             if lengths is not None:
                 raise FrameworkError("the points have places, which fix them", "lengths")
@@ -101,11 +103,15 @@ class Framework:
                         f"{name!r} has {len(place)} coordinates; give {dimension}", "points"
                     )
             return placed_framework(dimension, placed, pairs)
-        given = [exact_number(x, f"lengths[{i}]") for i, x in enumerate(lengths or ())]
+        lengths = () if lengths is None else lengths
+        check_listed([*points] if isinstance(points, str) else points, "points", "a list of names")
+        check_listed(lengths, "lengths", "a list, one for each bar")
+        given = [exact_number(x, f"lengths[{i}]") for i, x in enumerate(lengths)]
         if len(given) != len(pairs):
             raise FrameworkError(f"{len(given)} are given for {len(pairs)} bars", "lengths")
-        if any(not x > 0 for x in given):
-            raise FrameworkError("not all are positive", "lengths")
+        for (first, second), length in zip(pairs, given, strict=True):
+            if not length > 0:
+                raise FrameworkError(f"that of {first}-{second} is not positive", "lengths")
         names = tuple(str(name) for name in points)
         return cls(dimension, names, tuple(pairs), tuple(x * x for x in given))
 
@@ -114,6 +120,8 @@ class Framework:
             object.__setattr__(self, field, tuple(getattr(self, field)))
         squared = (Fraction(x) if isinstance(x, int) else x for x in self.squared_lengths)
         object.__setattr__(self, "squared_lengths", tuple(squared))
+        if not self.points:
+            raise FrameworkError("none are given; a framework has points", "points")
         if len(set(self.points)) != len(self.points):
             name = next(p for i, p in enumerate(self.points) if p in self.points[:i])
             raise FrameworkError(f"two points are named {name!r}; name each point once", "points")
@@ -280,6 +288,21 @@ def placed_framework(dimension: int, placement: dict[str, Place], bars: Sequence
     )
 
 
+def _bar_of(bar: Any, index: int) -> Bar:
+    """The two points that a bar joins.
+
+    Raises:
+        FrameworkError: if they are not two.
+    """
+    ends = tuple(map(str, bar)) if isinstance(bar, Iterable) else ()
+    if len(ends) != 2:
+        raise FrameworkError(
+            f'bars[{index}]: {value_text(bar)} is given; give a pair of points, ("A", "B"), '
+            "and lengths apart"
+        )
+    return ends
+
+
 def framework_of_graph(graph: networkx.Graph, dimension: int = 2) -> Framework:
     """A networkx graph as a framework: its edges are the bars.
 
@@ -298,6 +321,8 @@ def framework_of_graph(graph: networkx.Graph, dimension: int = 2) -> Framework:
     >>> nag.mobility(nag.framework_of_graph(square)).local_dimension
     1
     """
+    if not hasattr(graph, "edges") or not hasattr(graph, "nodes"):
+        raise FrameworkError(f"graph: {value_text(graph)} is given; give a networkx graph")
     names = [str(node) for node in graph.nodes]
     bars = [(str(a), str(b)) for a, b in graph.edges]
     lengths = [data.get("length") for _, _, data in graph.edges(data=True)]

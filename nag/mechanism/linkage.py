@@ -22,6 +22,7 @@ from fractions import Fraction
 from typing import Any
 
 from nag.algebra.from_python import exact_number, exact_vector
+from nag.algebra.given import check_type
 from nag.algebra.number import Number, is_zero, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -49,6 +50,10 @@ class LinkageError(MechanismError):
         super().__init__(message)
         self.link = link
         self.key = key
+
+    def __str__(self) -> str:
+        owner = f"link {self.link!r}" if self.link is not None else ""
+        return ": ".join(filter(None, (owner, self.key, self.message)))
 
 
 @dataclass(frozen=True)
@@ -111,6 +116,8 @@ class Linkage:
         >>> nag.mobility(nag.Linkage.of(bars, "base")).local_dimension
         1
         """
+        check_type(links, Mapping, "links", 'a dict by name, {"base": ("A", "B", 3)}')
+        check_type(ground, str, "ground", "the name of a link")
         return cls(ground, tuple(_link_of(str(name), given) for name, given in links.items()))
 
     def __post_init__(self) -> None:
