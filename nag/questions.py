@@ -18,7 +18,14 @@ from inspect import Parameter, signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 
-from nag.algebra.given import check_choice, check_whole, is_a, value_text
+from nag.algebra.given import (
+    check_choice,
+    check_declared,
+    check_type,
+    check_whole,
+    is_a,
+    value_text,
+)
 from nag.errors import ComponentError, EquationError, InputError, NagError, unreadable
 from nag.numerics.read_only import equal_values
 from nag.text.table import join_words
@@ -158,11 +165,11 @@ def read(
     >>> dict(nag.read("cases/rhombus.toml", set={"b": 2}).parameters)
     {'a': Fraction(1, 1), 'b': Fraction(2, 1)}
     """
-    from nag.algebra.given import check_path
+    from nag.algebra.given import check_path, reading_options
     from nag.files.cases import read_case
 
     check_path(path)
-    how = {"set": set, "format": format, "hold": hold, "at": at}
+    how = reading_options(set, format, hold, at)
     try:
         with Path(path).open("rb") as file:
             is_json = file.read(256).lstrip()[:1] == b"{"
@@ -171,7 +178,7 @@ def read(
     except ValueError as error:
         raise InputError(unreadable(repr(str(path)), error)) from None
     if not is_json:
-        return read_case(path, **how)  # type: ignore[arg-type]
+        return read_case(path, **how)
     for name, value in how.items():
         if value != FILE_OPTIONS[name]:
             raise InputError(f"{path}: is an export; {name} is for cases, leave it out")
@@ -226,7 +233,7 @@ def write(
     Raises:
         nag.InputError: if the file cannot be written.
         nag.NagError: if ``result`` is nothing of that kind, the format cannot say it, or the ending
-            is one of files that say something else, as ``.m2`` of an export.
+            is one of files that say something else; an export's is ``.json``, or none.
 
     >>> import nag, tempfile
     >>> circle = nag.decompose("x^2 + y^2 = 1")
@@ -243,6 +250,8 @@ def write(
     from nag.algebra.given import check_path
 
     check_path(path)
+    check_type(format, str, "format", "a text")
+    check_type(title, str, "title", "a text")
     if names_file(result):
         result = read(result)
     elif _is_equations(result):
@@ -259,7 +268,7 @@ def write(
         for name, given in (("format", format != "auto"), ("title", bool(title))):
             if given:
                 raise NagError(f"{name}: is for cases and equations; an export has its own")
-        if ending in SUFFIXES and ending != ".json":
+        if ending not in ("", ".json"):
             alone = ", or write the equations alone: nag.write(result.system, path)"
             raise NagError(
                 f"path: a file that ends in {ending} holds no export, which is JSON; name it "
@@ -335,9 +344,11 @@ def open_file(given: Any, **how: Any) -> Any:
     Raises:
         nag.NagError: if something is said of how a file is read where none is given.
     """
+    from nag.algebra.given import reading_options
+
     if names_file(given):
         return read(given, **how)
-    for name, value in how.items():
+    for name, value in reading_options(**{**FILE_OPTIONS, **how}).items():
         if value != FILE_OPTIONS[name]:
             was = f"{type(given).__name__}, not " if not isinstance(given, str) else ""
             raise NagError(f"{name}: says how a file is read; {was}the name of one is to be given")
@@ -363,6 +374,7 @@ def takes_files(
         convert: what is to be done with what was read.
     """
     own = signature(function)
+    check = check_declared(function)
     first, *others = own.parameters.values()
 
     @wraps(function)
@@ -379,6 +391,7 @@ def takes_files(
             _refuse_export(os.fspath(asked), opened, exports)
         if convert is not None and opened is not asked:
             opened = convert(opened)
+        check((opened, *rest), named)
         try:
             return function(opened, *rest, **named)
         except EquationError as error:
@@ -622,16 +635,27 @@ def sweep_parameter(
 
     if not is_a(given, *DESCRIPTIONS[0]):
         raise NagError("given: a case with parameters is wanted, or the name of its file")
+    check_type(parameter, str, "parameter", "the name of one")
     exact = exact_vector(values, "values")
     if len(exact) < 2:
         raise NagError("values: give two or more")
-    first = problem_of(case_with(given, {parameter: exact[0]}), formulation=formulation)
+
+    def case_at(value: Any) -> Case:
+        try:
+            return case_with(given, {parameter: value})
+        except NagError as error:
+            if parameter not in given.parameters:
+                raise
+            raise NagError(f"at {parameter} = {value}: {error}") from None
+
+    # Before general values are tried, which are nobody's.
+    cases = [case_at(value) for value in exact]
+    first = problem_of(cases[0], formulation=formulation)
     # One formulation for all values, so that their systems are one family.
     formulation = first.formulation or "auto"
 
     def system_at(value: Any) -> PolynomialSystem:
-        case = case_with(given, {parameter: value})
-        return problem_of(case, formulation=formulation).system
+        return problem_of(case_at(value), formulation=formulation).system
 
     return Sweep(parameter, tuple(sweep(system_at, exact, run=run)))
 
@@ -710,6 +734,11 @@ def write_report(
     from nag.page.mechanism_report import report_of
 
     check_target(path)
+    if not any(is_a(given, *kind) for kind in DESCRIPTIONS):
+        raise NagError(
+            f"given: {value_text(given)} is given; reports are of mechanisms: give a case of one, "
+            "the name of its file, a mechanism, its model, or parts"
+        )
     case = case_of(given)
     asked = problem_of(case, formulation=formulation)
     if asked.model is None:

@@ -10,6 +10,7 @@ from typing import Any
 
 import networkx
 import numpy as np
+import pandas
 import pytest
 
 import nag
@@ -287,3 +288,89 @@ def test_the_message_names_the_argument(name: str) -> None:
         message = str(refused.value)
         assert "\n" not in message
         assert not re.search(r"(\b\w+: )\1", message)
+
+
+NOTHING = np.array([])
+HUGE = 10**400
+ROBOT = """<robot name="arm">
+<link name="base"/><link name="one"/><link name="two"/>
+<joint name="j1" type="revolute"><parent link="base"/><child link="one"/><axis xyz="0 0 1"/></joint>
+<joint name="j2" type="revolute"><parent link="one"/><child link="two"/><origin xyz="1 0 0"/>
+<axis xyz="0 0 1"/></joint></robot>"""
+FOUR_BAR = """
+title = "four bars"
+kind = "linkage"
+ground = "base"
+link = [{ name = "base", pins = ["A", "D"], length = 2 },
+{ name = "a", pins = ["A", "B"], length = "b" },
+{ name = "c", pins = ["B", "C"], length = 2 }, { name = "d", pins = ["C", "D"], length = 1 }]
+[parameters]
+b = 1
+"""
+SQUARES = (["x^2 - a"], ["a"], [[1]])
+
+
+@pytest.mark.parametrize(
+    ("ask", "name"),
+    [
+        *((lambda k=k: nag.solve("x^2", **{k: NOTHING}), k) for k in ("start", "imaginary", "run")),
+        (lambda: nag.solve("x^2", settings=NOTHING), "settings"),
+        (lambda: nag.solve("x^2", imaginary=3), "imaginary"),
+        (lambda: nag.system("x^2", imaginary=3), "imaginary"),
+        (lambda: nag.solve("x^2", time_limit=HUGE), "time_limit"),
+        (lambda: nag.solve(b"abc"), "equations"),
+        (lambda: nag.decompose("x*y", expand="foo"), "expand"),
+        (lambda: nag.decompose("x*y", method=NOTHING), "method"),
+        (lambda: nag.decompose("x*y", hold=NOTHING[:0], at="j1=0.3"), "at"),
+        (lambda: nag.decompose("x*y", hold=np.array(["a", "b"])), "hold"),
+        (lambda: nag.sample(answer(), 1, real="foo"), "real"),
+        (lambda: nag.sample(answer(), 1, count=HUGE), "count"),
+        (lambda: nag.sample(answer(), 1, count=10**5000), "count"),
+        (lambda: nag.certify(answer(), NOTHING), "paths"),
+        (lambda: line().contains((0, 0), accuracy=HUGE), "accuracy"),
+        (lambda: nag.read(ROOT / "cases" / "bennett.toml", format=3), "format"),
+        (lambda: nag.read(ROOT / "cases" / "bennett.toml", hold=3), "hold"),
+        (lambda: nag.model(case(), formulation=NOTHING), "formulation"),
+        (lambda: nag.write(answer(), "found.csv"), "path"),
+        (lambda: nag.write("x", "x.toml", title=3), "title"),
+        (lambda: nag.plot(answer(), 3, onto="x, y"), "path"),
+        (lambda: nag.plot(case(), "joints.svg", joints="J0"), "joints"),
+        (lambda: nag.driven_motion(case(), 3, [0.1]), "coordinate"),
+        (lambda: nag.driven_motion(case(), "J0", b"abc"), "values"),
+        (lambda: nag.driven_motion(case(), "J0", [HUGE]), "values"),
+        (lambda: nag.sweep_parameter(ROOT / "cases" / "rhombus.toml", 3, [1, 2]), "parameter"),
+        (lambda: nag.sweep_parameter(ROOT / "cases" / "rhombus.toml", "b", b"abc"), "values"),
+        (lambda: nag.write_report([], "report.html"), "given"),
+        (lambda: nag.write_report(None, "report.html"), "given"),
+        (lambda: nag.solve_family(*SQUARES[:2], [[HUGE]]), "values"),
+        (lambda: nag.solve_family(*SQUARES, known=()), "known"),
+        (lambda: nag.solve_family(*SQUARES, known={}), "known"),
+        (lambda: nag.solve_family(*SQUARES, known=([1], "x")), "known"),
+    ],
+)
+def test_what_is_nothing_of_the_kind_that_is_declared_is_named(
+    ask: Callable[[], Any], name: str
+) -> None:
+    with pytest.raises(nag.NagError, match=rf"^{name}: ") as raised:
+        ask()
+    assert "\n" not in str(raised.value) and len(str(raised.value)) < 250
+
+
+def test_joint_values_and_links_may_be_those_of_other_libraries(tmp_path: Path) -> None:
+    path = tmp_path / "arm.urdf"
+    path.write_text(ROBOT)
+    expected = nag.read(path, hold=["two"], at={"j1": "0.3", "j2": 1})
+    for hold in ("two", np.array(["two"]), pandas.Series(["two"])):
+        for values in ({"j1": np.float32(0.3), "j2": np.int64(1)}, {"j1": 0.3, "j2": 1}):
+            for at in (values, pandas.Series(values, dtype=object)):
+                assert nag.read(path, hold=hold, at=at).mechanism == expected.mechanism
+    with pytest.raises(nag.NagError, match=r"^at: 'j1=0.3' is given; give a dict"):
+        nag.read(path, hold=["two"], at="j1=0.3")
+
+
+@pytest.mark.parametrize("value", [0, -1])
+def test_a_sweep_says_at_which_value_its_case_makes_no_sense(value: int, tmp_path: Path) -> None:
+    path = tmp_path / "bars.toml"
+    path.write_text(FOUR_BAR)
+    with pytest.raises(nag.NagError, match=rf"^at b = {value}: .*'a': length: "):
+        nag.sweep_parameter(path, "b", [1, value])

@@ -58,12 +58,12 @@ def exact_number(value: Any, place: str = "the number") -> Number:
             number = sympy_value(value, {}, 0, Budget())
             assert not isinstance(number, Polynomial)
             return representable(number)
-        return parse_number(_plain(value))
+        return parse_number(plain_number(value))
     except ValueError as error:
         raise ExpressionError(f"{place}: {error}") from None
 
 
-def _plain(value: Any) -> Any:
+def plain_number(value: Any) -> Any:
     """NumPy's numbers, and those of others that are registered as numbers, as Python's."""
     if isinstance(value, bool | str | int | float | Fraction):
         return value
@@ -83,7 +83,7 @@ def exact_vector(values: Any, place: str) -> tuple[Number, ...]:
     Raises:
         ExpressionError: if it is no sequence, or holds something else.
     """
-    if isinstance(values, str) or not isinstance(values, Iterable):
+    if isinstance(values, str | bytes | bytearray) or not isinstance(values, Iterable):
         shown = (
             quote(values)
             if isinstance(values, str)
@@ -150,6 +150,7 @@ def system(
         for place, equations in (("equations", given), ("nonzero", apart))
         for i, equation in enumerate(equations)
     ]
+    check_type(imaginary, str | None, "imaginary", "a letter")
     if imaginary is not None and not is_name(imaginary):
         raise ExpressionError(f"imaginary: {quote(str(imaginary))} is no name; write a letter")
     if imaginary is None and variables is not None:
@@ -221,7 +222,8 @@ def _list_equations(equations: Any, place: str) -> list[Any]:
             f"{place}: a {type(equations).__name__} is given, which is an answer; "
             "its equations are its `system`"
         )
-    if answer or not isinstance(equations, Iterable) or isinstance(equations, Mapping):
+    none = isinstance(equations, Mapping | bytes | bytearray)
+    if answer or none or not isinstance(equations, Iterable):
         raise ExpressionError(
             f"{place}: something of type {type(equations).__name__} is given; give texts like "
             "'x^2 + y^2 = 1', sympy's expressions or nag.Polynomial, in a list"
@@ -317,7 +319,7 @@ class _Reader:
                 unit = None if self.unit is None else self.names[-1]
                 return parse_polynomial(equation, self.names, known, unit=unit)
             if not is_sympy(equation):
-                return Polynomial.constant(n, parse_number(_plain(equation)))
+                return Polynomial.constant(n, parse_number(plain_number(equation)))
             symbol_names(equation)
             value = sympy_value(equation, self.known, n, Budget(), self.unit)
         except ValueError as error:

@@ -3,15 +3,31 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from inspect import signature
 from math import isfinite
 from numbers import Integral, Real
 from os import PathLike
 from typing import Any
 
+import numpy as np
+
 from nag.errors import NagError
 
+# What is asked of an argument by how it is declared.
+_TEXT, _TRUTH = "a text", "True or False"
+DECLARED: Mapping[str, tuple[Any, str]] = {
+    "str": (str, _TEXT),
+    "str | None": (str | None, _TEXT),
+    "Method": (str, _TEXT),
+    "Coordinates | None": (str | None, _TEXT),
+    "Space | None": (str | None, _TEXT),
+    "bool": (bool | np.bool_, _TRUTH),
+    "str | os.PathLike[str]": (str | PathLike, "the name of a file"),
+}
 SETTINGS = ("fast", "default", "careful")
+# More of anything that is counted does not fit into memory.
+LARGEST = 10**9
 
 
 def is_a(value: object, module: str, name: str) -> bool:
@@ -22,14 +38,16 @@ def is_a(value: object, module: str, name: str) -> bool:
 
 def value_text(value: Any) -> str:
     """A value in an error message: itself, if that is short."""
-    if value is None or isinstance(value, str | int | float):
+    # Python writes no whole numbers of thousands of digits.
+    huge = isinstance(value, int) and value.bit_length() > 1000
+    if value is None or (isinstance(value, str | int | float) and not huge):
         text = repr(value)
         return text if len(text) <= 40 else f"{text[:37]}..."
     return f"something of type {type(value).__name__}"
 
 
-def check_type(value: Any, kind: type, place: str, advice: str) -> None:
-    """Make sure that an argument is of a type.
+def check_type(value: Any, kind: Any, place: str, advice: str) -> None:
+    """Make sure that an argument is of a type, or one of a union.
 
     Raises:
         ValueError: if it is not; ``advice`` says what to give.
@@ -48,8 +66,8 @@ def check_listed(values: Any, place: str, advice: str) -> None:
         raise NagError(f"{place}: {value_text(values)} is given; give {advice}")
 
 
-def check_whole(value: Any, place: str, least: int = 0) -> None:
-    """Make sure that an argument is a whole number from ``least`` up.
+def check_whole(value: Any, place: str, least: int = 0, most: int | None = LARGEST) -> None:
+    """Make sure that an argument is a whole number from ``least`` up, to ``most`` if there is one.
 
     Raises:
         ValueError: if it is not.
@@ -58,6 +76,8 @@ def check_whole(value: Any, place: str, least: int = 0) -> None:
         raise NagError(
             f"{place}: {value_text(value)} is given; give a whole number from {least} up"
         )
+    if most is not None and int(value) > most:
+        raise NagError(f"{place}: {value_text(value)} is given; give at most {most}")
 
 
 def check_error(value: Any, place: str) -> None:
@@ -76,8 +96,11 @@ def check_size(value: Any, place: str) -> None:
     Raises:
         ValueError: if it is not.
     """
-    number = isinstance(value, Real) and not isinstance(value, bool)
-    if not (number and isfinite(value) and value >= 0):
+    try:
+        fits = not isinstance(value, bool) and isinstance(value, Real) and isfinite(value)
+    except OverflowError:
+        fits = False
+    if not (fits and value >= 0):
         raise NagError(f"{place}: {value_text(value)} is given; give a number from 0 up")
 
 
@@ -87,7 +110,7 @@ def check_choice(value: Any, place: str, known: Sequence[str]) -> None:
     Raises:
         ValueError: if it is not.
     """
-    if value not in known:
+    if not isinstance(value, str) or value not in known:
         raise NagError(f"{place}: {value_text(value)} is unknown; use {', '.join(known)}")
 
 
@@ -107,7 +130,7 @@ def check_running(seed: Any, threads: Any, settings: Any, progress: Any = None) 
     Raises:
         ValueError: if one does not.
     """
-    check_whole(seed, "seed")
+    check_whole(seed, "seed", most=None)
     check_whole(threads, "threads", 1)
     if not is_a(settings, "nag.tracking.settings", "Settings"):
         check_choice(settings, "settings", SETTINGS)
@@ -116,3 +139,53 @@ def check_running(seed: Any, threads: Any, settings: Any, progress: Any = None) 
             f"progress: {value_text(progress)} is given; give True for a bar, or a function of a "
             "stage's name, the step reached and the number of steps"
         )
+
+
+def check_declared(
+    function: Callable[..., Any],
+) -> Callable[[Sequence[Any], Mapping[str, Any]], None]:
+    """What makes sure that texts, truth values and names of files are given where a function
+    declares them.
+
+    Other arguments are checked by whoever takes them.
+    """
+    names = list(signature(function).parameters)
+    declared = {
+        name: DECLARED[kind]
+        for name, kind in function.__annotations__.items()
+        if name != "return" and kind in DECLARED
+    }
+
+    def check(given: Sequence[Any], named: Mapping[str, Any]) -> None:
+        for name, value in (*zip(names, given, strict=False), *named.items()):
+            if name in declared:
+                check_type(value, declared[name][0], name, declared[name][1])
+
+    return check
+
+
+def reading_options(set: Any, format: Any, hold: Any, at: Any) -> dict[str, Any]:
+    """How a file is to be read, with dicts of values, and names in a tuple, as `nag.read` has it.
+
+    Raises:
+        NagError: if one makes no sense.
+    """
+    check_type(format, str, "format", 'the name of one, or "auto"')
+    names = [hold] if isinstance(hold, str) else hold
+    check_listed(names, "hold", "a list of names of links")
+    return {
+        "set": _values_by_name(set, "set", "parameters"),
+        "format": format,
+        "hold": tuple(map(str, names)),
+        "at": _values_by_name(at, "at", "joints"),
+    }
+
+
+def _values_by_name(given: Any, place: str, what: str) -> dict[Any, Any] | None:
+    """Values by name, of a mapping or a series of them; None where none are given."""
+    if given is None:
+        return None
+    if not hasattr(given, "keys"):
+        advice = f"give a dict of values by name of {what}"
+        raise NagError(f"{place}: {value_text(given)} is given; {advice}, {{'a': 0.3}}")
+    return dict(given)

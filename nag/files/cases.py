@@ -19,7 +19,7 @@ from nag.algebra.bounded import Budget
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.family import Family
 from nag.algebra.fixed_mapping import FixedMapping
-from nag.algebra.given import check_path, check_type
+from nag.algebra.given import check_path, reading_options
 from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, values_with_unit
 from nag.algebra.number import ComplexNumber, Number, brief_number_text
 from nag.algebra.polynomial import Polynomial
@@ -51,7 +51,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Case", "CaseError", "NamedPoint", "Truth", "TruthAtReference", "read_case"]
 
-SET = "a dict of numbers or expressions by the names of parameters"
 
 _TOML = re.compile(r"^[ \t]*(?:title|kind)[ \t]*=[ \t]*[\"']", re.MULTILINE)
 
@@ -250,8 +249,8 @@ def read_case(
     """
     check_path(path)
     path = Path(path)
-    check_type({} if set is None else set, Mapping, "set", SET)
-    hold = [hold] if isinstance(hold, str) else hold
+    how = reading_options(set, format, hold, at)
+    set, hold, at = how["set"], how["hold"], how["at"]
     text = read_case_text(path)
     chosen = _format_of(path, text, format)
     case = _case_of_text(path, text, (format, chosen), set or {}, hold, at)

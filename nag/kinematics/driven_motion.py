@@ -191,7 +191,9 @@ def driven_motion(
     [1, 1]
     """
     try:
-        numbers = [float(value) for value in values]
+        numbers = [] if isinstance(values, bytes) else [float(value) for value in values]
+    except OverflowError:
+        raise NagError("values: are too large; give numbers up to 1e308") from None
     except (TypeError, ValueError):
         raise NagError("values: give a list of numbers, [0.1, 0.2]") from None
     if not 1 <= len(numbers) <= MOST_VALUES:

@@ -220,6 +220,8 @@ def model(
     >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
     True
     """
+    check_listed(modes, "modes", "pairs of a joint's name and its mode")
+    modes = tuple(modes)
     mechanism = mechanism_in(mechanism)
     if isinstance(mechanism, AssemblyModel):
         for name, given in (("modes", bool(modes)), ("space", space is not None)):
@@ -227,7 +229,6 @@ def model(
                 raise NagError(f"{name}: is for a nag.Mechanism, not for parts; leave it out")
         return parts_in_formulation(mechanism, formulation)
     check_mechanism(mechanism, PARTS)
-    check_listed(modes, "modes", "pairs of a joint's name and its mode")
     if space is not None:
         check_choice(space, "space", get_args(Space))
     structure = with_loops(mechanism)

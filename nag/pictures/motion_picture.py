@@ -17,6 +17,10 @@ def joint_indices(scene: Scene, names: tuple[str, str]) -> tuple[int, int]:
     Raises:
         NagError: if there is no value of that name; of joints with several, each has its own.
     """
+    if len(names) != 2:
+        raise NagError(
+            f"joints: give two, whose values are drawn against each other; {len(names)} are given"
+        )
     known = [c.name for c in joint_coordinates(scene)]
     for name in names:
         if name not in known:

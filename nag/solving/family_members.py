@@ -292,6 +292,8 @@ def check_values(family: Family, values: Any) -> np.ndarray:
         values = _columns_by_name(family.parameters, values)
     try:
         array = np.asarray(values, dtype=np.complex128)
+    except OverflowError:
+        raise NagError("values: are too large; give numbers up to 1e308") from None
     except (TypeError, ValueError):
         raise NagError("values: are no numbers; give an array of shape (members, k)") from None
     if array.ndim != 2 or array.shape[1] != k:
@@ -331,9 +333,15 @@ def _solve_from_known(
 ) -> Solved:
     """The family at random parameters, by paths from a member whose solutions are known."""
     check_count(count)
-    here = check_values(family, [known[0]])[0]
-    points = np.asarray(known[1], dtype=np.complex128)
     n = len(family.own_variables)
+    try:
+        first, solutions = known
+        here = check_values(family, [first])[0]
+        points = np.asarray(solutions, dtype=np.complex128)
+    except (TypeError, ValueError):
+        raise NagError(
+            f"known: give values of the parameters and solutions there, shape (S, {n}), in a pair"
+        ) from None
     if points.ndim != 2 or points.shape[1] != n or not np.isfinite(points).all():
         raise NagError(f"known: solutions have shape {points.shape}, not (S, {n}), or holes")
     points = append_unit(points) if family.imaginary else points

@@ -12,7 +12,7 @@ from warnings import warn
 
 import numpy as np
 
-from nag.algebra.given import check_running, check_size
+from nag.algebra.given import check_declared, check_running, check_size, check_type
 from nag.errors import NagError
 from nag.numerics.linear_algebra_threads import one_thread
 from nag.text.progress_line import progress_line
@@ -163,6 +163,7 @@ def takes_run(
             incomplete.
     """
     names = frozenset(each.name for each in fields(Run))
+    check = check_declared(function)
 
     @wraps(function)
     def call(*given: Any, **named: Any) -> Answer:
@@ -172,6 +173,8 @@ def takes_run(
                 raise NagError(f"{min(short)}: is given beside run; give one of them")
             named["run"] = Run(**short)
         run = named.get("run")
+        check_type(run, Run | None, "run", "a nag.Run")
+        check(given, named)
         if run is not None and run.progress is True:
             with progress_line() as line:
                 return call(*given, **(named | {"run": replace(run, progress=line)}))

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import NoReturn
 
 from nag.algebra.expression import parse_number
+from nag.algebra.from_python import plain_number
 from nag.algebra.number import Irrational, Number, is_zero, rounded_fraction, square_root
 from nag.algebra.tokens import ExpressionError, nearest, quote
 from nag.errors import MechanismError, NagError
@@ -188,7 +189,7 @@ def _moved(
         if joint.type not in VALUED or joint.axis is None:
             fail(file, f"at: {quote(name)}: a {joint.type} joint; revolute and prismatic ones move")
         try:
-            value = parse_number(given) - joint.zero
+            value = parse_number(plain_number(given)) - joint.zero
             if joint.type == "revolute":
                 turn = turn_about(joint.axis, value)
                 back = GivenFrame(turn.quaternion).turned(joint.point)
