@@ -395,7 +395,9 @@ def coordinates(
     elif isinstance(point, Iterable) and not isinstance(point, str):
         values = list(point)
     else:
-        raise NagError(f"point: {point!r} is given; give {n} numbers, or a dict of them by name")
+        raise NagError(
+            f"point: {value_text(point)} is given; give {n} numbers, or a dict of them by name"
+        )
     if len(values) != n:
         raise NagError(
             f"point: {len(values)} coordinates are given; there are {n} variables: "

@@ -121,7 +121,7 @@ def read_drives(given: Any) -> tuple[Drive, ...]:
     pairs = list(given.items()) if isinstance(given, Mapping) else [given]
     try:
         return tuple(Drive(str(name), float(value)) for name, value in pairs)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise NagError(
             "drive: give a joint and a value, ('A', 0.5), or a dict of several, {'A': 0.5, 'B': 1}"
         ) from None
@@ -142,7 +142,7 @@ def read_poses(given: Any) -> tuple[Pose, ...]:
     for body, numbers in given.items():
         try:
             x = tuple(float(each) for each in numbers)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise NagError(problem) from None
         if len(x) not in (3, 7):
             raise NagError(f"pose: {body!r} has {len(x)} numbers; give 3, or 7 with a quaternion")

@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from nag.algebra.given import check_type
+from nag.algebra.given import check_type, value_text
 from nag.errors import NagError
 from nag.mechanism.axes import cross, difference
 from nag.mechanism.graph import Joint, Mechanism
@@ -268,10 +268,10 @@ def check_tolerance(tolerance: Any) -> float:
         NagError: if it is none that makes sense.
     """
     check_type(tolerance, (int, float), "tolerance", "a number such as 1e-3")
-    value = float(tolerance)
-    if not 0 < value <= WIDEST_GAP:
-        raise NagError(f"tolerance: {value:g} is not positive and at most {WIDEST_GAP:g}")
-    return value
+    if not 0 < tolerance <= WIDEST_GAP:
+        shown = value_text(tolerance)
+        raise NagError(f"tolerance: {shown} is not positive and at most {WIDEST_GAP:g}")
+    return float(tolerance)
 
 
 def find_near_motion(

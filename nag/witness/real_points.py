@@ -186,7 +186,7 @@ def _real_vector(near: Any, n: int) -> np.ndarray:
     """
     try:
         point = np.asarray(near, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         point = np.zeros(0)
     if point.shape != (n,) or not np.isfinite(point).all():
         raise NagError(f"near: the point must be {n} finite real numbers")

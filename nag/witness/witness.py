@@ -84,7 +84,7 @@ class Slice(FixedArrays):
         for name in ("A", "b"):
             try:
                 object.__setattr__(self, name, fixed_array(getattr(self, name), complex))
-            except (TypeError, ValueError):
+            except (TypeError, ValueError, OverflowError):
                 raise NagError(f"{name}: give an array of numbers") from None
         if self.A.ndim != 2 or self.b.shape != self.A.shape[:1]:
             raise NagError(
