@@ -69,6 +69,21 @@ def test_only_one_of_each_class_is_tracked() -> None:
     assert result.paths.tracked == result.paths.regular == classes
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_loops_go_as_far_as_solutions_meet(seed: int) -> None:
+    # Lengths of legs, squared, of a platform as large as 3: with lengths of about 1 none meet.
+    platform = family(
+        "x y c s",
+        "k l m",
+        "x^2 + y^2 - k",
+        "(x + 23/17*c - 31/11)^2 + (y + 23/17*s)^2 - l",
+        "(x + 7/9*c - 13/12*s - 19/14)^2 + (y + 7/9*s + 13/12*c - 37/16)^2 - m",
+        "c^2 + s^2 - 1",
+    )
+    solved = solve_generic(platform, start="parameter", count=6, seed=seed)
+    assert len(solved.points) == 6 and solved.complete
+
+
 def test_without_a_known_number_loops_prove_nothing() -> None:
     solved = solve_generic(symmetric(EVEN), seed=2)
     assert not solved.complete

@@ -20,7 +20,8 @@ NONZERO = "must not vanish: "
 
 _COMMENT = re.compile(r"(?:#|//|%|--)[^\n]*")
 _HEAD = re.compile(r"(variables?|imaginary)\s*:?\s+", re.IGNORECASE)
-_END = re.compile(r"[\s,;]+$")
+# Begun only where the run does: else each of its characters would be tried.
+_END = re.compile(r"(?<![\s,;])[\s,;]+$")
 
 
 def read(source: SourceFile) -> GivenSystem:

@@ -58,7 +58,7 @@ def _is_printed(text: str) -> bool:
 
     Entries say nothing of entries, and not all are numbers: ``x[1] = 2`` gives an unknown a value.
     """
-    text = re.sub(r"[ \t\r;]+$", "", text, flags=re.MULTILINE)
+    text = "\n".join(line.rstrip(" \t\r;") for line in text.split("\n"))
     found = [*_PRINTED.finditer(text)]
     if not found or _PRINTED.sub("", text).strip():
         return False

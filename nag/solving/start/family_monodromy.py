@@ -132,14 +132,15 @@ def family_monodromy(
         if progress:
             progress("monodromy", len(here.points), count or 0)
         move = partial(tally.move_points, family, threads)
-        ways = _ways(family, values, further, weights, idle > 0, move, rng)
+        ways = _ways(family, values, further, weights, idle, move, rng)
         gained = run_loop(here, there, *ways)
         tally.loops += 1
         if len(here.points) * len(symmetric) > MOST_PATHS:
             raise StartError(f"parameter: more than {MOST_PATHS} solutions")
         idle = 0 if gained else idle + 1
         known = count is not None and len(here.points) == len(there.points) == count
-        if idle >= (CONFIRMING if known else IDLE):
+        # Where fewer than are known were found, all loops are run.
+        if idle >= (CONFIRMING if known else IDLE if count is None else MOST_LOOPS):
             break
     return FoundByMonodromy(
         values, here.points, tally.loops, idle, tally.paths, tally.steps, tally.lost
@@ -154,13 +155,18 @@ def _ways(
     here: np.ndarray,
     there: np.ndarray,
     weights: np.ndarray,
-    further: bool,
+    idle: int,
     move: Move,
     rng: np.random.Generator,
 ) -> tuple[Way, Way]:
-    """A way between the systems of two values of the parameters, and back."""
+    """A way between the systems of two values of the parameters, and back.
+
+    Args:
+        idle: how many ways before led to nothing new. The longer that lasts, the farther the ways
+            lead: where solutions meet may be at larger parameters than the random ones.
+    """
     n = family.n
-    if len(weights) and not further:
+    if len(weights) and not idle:
         scale = random_scaling(weights, rng)
         x, scaled = scale[:n], there * scale[n:]
 
@@ -169,7 +175,7 @@ def _ways(
             return ends / x, errors
 
         return scaled_back, lambda points: move(scaled, here, points * x)
-    by = random_values(family, rng)
+    by = random_values(family, rng) * 2.0 ** (max(idle - 1, 0) % IDLE)
     return (
         lambda points: move(by, there, move(here, by, points)[0]),
         lambda points: move(by, here, move(there, by, points)[0]),
