@@ -477,3 +477,18 @@ def test_the_factors_of_one_equation_are_what_is_decomposed_with_symmetries_or_w
         # One for each image of a component that is looked for among the others.
         assert f"paths {2 if paths else 0} tracked" in text
         assert ("without paths" not in text) is paths
+
+
+def test_an_interruption_while_arguments_are_read_is_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from nag.cli import command_line
+
+    def parser(words: list[str]) -> argparse.ArgumentParser:
+        signal.raise_signal(signal.SIGINT)
+        return argparse.ArgumentParser()
+
+    monkeypatch.setattr(command_line, "parser", parser)
+    assert main(["decompose", "case.toml"]) == 130
+    assert capsys.readouterr().err == "nag: interrupted\n"
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler

@@ -359,3 +359,13 @@ def test_a_line_says_the_rate_and_the_time_left_of_its_stage(monkeypatch) -> Non
     assert pipe.getvalue() == (
         "nag: paths: 30 of 120 (1 min 20 s so far, 0.5 a second, 3 min 00 s left of this)\n"
     )
+
+
+def test_a_line_tells_no_time_left_of_few_steps(monkeypatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr("nag.text.progress_line.time.monotonic", lambda: now[0])
+    pipe = io.StringIO()
+    with progress_line(pipe) as progress:
+        for step, now[0] in ((0, 20.0), (5, 80.0)):
+            progress("intersecting", step, 7)
+    assert "5 of 7" in pipe.getvalue() and "left" not in pipe.getvalue()

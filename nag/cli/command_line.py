@@ -13,7 +13,8 @@ import contextlib
 import os
 import signal
 import sys
-from collections.abc import Sequence
+import threading
+from collections.abc import Iterator, Sequence
 from importlib import import_module
 
 import nag
@@ -290,7 +291,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         try:
             check_command(words)
-            arguments, rest = parser(words).parse_known_args(words)
+            with _interrupted_afterwards():
+                arguments, rest = parser(words).parse_known_args(words)
             if rest:
                 where = f"(see nag {arguments.command} --help)"
                 raise UsageError(f"unrecognized arguments: {' '.join(rest)} {where}")
@@ -318,6 +320,25 @@ def main(argv: Sequence[str] | None = None) -> int:
         if watched:
             # What is done is not undone by an interruption of the interpreter's own end.
             signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextlib.contextmanager
+def _interrupted_afterwards() -> Iterator[None]:
+    """Let an interruption wait: argparse undoes what it has half done only where there is none."""
+    met: list[int] = []
+    if (
+        threading.current_thread() is not threading.main_thread()
+        or signal.getsignal(signal.SIGINT) is not signal.default_int_handler
+    ):
+        yield
+        return
+    signal.signal(signal.SIGINT, lambda number, frame: met.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    if met:
+        raise KeyboardInterrupt
 
 
 def main_for(parent: int) -> int:

@@ -19,6 +19,8 @@ INTERVAL = 0.1
 # Seconds between two lines in a file or a pipe: a batch job can be told from a hang, and a day of
 # work leaves 1,440 lines.
 MINUTE = 60.0
+# Steps of a stage from which on the others are taken to be like them: of a few one may be the most.
+ALIKE = 10
 
 ERASE = "\r\x1b[K"
 # Columns of a terminal that does not know how many it has.
@@ -104,7 +106,7 @@ class ProgressLine:
         steps, seconds = self._done - self._stage_first, now - self._stage_started
         if steps > 0 and seconds >= 1.0:
             parts.append(f"{steps / seconds:.3g} a second")
-            if self._total > self._done:
+            if self._total > self._done and steps >= ALIKE:
                 left = (self._total - self._done) * seconds / steps
                 parts.append(f"{_duration(left)} left of this")
         return " (" + ", ".join(parts) + ")"
