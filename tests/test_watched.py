@@ -163,7 +163,7 @@ def katsura(n: int) -> str:
 
 def limited(tmp_path: Path, *words: str) -> subprocess.CompletedProcess[str]:
     case = tmp_path / "katsura.txt"
-    case.write_text(katsura(13))
+    case.write_text(katsura(15))
     command = [sys.executable, "-m", "nag", "solve", str(case), "--threads", "1", *words]
     return subprocess.run(command, capture_output=True, text=True, timeout=100)
 

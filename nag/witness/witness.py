@@ -546,6 +546,8 @@ class Decomposition(Several[WitnessSet]):
         """All components, each one of an orbit by itself, on a slice of its own."""
         from nag.witness.frame import expand_orbits
 
+        if len(self) == len(self.components):
+            return self.components
         return expand_orbits(self).components
 
     def __len__(self) -> int:
