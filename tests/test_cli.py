@@ -489,6 +489,10 @@ def test_an_interruption_while_arguments_are_read_is_one_line(
         return argparse.ArgumentParser()
 
     monkeypatch.setattr(command_line, "parser", parser)
-    assert main(["decompose", "case.toml"]) == 130
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        assert main(["decompose", "case.toml"]) == 130
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert capsys.readouterr().err == "nag: interrupted\n"
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler

@@ -92,7 +92,9 @@ def leave_out_conjugate(result: SolveResult, system: PolynomialSystem) -> SolveR
 
     def chosen(solutions: Sequence[Solution]) -> tuple[Solution, ...]:
         kept = (s for s in solutions if s.point[-1].imag > 0)
-        return tuple(replace(s, real=_is_real(s, system, parts)) for s in kept)
+        # What paths lead to is the unit to rounding; it is known exactly.
+        exact = (replace(s, point=np.append(s.point[:-1], 1j)) for s in kept)
+        return tuple(replace(s, real=_is_real(s, system, parts)) for s in exact)
 
     def points(found: np.ndarray) -> np.ndarray:
         return found[has_unit(found)]
