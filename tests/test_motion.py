@@ -662,6 +662,17 @@ def test_circuits_and_dead_points_of_four_bars_that_nearly_fold(lengths, circuit
                 assert folded == pytest.approx(math.pi - least, abs=1e-9)
 
 
+@pytest.mark.parametrize("seed", [0, 2, 3])
+def test_dead_points_in_narrow_passages_are_exact(seed: int) -> None:
+    # The rocker turns as far as crank and coupler reach, 1e-5 less than base and rocker do.
+    base, crank, coupler, rocker = lengths = (1.859, 6.11798622, 3.02, 7.279)
+    given = four_bar([Fraction(str(x)) for x in lengths])
+    (circuit,) = nag.motion(linkage_model(given), circuit="all", seed=seed)
+    farthest = math.acos((base**2 + rocker**2 - (crank + coupler) ** 2) / (2 * base * rocker))
+    own = [each.value for each in circuit.values.turning if each.coordinate == "D"]
+    assert sorted(own) == pytest.approx([-farthest, farthest], abs=1e-9)
+
+
 RSE = """
 title = "RSE"
 kind = "mechanism"

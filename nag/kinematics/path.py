@@ -29,6 +29,9 @@ STEPS, ARRIVED, SHRINKING = 12, 1e-14, 1e-3
 # Steps of samples are so many of the points that they are taken between; how often these are
 # halved for it at most.
 FINER, HALVINGS = 4, 12
+# Cosine of the turn from which on there are more points about it, and chords below which that is
+# rounding.
+COSINE, LEAST_CHORD = 0.98, 1e-6
 # Second least singular values of the equations, beside their median along a circuit, that may
 # become as small between samples as where other motions meet it.
 PROMISING = 0.3
@@ -349,11 +352,11 @@ def _second_least(curve: Curve, chart: np.ndarray) -> np.ndarray:
 
 
 def _measure_walk(curve: Curve, walk: CurveWalk, count: int) -> MeasuredWalk:
-    """A walk with more points where bodies move fast, and how far each is."""
+    """A walk with more points where bodies move fast or it turns sharply, and how far each is."""
     for _ in range(HALVINGS):
         steps = _steps(curve, walk.chart)
         arc = np.concatenate([[0.0], np.cumsum(steps)])
-        long = np.flatnonzero(steps > 2 * arc[-1] / count / FINER)
+        long = np.flatnonzero((steps > 2 * arc[-1] / count / FINER) | _beside_turns(walk))
         if not len(long):
             break
         between = MeasuredWalk(curve, walk, arc).points_at((arc[long] + arc[long + 1]) / 2)
@@ -367,6 +370,17 @@ def _measure_walk(curve: Curve, walk: CurveWalk, count: int) -> MeasuredWalk:
     halves = _steps(curve, walk.chart).reshape(-1, 2)
     halves += (halves.sum(axis=1) - steps)[:, None] / 6
     return MeasuredWalk(curve, walk, np.concatenate([[0.0], np.cumsum(halves)]))
+
+
+def _beside_turns(walk: CurveWalk) -> np.ndarray:
+    """Which segments of a walk turn much against the next or the last one, but for cusps."""
+    chords = np.diff(walk.chart, axis=0)
+    sizes = np.linalg.norm(chords, axis=1)
+    products = (chords[1:] * chords[:-1]).sum(axis=1)
+    sharp = products < COSINE * sizes[1:] * sizes[:-1]
+    sharp &= np.minimum(sizes[1:], sizes[:-1]) > LEAST_CHORD
+    sharp[[i - 1 for _, i in walk.vertices if 0 < i <= len(sharp)]] = False
+    return np.append(sharp, False) | np.append(False, sharp)
 
 
 def _steps(curve: Curve, chart: np.ndarray) -> np.ndarray:
