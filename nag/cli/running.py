@@ -148,7 +148,7 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
         # The document is all that is written there.
         write = _write_nothing
     elif tell is not None:
-        write = tell.telling(write)
+        write = tell.tell_of_lines(write)
     options.write, options.said = write, list[str]()
     with show_progress(options) as options.progress, shared_work(options):
         answer = options.module.run(options)
@@ -454,7 +454,9 @@ class TellParent:
         self._write("\n")
         os.read(self._acknowledged, 1)
 
-    def telling(self, write: Callable[[Sequence[str]], None]) -> Callable[[Sequence[str]], None]:
+    def tell_of_lines(
+        self, write: Callable[[Sequence[str]], None]
+    ) -> Callable[[Sequence[str]], None]:
         """The same writing of lines, of which the other process is told."""
 
         def tell_and_write(lines: Sequence[str]) -> None:

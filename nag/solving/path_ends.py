@@ -91,7 +91,7 @@ class _Zeros:
         return [several[group] for group in found]
 
     @cached_property
-    def sorted(self) -> SortedPoints:
+    def sorted_points(self) -> SortedPoints:
         """The points, to be asked for by where they are."""
         return SortedPoints.of(self.points)
 
@@ -99,7 +99,7 @@ class _Zeros:
         """The first of some ends, by their indices, that is the conjugate of a singular one."""
         if self.regular[i] or not among:
             return None
-        same = self.sorted.coincident(self.points[i].conj(), float(self.accuracy[i]))
+        same = self.sorted_points.coincident(self.points[i].conj(), float(self.accuracy[i]))
         return next((k for k in same.tolist() if k in among), None)
 
 
@@ -307,7 +307,7 @@ def _judge_end(
     end = singular.judge(i)
     members = [end]
     if end.place is Place.CLUSTER:
-        near = zeros.sorted.coincident(end.point, max(accuracy, end.accuracy))
+        near = zeros.sorted_points.coincident(end.point, max(accuracy, end.accuracy))
         met = zeros.regular[near]
         if end.dimension and met.sum() == sum(z.multiplicity for z in end.nearby):
             # All that is isolated there are ends of other paths.
