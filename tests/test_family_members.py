@@ -72,6 +72,24 @@ def test_answers_depend_neither_on_other_members_nor_on_threads() -> None:
         assert np.array_equal(getattr(one, name), turned, equal_nan=name == "points")
 
 
+@pytest.mark.parametrize("imaginary", ["", "*I"])
+@pytest.mark.parametrize("seed", range(3))
+def test_members_with_infinitely_many_solutions_have_the_isolated_ones(
+    seed: int, imaginary: str
+) -> None:
+    values = np.random.default_rng(seed).standard_normal((40, 2))
+    # A circle, and four points beside it.
+    conics = [f"x^2 - a*y - b{imaginary}", "y^2 - b*x - 7"]
+    equations = [f"(x^2 + y^2 - 1)*({conic})" for conic in conics]
+    found = nag.solve_family(equations, "a b", values, variables="x y", seed=seed)
+    assert found.complete.all() and not found.one_by_one.any()
+    expected = nag.solve_family(conics, "a b", values, variables="x y", seed=seed)
+    assert found.points.shape == expected.points.shape == (40, 4, 2)
+    for k in range(40):
+        apart = distances(expected.at(k), found.at(k))
+        assert max(apart.min(axis=0).max(), apart.min(axis=1).max()) < 1e-12
+
+
 def test_what_does_not_end_regularly_is_solved_by_itself() -> None:
     # Two roots, a double root, and one that is as good as one in doubles.
     values = [[2.0, 3.0], [1.0, 1.0], [1.0, 1.0 - 2.0**-50]]

@@ -41,6 +41,7 @@ from nag.solving.parameter import (
     Solved,
     check_count,
     compare_with_count,
+    move_regular,
     solve_generic,
     solve_targets,
 )
@@ -51,7 +52,7 @@ from nag.tracking import blocks
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, TellFound, takes_run
 from nag.tracking.settings import Settings, find_settings
-from nag.tracking.track import track, track_members
+from nag.tracking.track import track_members
 
 if TYPE_CHECKING:
     import pandas
@@ -345,16 +346,11 @@ def _solve_from_known(
     if points.ndim != 2 or points.shape[1] != n or not np.isfinite(points).all():
         raise NagError(f"known: solutions have shape {points.shape}, not (S, {n}), or holes")
     points = append_unit(points) if family.imaginary else points
-    from nag.solving.parameter_line import parameter_line
-
     there = random_values(family, run.random())
-    line = parameter_line(family, here, there)
-    paths = track(line.homotopy, line.starts(points), run.settings, run.threads)
-    regular = paths.where(PathStatus.REGULAR)
-    if len(regular) < len(points):
-        lost = len(points) - len(regular)
+    ends = move_regular(family, here, points, there, run)
+    if len(ends) < len(points):
+        lost = len(points) - len(ends)
         raise StartError(f"known: {lost} of {len(points)} solutions are not regular, or none")
-    ends = line.affine(paths.points)
     detail = f"{len(points)} known solutions"
     return compare_with_count(Solved(family, there, ends, len(points) == count, detail), count, run)
 

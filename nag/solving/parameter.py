@@ -27,7 +27,7 @@ from nag.solving.certificate import bound_of_zeros
 from nag.solving.parameter_line import parameter_line
 from nag.solving.path_search import PathSearch, SolveTask
 from nag.solving.solutions import SolveResult
-from nag.solving.solve import leave_out_conjugate, solve_without_paths
+from nag.solving.solve import leave_out_conjugate, solve, solve_without_paths
 from nag.solving.solve_classes import (
     SolvedClasses,
     line_of_classes,
@@ -36,7 +36,8 @@ from nag.solving.solve_classes import (
 )
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
-from nag.solving.start.target import StartSystem, Target, unit
+from nag.solving.start.family_monodromy import random_values
+from nag.solving.start.target import StartSystem, Target
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -47,6 +48,8 @@ __all__ = ["Family", "Solved", "solve_generic", "solve_member", "solve_targets"]
 
 # The stream of random numbers of the member whose zeros are counted, and its largest parameter.
 COUNTED, LARGEST_VALUE = 1 << 32, 1000
+# That of the rational member that is solved, and the denominator of its parameters.
+RATIONAL, GRID = (1 << 32) + 1, 1 << 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,14 +118,42 @@ def solve_generic(
             classes,
         )
         return compare_with_count(solved, count, run)
-    values = unit(rng, len(family.parameters)) * (0.5 + rng.random(len(family.parameters)))
+    values = random_values(family, rng)
     target = Target(family.n, family.terms([complex(v) for v in values]))
     begin, _ = choose(target, start, (), rng, run.threads)
     paths = track(begin.homotopy, begin.points, run.settings, run.threads)
     points = begin.affine(paths.points[paths.where(PathStatus.REGULAR)])
     points = points[has_unit(points)] if family.imaginary else points
-    doubtful = paths.where(PathStatus.FAILED, PathStatus.SINGULAR)
-    return Solved(family, values, points, begin.complete and len(doubtful) == 0)
+    if begin.complete and not len(paths.where(PathStatus.FAILED, PathStatus.SINGULAR)):
+        return Solved(family, values, points, True)
+    return _solve_from_rational(family, values, start, run)
+
+
+def _solve_from_rational(family: Family, values: np.ndarray, start: str, run: Run) -> Solved:
+    """The family at random parameters, by paths from a random rational member.
+
+    That is solved with all that `nag.solving.solve.solve` knows of rational systems; where every
+    member has infinitely many solutions, paths alone do not tell how many are isolated.
+    """
+    rng = run.random(RATIONAL)
+    # No small numbers, at which members would be special ones.
+    odd = 2 * rng.integers(GRID // 4, 3 * GRID // 4, len(values)) + 1
+    here = [Fraction(v, GRID) for v in (odd * rng.choice([-1, 1], len(values))).tolist()]
+    result = solve(family.at(here), start=start, run=run.without_found)
+    simple = [each.point for each in result.solutions if each.multiplicity == 1]
+    points = np.array(simple, dtype=np.complex128).reshape(len(simple), family.n)
+    ends = move_regular(family, np.array([complex(v) for v in here]), points, values, run)
+    complete = result.complete and len(ends) == len(result.solutions)
+    return Solved(family, values, ends, complete)
+
+
+def move_regular(
+    family: Family, here: np.ndarray, points: np.ndarray, there: np.ndarray, run: Run
+) -> np.ndarray:
+    """Regular solutions at given parameters, by paths from those at others, shape ``(S, n)``."""
+    line = parameter_line(family, here, there)
+    paths = track(line.homotopy, line.starts(points), run.settings, run.threads)
+    return line.affine(paths.points[paths.where(PathStatus.REGULAR)])
 
 
 @takes_run
