@@ -123,6 +123,8 @@ MOST_NAMES = 12
 UNTESTED = "the trace of its points could not be tested"
 
 
+# A text that is a word, and so the name of a file rather than an equation.
+_WORD = re.compile(r"[A-Za-z_]{3,}\w*")
 # A text that looks like the name of a file rather than like an equation.
 _PATH = re.compile(
     r"[\w.~-]*[A-Za-z]{2}[\w.~-]*([/\\][\w.~-]+)+|[\w-]*[A-Za-z]{2}[\w-]*\.[A-Za-z]\w*"
@@ -387,6 +389,11 @@ def takes_files(
         else:
             raise NagError(f"{first.name}: nothing is given; give a file, a case, parts, equations")
         opened = open_file(asked, **how)
+        if isinstance(opened, str) and _WORD.fullmatch(opened):
+            raise NagError(
+                f"{first.name}: {opened!r} is no file that is there; "
+                f"for the equation {opened} = 0 give [{opened!r}]"
+            )
         if opened is not asked:
             _refuse_export(os.fspath(asked), opened, exports)
         if convert is not None and opened is not asked:
@@ -1724,7 +1731,15 @@ def solve_family(
     named = parameters is None
     names = _names_of_columns(values) if named else list_names(parameters)
     asked = names, named, variables, imaginary, formulation
-    family, own, solutions = _family_in(equations, *asked)
+    try:
+        family, own, solutions = _family_in(equations, *asked)
+    except NagError as error:
+        said = str(error)
+        about_names = said.startswith("parameters: ") and names
+        if about_names and named and isinstance(values, str | os.PathLike):
+            column = said.removeprefix("parameters: ")
+            raise InputError(f"{os.fspath(values)}: line 1: {column}") from None
+        raise
     values = _values_of_members(values, family.parameters, own)
     count = solutions if count is None else count
     if start == "auto" and solutions is not None and known is None:

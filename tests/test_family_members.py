@@ -90,6 +90,13 @@ def test_members_with_infinitely_many_solutions_have_the_isolated_ones(
         assert max(apart.min(axis=0).max(), apart.min(axis=1).max()) < 1e-12
 
 
+def test_columns_of_no_parameter_are_refused_by_their_place(tmp_path: Path) -> None:
+    table = tmp_path / "values.csv"
+    table.write_text("a,b\n1,2\n")
+    with pytest.raises(nag.InputError, match=r"values\.csv: line 1: 'b' does not occur"):
+        nag.solve_family(["x^2 - a"], values=table)
+
+
 def test_what_does_not_end_regularly_is_solved_by_itself() -> None:
     # Two roots, a double root, and one that is as good as one in doubles.
     values = [[2.0, 3.0], [1.0, 1.0], [1.0, 1.0 - 2.0**-50]]

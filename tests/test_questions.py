@@ -9,6 +9,7 @@ import json
 import pickle
 import pkgutil
 import re
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -617,3 +618,10 @@ def test_a_text_that_looks_like_a_path_is_said_to_be_no_file(text: str) -> None:
         nag.solve(text)
     with pytest.raises(nag.EquationError, match=r"divisor contains a variable; [^()]*$"):
         nag.solve("1/x - 2")
+
+
+@pytest.mark.parametrize("ask", [nag.solve, nag.decompose, nag.singular, nag.mobility, nag.model])
+def test_a_word_is_the_name_of_a_file_and_no_equation(ask: Callable[[str], object]) -> None:
+    with pytest.raises(nag.NagError, match="'system' is no file that is there"):
+        ask("system")
+    assert len(nag.solve(["system"])) == len(nag.solve("x")) == 1

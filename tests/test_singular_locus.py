@@ -309,7 +309,14 @@ def test_the_command_tells_the_components_first(capsys: pytest.CaptureFixture[st
     )
 
 
-def test_a_multiple_point_is_told_as_that() -> None:
-    found = nag.singular(["(x - 1)^2*x", "y*x"])
-    (note,) = found.notes
-    assert note.endswith("is a point of multiplicity 2")
+@pytest.mark.parametrize("factor", ["(x - 1)^2", "(x^2 - 2)^3"])
+def test_multiple_points_are_singular_with_their_multiplicity(factor: str) -> None:
+    found = nag.singular([f"{factor}*x", "y*x"])
+    assert found.complete
+    power, count = int(factor[-1]), 2 if "^2 -" in factor else 1
+    points = np.sort(np.array([one.points[0, 0] for one in found.sets]).real)
+    assert np.abs(points - ([1] if count == 1 else [-(2**0.5), 2**0.5])).max() < 1e-14
+    for one in found.sets:
+        (multiplicity,) = one.multiplicities.values()
+        assert multiplicity == power and one.essential
+        assert (one.local.tangent_dimension, one.local.dimension) == (1, 0)

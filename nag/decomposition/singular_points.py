@@ -249,7 +249,9 @@ class _SingularSearch:
         """Points of a component where the rank of its own equations drops."""
         (system, component), name = self.with_equations[i], f"component {i + 1}"
         if component.dimension == 0 and component.multiplicity > 1:
-            self.notes.append(f"{name} is a point of multiplicity {component.multiplicity}")
+            self.examined.append(i)
+            each = component.points[:, None]
+            self.candidates += [SetOfPoints(0, 1, x, component.accuracy, (i,)) for x in each]
             return
         if component.multiplicity != 1:
             self.notes.append(f"{name} is not reduced; its own singular points are not known")
@@ -479,6 +481,10 @@ def _judge_candidate(
         # Doubles may take a point that is close to a component for one of it.
         equations = search.with_equations[i][0].polynomials
         if found.precise is not None and all_vanish(equations, found.precise) is False:
+            continue
+        if component.dimension == 0:
+            if coincident(component.points, x, max(component.accuracy, error)).any():
+                multiplicities[i] = component.multiplicity
             continue
         # A multiple component is simple in equations of its own.
         own = search.with_equations[i] if component.multiplicity != 1 else (whole.system, component)
