@@ -394,6 +394,8 @@ def motion_text(motion: Motion) -> str:
     """What is seen at the prompt."""
     rows = motion_rows(motion)
     rows += [(f"circuit {c.number}", circuit_text(motion, c)) for c in motion.circuits]
+    if motion.drive is not None or motion.held or motion.poses:
+        rows.append(("driven", drive_text(motion)))
     rows += [("open", note) for note in motion.notes]
     if motion.circuits or not motion.assemblies:
         return lines_of(f"Motion of {count_text(len(motion.circuits), 'circuit')}", rows)
