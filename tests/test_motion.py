@@ -581,6 +581,25 @@ def test_a_motion_to_infinity_is_followed_as_far_as_is_said() -> None:
     assert joint_errors(motion.scene, circuit.poses).max() < FIT
 
 
+def test_a_motion_to_infinity_is_followed_equally_far_by_all_equations() -> None:
+    """Whatever points the real curve has: to where bodies are five sizes farther than nearest."""
+    case = nag.read_case(ROOT / "cases" / "spatial" / "delassus-rprp.toml")
+    lengths, rows = [], []
+    for formulation, seed in (("E", 0), ("H", 0), ("H", 1), ("H", 2)):
+        motion = nag.motion(case, formulation=formulation, seed=seed)
+        (circuit,) = motion.circuits
+        scene = motion.scene
+        places = np.stack([circuit.poses.move(i, c) for i, c in enumerate(scene.centres)])
+        far = np.linalg.norm(places - places[scene.ground], axis=2).max(axis=0) / scene.size
+        assert np.abs(far[[0, -1]] - far.min() - 5).max() < 1e-3
+        lengths.append(circuit.length)
+        values = circuit.values.values
+        rows.append(values if values[0, 1] < values[-1, 1] else values[::-1])
+    assert np.allclose(lengths, lengths[0], rtol=1e-10, atol=0)
+    for other in rows[1:]:
+        assert np.abs(other - rows[0]).max() < 1e-8
+
+
 def count_mirrored_plates() -> int:
     """Real places of a plate that is the mirror image of its base, on three legs as long as
     the root of 17.

@@ -28,7 +28,7 @@ from nag.kinematics.driven import (
     read_poses,
 )
 from nag.kinematics.joint_values import joint_coordinates
-from nag.kinematics.path import Curve, Path, sample_path
+from nag.kinematics.path import NARROWINGS, PLACES, Curve, MeasuredWalk, Path, sample_path
 from nag.kinematics.poses import SAME, Poses, join_poses, pose_distances
 from nag.kinematics.rigid_assemblies import (
     Configurations,
@@ -70,6 +70,9 @@ APPROACHES = 6
 MOST_PLACES = 8
 # In sizes: how far bodies are followed that go to infinity, beyond where they come nearest.
 REACH = 5
+# How much longer each step is by which a motion is followed beyond its points towards infinity, and
+# how many these are at most.
+LENGTHENING, MOST_STEPS_OUT = 1.25, 64
 
 Which = Literal["reference", "all"]
 
@@ -1032,19 +1035,91 @@ def _sample(
 
 
 def _within_reach(curve: Curve, walk: CurveWalk) -> tuple[CurveWalk, bool]:
-    """A walk as far as bodies stay near, and whether it goes to infinity, as open ones do."""
+    """A walk as far as bodies stay near, and whether it goes to infinity, as open ones do.
+
+    It ends where they are that far away, and not at the last of its own points before, which are
+    others for other equations.
+    """
     if walk.closed:
         return walk, False
-    poses, scene = curve.poses(walk.chart), curve.scene
+    walk = _follow_out(curve, walk)
+    last = len(walk.chart) - 1
+    along = MeasuredWalk(curve, walk, np.arange(last + 1.0))
+    far = _reaches(curve, walk.chart)
+    limit = _least_reach(along, int(far.argmin())) + REACH * curve.scene.size
+    inside = np.flatnonzero(far <= limit)
+    low, high = int(inside[0]), int(inside[-1])
+    if low == 0 and high == last:
+        return walk, True
+    # Of each end that is cut off the segment, and the place on it.
+    cuts = [(low - 1, _leave_reach(along, low, low - 1, limit))] if low else []
+    cuts += [(high, _leave_reach(along, high, high + 1, limit))] if high < last else []
+    segments = np.array([segment for segment, _ in cuts])
+    points = along.points_at(np.array([place for _, place in cuts]))
+    longer = walk.insert(segments, points)
+    end = high + len(cuts)
+    vertices = tuple((v, i - low) for v, i in longer.vertices if low <= i <= end)
+    return replace(longer, chart=longer.chart[low : end + 1], vertices=vertices), True
+
+
+def _follow_out(curve: Curve, walk: CurveWalk) -> CurveWalk:
+    """An open walk with points before and behind its own, until bodies are out of reach.
+
+    Its own end where infinity is near in the variables of the equations.
+    """
+    nearest = float(_reaches(curve, walk.chart).min())
+    last, known = len(walk.chart) - 1, {index for _, index in walk.vertices}
+    before, behind = (
+        np.empty((0, walk.chart.shape[1])) if end in known else _steps_out(curve, pair, nearest)
+        for end, pair in ((0, walk.chart[1::-1]), (last, walk.chart[-2:]))
+    )
+    chart = np.concatenate([before[::-1], walk.chart, behind])
+    vertices = tuple((v, i + len(before)) for v, i in walk.vertices)
+    return replace(walk, chart=chart, vertices=vertices)
+
+
+def _steps_out(curve: Curve, pair: np.ndarray, nearest: float) -> np.ndarray:
+    """Points on from the second of a pair until bodies are out of reach, shape ``(k, size)``."""
+    points = list(pair)
+    for _ in range(MOST_STEPS_OUT):
+        (reach,) = _reaches(curve, points[-1][None])
+        if reach > nearest + REACH * curve.scene.size:
+            break
+        step = LENGTHENING * (points[-1] - points[-2])
+        points.append(curve.sharpen((points[-1] + step)[None])[0])
+    return np.array(points[2:]).reshape(-1, pair.shape[1])
+
+
+def _reaches(curve: Curve, chart: np.ndarray) -> np.ndarray:
+    """How far the farthest body is from the ground at points of a chart, shape ``(k,)``."""
+    poses, scene = curve.poses(chart), curve.scene
     middles = [poses.move(i, centre) for i, centre in enumerate(scene.centres)]
     base = middles[scene.ground]
     far = np.max([np.linalg.norm(m - base, axis=1) for m in middles], axis=0)
-    inside = np.flatnonzero(far <= np.nanmin(far) + REACH * scene.size)
-    first, last = int(inside[0]), int(inside[-1])
-    if (first == 0 and last == len(walk.chart) - 1) or last - first < 1:
-        return walk, True
-    vertices = tuple((v, i - first) for v, i in walk.vertices if first <= i <= last)
-    return replace(walk, chart=walk.chart[first : last + 1], vertices=vertices), True
+    return np.where(np.isnan(far), np.inf, far)
+
+
+def _least_reach(along: MeasuredWalk, nearest: int) -> float:
+    """How near all bodies come, beside the point of a walk where they are nearest."""
+    place, width, last = float(nearest), 1.0, len(along.arc) - 1.0
+    least = np.inf
+    for _ in range(NARROWINGS):
+        places = np.clip(place + np.linspace(-width, width, PLACES), 0.0, last)
+        far = _reaches(along.curve, along.points_at(places))
+        place, least = float(places[far.argmin()]), float(far.min())
+        width = 2 * width / (PLACES - 1)
+    return least
+
+
+def _leave_reach(along: MeasuredWalk, inside: float, outside: float, limit: float) -> float:
+    """The place between two of a walk up to which all bodies are within a limit."""
+    for _ in range(NARROWINGS):
+        places = np.linspace(inside, outside, PLACES)
+        beyond = _reaches(along.curve, along.points_at(places[1:-1])) > limit
+        # The first of them, or the last place of all.
+        first = int(np.append(beyond, True).argmax())
+        inside, outside = places[first], places[first + 1]
+    return float(inside)
 
 
 def _return_to_start(poses: Poses) -> Poses:
