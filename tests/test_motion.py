@@ -600,6 +600,15 @@ def test_a_motion_to_infinity_is_followed_equally_far_by_all_equations() -> None
         assert np.abs(other - rows[0]).max() < 1e-8
 
 
+def test_samples_beside_places_where_motions_cross_are_exact() -> None:
+    """The kite of the inversor is folded there, and its ends may turn freely, too."""
+    motion = nag.motion(nag.read_case(ROOT / "cases" / "planar" / "peaucellier-placed.toml"))
+    assert len(motion.circuits) == 2
+    for circuit in motion.circuits:
+        assert len(circuit.crossings) == 6
+        assert joint_errors(motion.scene, circuit.poses).max() < FIT
+
+
 def count_mirrored_plates() -> int:
     """Real places of a plate that is the mirror image of its base, on three legs as long as
     the root of 17.

@@ -42,7 +42,7 @@ SINGULAR = 1e-5
 PLACES, NARROWINGS = 21, 9
 # Points of a motion on each side of a place where rank is lost, in units of how far it is
 # interpolated between them; that in steps of samples, and of the way, at the most.
-BESIDE_PASSAGE, NEAR_PASSAGE = (1, 2, 3, 4), 2e-3
+BESIDE_PASSAGE, NEAR_PASSAGE = (1, 2, 3, 4, 5, 6), 2e-3
 
 
 @dataclass(frozen=True, eq=False)
