@@ -11,11 +11,15 @@ import signal
 import subprocess
 import sys
 import time
+from argparse import Namespace
 from collections.abc import Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from fractions import Fraction
+from importlib.machinery import ModuleSpec
 from pathlib import Path
+from threading import Thread
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -24,6 +28,8 @@ import pytest
 import nag
 from nag.algebra.surd import Surd
 from nag.cli import main
+from nag.cli.arguments import UsageError
+from nag.cli.watched import work_in_child
 from nag.errors import InputError
 from nag.files.export import export_text as decomposition_text
 from nag.files.solutions_export import export_text as solutions_text
@@ -318,7 +324,7 @@ def pool() -> Iterator[Executor]:
         yield opened
 
 
-EQUATIONS = katsura(11)
+EQUATIONS, BLOCKS = katsura(11), 2
 
 
 @pytest.fixture(scope="module")
@@ -334,6 +340,82 @@ def test_processes_give_the_same_answer(pool: Executor, expected: str) -> None:
 @pytest.mark.parametrize("good", [0, 1])
 def test_blocks_of_lost_workers_are_worked_out_here(good: int, expected: str) -> None:
     assert solved(EQUATIONS, executor=Unreliable(good)) == expected
+
+
+class LastFirst(Executor):
+    """Does what was given to it last first, and loses a worker over its second task."""
+
+    def __init__(self) -> None:
+        self.waiting: list[tuple[Future, Any, tuple[Any, ...], dict[str, Any]]] = []
+        self.order: list[int] = []
+
+    def submit(self, function: Any, /, *given: Any, **named: Any) -> Future:
+        future: Future = Future()
+        self.waiting.append((future, function, given, named))
+        if len(self.waiting) == BLOCKS:
+            Thread(target=self.work).start()
+        return future
+
+    def work(self) -> None:
+        for k in reversed(range(BLOCKS)):
+            future, function, given, named = self.waiting[k]
+            assert future.set_running_or_notify_cancel()
+            self.order.append(k)
+            if k == BLOCKS - 2:
+                future.set_exception(BrokenProcessPool("a worker ended"))
+            else:
+                # As to another process and back.
+                sent = pickle.loads(pickle.dumps((function, given, named)))
+                future.set_result(pickle.loads(pickle.dumps(sent[0](*sent[1], **sent[2]))))
+
+
+def test_an_executor_of_any_make_may_work_in_any_order_and_lose_a_worker(expected: str) -> None:
+    executor = LastFirst()
+    assert solved(EQUATIONS, executor=executor) == expected
+    assert executor.order == list(reversed(range(BLOCKS)))
+
+
+@pytest.mark.parametrize("installed", [False, True])
+def test_mpi_that_has_no_workers_is_one_line(
+    installed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    module = ModuleSpec("mpi4py", None) if installed else None
+    monkeypatch.setattr("nag.tracking.executor.find_spec", lambda name: module)
+    monkeypatch.delitem(sys.modules, "mpi4py.MPI", raising=False)
+    how = "start with `mpiexec" if installed else "pip install mpi4py"
+    with pytest.raises(InputError, match=f"^executor: mpi .*{how}"):
+        nag.solve("x^2 = 2", executor="mpi")
+
+
+def test_a_process_of_mpi_is_not_forked(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "mpi4py.MPI", ModuleType("mpi4py.MPI"))
+    monkeypatch.setattr(os, "fork", None)
+    assert work_in_child(Namespace(time_limit=None, memory_limit=None)) is None
+    for option in ("time_limit", "memory_limit"):
+        limits = {"time_limit": None, "memory_limit": None, option: 1.0}
+        with pytest.raises(UsageError, match=f"^--{option.replace('_', '-')}: .*mpiexec"):
+            work_in_child(Namespace(**limits))
+
+
+def test_commands_work_under_mpi(tmp_path: Path, expected: str) -> None:
+    pytest.importorskip("mpi4py", reason="MPI is not needed by anything else")
+    if shutil.which("mpiexec") is None:
+        pytest.skip("there is no mpiexec")
+    system, answer = tmp_path / "katsura.txt", tmp_path / "answer.json"
+    system.write_text("\n".join(EQUATIONS) + "\n")
+    words = ["solve", str(system), "--executor", "mpi", "--seed", "2", "--json", str(answer)]
+    mine = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    mine |= {"PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe"}
+    command = ["mpiexec", "-n", "3", sys.executable, "-m", "mpi4py.futures", "-m", "nag", *words]
+    subprocess.run(command, cwd=ROOT, env=mine, check=True, capture_output=True, timeout=60)
+    found, known = json.loads(answer.read_text()), json.loads(expected)
+    assert found["solutions"] == known["solutions"]
+
+
+def test_executorlib_gives_the_same_answer(expected: str) -> None:
+    executorlib = pytest.importorskip("executorlib", reason="it is given by who has it")
+    with executorlib.SingleNodeExecutor(max_workers=2, block_allocation=True) as executor:
+        assert solved(EQUATIONS, executor=executor) == expected
 
 
 def test_only_missing_blocks_are_given_away(tmp_path: Path, expected: str) -> None:

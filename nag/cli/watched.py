@@ -46,7 +46,7 @@ def work_in_child(options: argparse.Namespace) -> int | None:
 
     Returns:
         In the parent, when the child has ended, the exit status. In the child, and where there is
-        no fork, None.
+        no fork or a process of MPI is not to be forked, None.
 
     Raises:
         UsageError: for limits that cannot be watched on this system.
@@ -55,9 +55,13 @@ def work_in_child(options: argparse.Namespace) -> int | None:
     gigabytes = getattr(options, "memory_limit", None)
     if gigabytes is not None and not os.path.exists("/proc/self/statm"):
         raise UsageError("--memory-limit: this system does not tell the memory of a process")
-    if not hasattr(os, "fork"):
-        if seconds is not None:
-            raise UsageError("--time-limit: this system has no fork")
+    # What MPI has opened in a process is not its child's.
+    under_mpi = "mpi4py.MPI" in sys.modules
+    if under_mpi or not hasattr(os, "fork"):
+        why = "is not for work under mpiexec, which has limits" if under_mpi else ""
+        for option, limit in (("--time-limit", seconds), ("--memory-limit", gigabytes)):
+            if limit is not None:
+                raise UsageError(f"{option}: {why or 'this system has no fork'}")
         return None
     forget_unfinished(options)
     heard, telling = os.pipe()

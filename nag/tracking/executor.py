@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import sys
 from collections.abc import Iterator
 from concurrent.futures import Executor
+from importlib.util import find_spec
 from typing import Any
 
 from nag.errors import InputError
@@ -60,11 +62,7 @@ def open_executor(given: Any) -> Iterator[Executor | None]:
         with _dask(rest[2:]) as executor:
             yield executor
     else:
-        try:
-            from mpi4py.futures import MPIPoolExecutor
-        except ImportError:
-            raise InputError("executor: mpi needs mpi4py; pip install mpi4py") from None
-        with MPIPoolExecutor() as executor:
+        with _mpi() as executor:
             yield executor
 
 
@@ -84,6 +82,24 @@ def _end_with_parent() -> None:
         os._exit(1)
 
     Thread(target=wait, daemon=True).start()
+
+
+@contextlib.contextmanager
+def _mpi() -> Iterator[Executor]:
+    if find_spec("mpi4py") is None:
+        raise InputError("executor: mpi needs mpi4py; pip install mpi4py")
+    # `python -m mpi4py.futures` has loaded it, and its workers wait. To start some where MPI does
+    # not allow it waits for them for ever.
+    world = getattr(sys.modules.get("mpi4py.MPI"), "COMM_WORLD", None)
+    if world is None or world.Get_size() < 2:
+        raise InputError(
+            "executor: mpi has no workers here; start with `mpiexec -n N python -m mpi4py.futures "
+            "-m nag ...`, N being 2 or more"
+        )
+    from mpi4py.futures import MPIPoolExecutor
+
+    with MPIPoolExecutor() as executor:
+        yield executor
 
 
 @contextlib.contextmanager
