@@ -297,6 +297,36 @@ def test_members_of_a_family_are_blocks(tmp_path: Path) -> None:
         assert np.array_equal(other.errors, plain.errors)
 
 
+class Ended(Exception):
+    """Stands for the end of a run."""
+
+
+def test_values_of_a_sweep_are_found_again_after_a_run_that_was_ended(tmp_path: Path) -> None:
+    def end_after_two(swept: list[Any]) -> None:
+        if len(swept) == 2:
+            raise Ended
+
+    # For b = 1 the components fall apart, which is found without following.
+    asked = (ROOT / "cases" / "rhombus.toml", "b", ["1/2", 1, "3/2", 2])
+    plain = nag.sweep_parameter(*asked)
+    with pytest.raises(Ended):
+        nag.sweep_parameter(*asked, resume=tmp_path, found=end_after_two)
+    with open_engine(tmp_path, None) as engine:
+        resumed = nag.sweep_parameter(*asked)
+    assert engine is not None and engine.ledger is not None
+    # That of a general value, and two of the four.
+    assert (engine.ledger.found, engine.ledger.kept) == (3, 2)
+    assert resumed == plain
+    for one, other in zip(resumed, plain, strict=True):
+        text, expected = (decomposition_text(each.decomposition) for each in (one, other))
+        assert text == expected
+    assert [each.decomposition.algebraic for each in resumed] == [
+        each.decomposition.algebraic for each in plain
+    ]
+    other = nag.sweep_parameter(*asked, resume=tmp_path, settings="careful")
+    assert {each.decomposition.settings for each in other} == {"careful"}
+
+
 class Unreliable(Executor):
     """Loses its workers after some blocks."""
 

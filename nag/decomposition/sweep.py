@@ -9,9 +9,11 @@ decomposed by itself.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,7 +29,9 @@ from nag.decomposition.given_points import components_through_points
 from nag.numerics.read_only import Several, equal_values
 from nag.numerics.zero_values import ON
 from nag.solving.parameter_line import parameter_line
+from nag.text.json_text import lay_out
 from nag.text.table import align, count_text, data_frame, named_line
+from nag.tracking import blocks
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.tracking.track import track
@@ -184,21 +188,62 @@ def sweep(
     swept = []
     for value in values:
         system = system_at(value)
-        starts, paths, why = [], 0, reason
-        if general is not None:
-            starts, paths, why = _follow_components(general, system, value, run)
-        if not why:
-            answer = components_through_points(system, starts, run=run)
-            paths += answer.paths.tracked
-            if not answer.complete:
-                why = "special value: the points that arrive are not general ones"
-        if why:
-            answer = decompose(system, run=run)
-            paths += answer.paths.tracked
-        swept.append(Swept(value, answer, not why, paths, why))
+        call = general, reason, system, value
+        read = partial(_unpack_member, system, run)
+        swept.append(blocks.keep_result(_member, call, run, _pack_member, read))
         if told is not None and len(swept) < len(values):
             told(list(swept))
     return swept
+
+
+def _member(
+    general: _General | None, reason: str, system: PolynomialSystem, value: Fraction, run: Run
+) -> Swept:
+    """The components at a value: followed from a general one, unless there is a reason not to."""
+    starts, paths, why = [], 0, reason
+    if general is not None:
+        starts, paths, why = _follow_components(general, system, value, run)
+    if not why:
+        answer = components_through_points(system, starts, run=run)
+        paths += answer.paths.tracked
+        if not answer.complete:
+            why = "special value: the points that arrive are not general ones"
+    if why:
+        answer = decompose(system, run=run)
+        paths += answer.paths.tracked
+    return Swept(value, answer, not why, paths, why)
+
+
+def _decomposed(system: PolynomialSystem, run: Run) -> Decomposition:
+    return decompose(system, run=run)
+
+
+def _pack(answer: Decomposition) -> dict[str, np.ndarray]:
+    """Components as a block: their document, and what that leaves out."""
+    return {"document": _bytes(answer.document()), "algebraic": np.array(answer.algebraic)}
+
+
+def _unpack(system: PolynomialSystem, run: Run, block: Mapping[str, np.ndarray]) -> Decomposition:
+    """The components of a system that `_pack` made a block of."""
+    answer = Decomposition.of_document(json.loads(block["document"].tobytes()))
+    algebraic = bool(block["algebraic"])
+    return replace(answer, system=system, settings=run.settings, algebraic=algebraic)
+
+
+def _pack_member(swept: Swept) -> dict[str, np.ndarray]:
+    """The components for a value as a block, and how they were found."""
+    return {**_pack(swept.decomposition), "member": _bytes(swept.document())}
+
+
+def _unpack_member(system: PolynomialSystem, run: Run, block: Mapping[str, np.ndarray]) -> Swept:
+    """What `_pack_member` made a block of."""
+    told = json.loads(block["member"].tobytes())
+    answer = _unpack(system, run, block)
+    return Swept(Fraction(told["value"]), answer, told["followed"], told["paths"], told["reason"])
+
+
+def _bytes(document: dict[str, Any]) -> np.ndarray:
+    return np.frombuffer(lay_out(document).encode(), dtype=np.uint8)
 
 
 def _general(
@@ -216,7 +261,8 @@ def _general(
         return None, "the equations are no rational functions of the parameter"
     start = first + (last - first) * Fraction(int(rng.integers(1, 10**6)), 10**6 + 3)
     system = system_at(start)
-    answer = decompose(system, run=run)
+    read = partial(_unpack, system, run)
+    answer = blocks.keep_result(_decomposed, (system,), run, _pack, read)
     if not answer.complete:
         return None, "the components for a general value are not all known"
     if not answer.components:

@@ -11,15 +11,17 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextvars import ContextVar
 from dataclasses import dataclass
 from itertools import islice
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
 
     from nag.tracking.ledger import Arrays, Ledger
+    from nag.tracking.run import Run
 
 # Blocks that are in memory at once, in this process alone and with an executor.
 ALONE, SHARED = 8, 256
+T = TypeVar("T")
 # A function of a block's arguments and of a number of threads, to arrays.
 Work = Callable[..., Any]
 
@@ -150,6 +152,34 @@ def share(work: Work, calls: Iterable[tuple[Any, ...]], count: int, stage: str) 
 
         some = list(islice(left, at_once()))
         yield from (found for found, _ in work_out(work, some, stage, 1, told))
+
+
+def keep_result(
+    work: Callable[..., T],
+    call: tuple[Any, ...],
+    run: Run,
+    pack: Callable[[T], Arrays],
+    unpack: Callable[[Arrays], T],
+) -> T:
+    """A result that is found where it was kept, or worked out here, in blocks where these are.
+
+    Args:
+        work: a function of ``call`` and a run, on whose seed and settings alone it depends.
+        call: its arguments, see `nag.tracking.ledger.add_content`.
+        pack, unpack: what makes a block of the result, and the equal result of the block.
+    """
+    from nag.tracking.ledger import key_of
+
+    chosen = _engine.get()
+    if chosen is None or chosen.ledger is None:
+        return work(*call, run)
+    key = key_of(work, (*call, run.seed, run.settings))
+    found = chosen.ledger.find(key)
+    if found is not None:
+        return unpack(found)
+    result = work(*call, run)
+    chosen.ledger.keep(key, pack(result))
+    return result
 
 
 def _results(

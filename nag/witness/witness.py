@@ -583,6 +583,22 @@ class Decomposition(Several[WitnessSet]):
 
         return component_rows(self)
 
+    @classmethod
+    def of_document(cls, document: Mapping[str, Any]) -> Decomposition:
+        """The decomposition that an export as a JSON object is of.
+
+        Raises:
+            nag.NagError: if it is none.
+
+        >>> import nag
+        >>> circle = nag.decompose("x^2 + y^2 = 1")
+        >>> nag.Decomposition.of_document(circle.document()) == circle
+        True
+        """
+        from nag.files.export import export_of
+
+        return export_of(document).decomposition
+
     def document(
         self,
         case: Mapping[str, str] | None = None,
