@@ -35,7 +35,7 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, answers_early
 from nag.tracking.settings import Settings, find_settings, tighten
-from nag.tracking.track import track
+from nag.tracking.track import Standing, track
 
 # Digits of evidence, beyond the least, of zeros that are to be told from others beside them.
 SEPARATING = 60
@@ -292,8 +292,14 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
     stage = f"tracking {len(begin.points)} paths"
     run.tell(stage, 0, 0)
 
-    def tell(done: int, total: int, doubtful: int) -> None:
-        run.tell(f"{stage}{REMARK}{doubtful} doubtful" if doubtful else stage, done, total)
+    def tell(so_far: Standing) -> None:
+        name = f"ends of {so_far.total} paths in more digits" if so_far.in_digits else stage
+        counts = {
+            "doubtful": so_far.doubtful,
+            "to infinity": so_far.infinite,
+            "failed": so_far.failed,
+        }
+        run.tell(_with_counts(name, counts), so_far.done, so_far.total)
 
     paths = track(
         begin.homotopy, begin.points, run.settings, run.threads, known=begin.known, tell=tell
@@ -302,9 +308,7 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
         "to infinity": len(paths.where(PathStatus.AT_INFINITY)),
         "failed": len(paths.where(PathStatus.FAILED)),
     }
-    remark = ", ".join(f"{count} {name}" for name, count in ends.items() if count)
-    judging = f"judging the ends of {len(paths)} paths"
-    run.tell(f"{judging}{REMARK}{remark}" if remark else judging, 0, 0)
+    run.tell(_with_counts(f"judging the ends of {len(paths)} paths", ends), 0, 0)
     search = PathSearch.of(task, task.problem, begin, reason, paths, task.rng)
     if run.found is not None:
         run.found(replace(search.result(), complete=False, notes=(UNFINISHED,)))
@@ -313,6 +317,12 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
         if search.completeness is not Completeness.ALL:
             search = find(search)
     return search.result()
+
+
+def _with_counts(stage: str, counts: dict[str, int]) -> str:
+    """A stage, and how many paths are what."""
+    remark = ", ".join(f"{count} {name}" for name, count in counts.items() if count)
+    return f"{stage}{REMARK}{remark}" if remark else stage
 
 
 def _look(search: PathSearch) -> PathSearch:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -45,8 +46,25 @@ PATHS_PER_THREAD = 64
 # Paths of a block in doubles; and so few that they are tracked again in less time than found.
 BLOCK, LEAST_BLOCK = 1024, 32
 
-# Called with numbers of paths: tracked in doubles, all, doubtful so far.
-Tell = Callable[[int, int, int], None]
+
+class Standing(NamedTuple):
+    """How far paths are.
+
+    Attributes:
+        done, total: paths that are tracked in doubles, of all; where ``in_digits``, doubtful ones
+            that are followed to their ends in more digits, of these.
+        doubtful: of those in doubles; infinite, failed: of those in more digits.
+    """
+
+    done: int
+    total: int
+    in_digits: bool = False
+    doubtful: int = 0
+    infinite: int = 0
+    failed: int = 0
+
+
+Tell = Callable[[Standing], None]
 
 
 def track(
@@ -72,8 +90,7 @@ def track(
         distinct: the starts are pairwise distinct, so that equal regular ends betray a path jump;
             such paths are tracked again with tighter control.
         known: what is known of the paths beforehand; of use where the starts are distinct.
-        tell: called now and then with the number of paths tracked in doubles, of all, and of those
-            whose ends ask for more digits.
+        tell: called now and then with how far the paths are.
 
     Raises:
         ValueError: if the starts have a wrong shape, or settings an unknown name.
@@ -212,11 +229,16 @@ def _attempt(
                 rest = ~np.isin(doubtful, infinite)
                 doubtful, unfinished = doubtful[rest], unfinished.select_rows(rest)
             if len(doubtful):
-                more = follow_doubtful(homotopy, unfinished, settings, threads)
+                told = None if tell is None else partial(_tell_in_digits, tell, len(doubtful))
+                more = follow_doubtful(homotopy, unfinished, settings, threads, told)
                 if not endgame:
                     more = more.mark_failed(more.where(PathStatus.SINGULAR))
                 paths = paths.track_again(doubtful, more)
     return paths if orbits is None else orbits.expand(paths, homotopy.groups)
+
+
+def _tell_in_digits(tell: Tell, total: int, done: int, infinite: int, failed: int) -> None:
+    tell(Standing(done, total, True, infinite=infinite, failed=failed))
 
 
 def _run_by_stretches(
@@ -241,7 +263,7 @@ def _run_by_stretches(
 
         def told(done: int, first: int = first, open_: int = open_) -> None:
             if tell is not None:
-                tell(min(first + done * BLOCK, total), total, open_)
+                tell(Standing(min(first + done * BLOCK, total), total, doubtful=open_))
 
         raw = run_in_doubles(homotopy, begin, settings, threads, endgame, told=told)
         paths, regular = _judge_ends(homotopy, raw)
@@ -258,7 +280,7 @@ def _run_by_stretches(
             )
         )
         if tell is not None:
-            tell(min(first + stretch, total), total, open_)
+            tell(Standing(min(first + stretch, total), total, doubtful=open_))
         yield paths
 
 

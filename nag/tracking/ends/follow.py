@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -24,6 +24,8 @@ from nag.tracking.paths import Ball, PathBranch, Paths, PathStatus, Reason
 from nag.tracking.projective import ROUNDING
 from nag.tracking.settings import Settings
 
+# Called with numbers of paths: ended, at infinity, failed.
+Told = Callable[[int, int, int], None]
 # Digits of numbers of as many words.
 DIGITS = {2: 32, 4: 64, 8: 120}
 # Decides: Residual of a limit over that of the last one, further out: more is rounding, if it may
@@ -33,6 +35,8 @@ GAINED = 0.1
 NOISE = 1e-3
 # Paths of a block.
 BLOCK = 16
+# Paths that are followed before it is told how many have ended: a second's work, or less.
+STRETCH = 128
 # Part of t at which a limit is looked for next, where nothing is known of it, and the least.
 FURTHER, FURTHEST = 1e-3, 1e-8
 
@@ -180,7 +184,11 @@ class Unfinished(ArrayTable):
 
 
 def follow(
-    homotopy: Homotopy, unfinished: Unfinished, settings: Settings, threads: int = 1
+    homotopy: Homotopy,
+    unfinished: Unfinished,
+    settings: Settings,
+    threads: int = 1,
+    told: Told | None = None,
 ) -> Paths:
     """Follow paths from safe points to their ends.
 
@@ -188,6 +196,7 @@ def follow(
         homotopy: what to track.
         settings: how many digits may be used, and how many are evidence.
         threads: number of threads; the result does not depend on it.
+        told: called now and then with how many paths have ended, at infinity, and failed.
 
     Returns:
         The paths; those whose ends ask for more digits have failed.
@@ -201,19 +210,26 @@ def follow(
     # What doubles lost on the way may have come close to other paths there.
     states.most[left.t > settings.radius] = MOST_STEPS
     pending = np.arange(len(left.safe))
+    count = None if told is None else _Count(told)
     for words, digits in DIGITS.items():
         if not len(pending) or digits > settings.digits:
             break
-        pending = _follow_in(homotopy, states, pending, words, settings, threads)
+        pending = _follow_in(homotopy, states, pending, words, settings, threads, count)
+    if count is not None:
+        count.add(homotopy, states, pending)
     return _paths(homotopy, states)
 
 
 def follow_doubtful(
-    homotopy: Homotopy, unfinished: Unfinished, settings: Settings, threads: int = 1
+    homotopy: Homotopy,
+    unfinished: Unfinished,
+    settings: Settings,
+    threads: int = 1,
+    told: Told | None = None,
 ) -> Paths:
     """The same, in blocks where these are kept or shared."""
     if not blocks.in_blocks():
-        return follow(homotopy, unfinished, settings, threads)
+        return follow(homotopy, unfinished, settings, threads, told)
     columns = [getattr(unfinished, each.name) for each in fields(unfinished)]
     calls = [
         (homotopy, *(column[k : k + BLOCK] for column in columns), settings)
@@ -278,6 +294,7 @@ def _follow_in(
     words: int,
     settings: Settings,
     threads: int,
+    count: _Count | None = None,
 ) -> np.ndarray:
     """Follow paths in one arithmetic; those that need the next one."""
     from nag.tracking.ends import end_run
@@ -292,42 +309,76 @@ def _follow_in(
     more = DIGITS[words] < min(settings.digits, max(DIGITS.values()))
     later: list[int] = []
     while len(pending):
-        found = run(homotopy, states, pending, words, settings, threads)
         again: list[int] = []
-        for k, path in enumerate(pending.tolist()):
-            states.digits[path] = DIGITS[words]
-            outcome, at_limit = states.outcome[path], path in states.limits
-            if at_limit and outcome != end_run.REGULAR:
-                states.outcome[path] = end_run.LIMIT
-            elif outcome == end_run.LOST:
-                (again if states.from_its_start(path, words) else later).append(path)
-            elif outcome == end_run.TOO_LONG and states.astray(path):
-                later.append(path)
-            elif outcome == end_run.LIMIT:
-                verdict = _limit(states, limits, path, found[k], needs)
-                if verdict != end_run.LIMIT:
-                    states.outcome[path] = end_run.LOST
-                    # A trial at a limit takes one step, and no path is to be lost for that.
-                    may_go_on = states.steps[path] < states.most[path] or not states.tried[path]
-                    hopeful = verdict == end_run.OPEN and may_go_on
-                    (again if hopeful else later).append(path)
-            elif outcome == end_run.REGULAR:
-                if not _confirm_end(states, path, terms):
-                    # Newton's method converged, but not to a regular zero: go on without it.
-                    states.straight[path] = 0
-                    states.outcome[path] = end_run.LIMIT if at_limit else end_run.LOST
-                    if not at_limit:
-                        again.append(path)
-                    del states.found[path]
-                elif _ambiguous(homotopy, states, path, needs[0], terms) or (
-                    more and _affine_error(homotopy, states, path) > ROUNDED
-                ):
-                    states.ends[path], states.tried[path] = states.found.pop(path), 0
-                    states.limits.pop(path, None)
-                    states.outcome[path] = end_run.LOST
+        for first in range(0, len(pending), STRETCH):
+            chosen = pending[first : first + STRETCH]
+            found = run(homotopy, states, chosen, words, settings, threads)
+            for k, path in enumerate(chosen.tolist()):
+                states.digits[path] = DIGITS[words]
+                outcome, at_limit = states.outcome[path], path in states.limits
+                if at_limit and outcome != end_run.REGULAR:
+                    states.outcome[path] = end_run.LIMIT
+                elif outcome == end_run.LOST:
+                    (again if states.from_its_start(path, words) else later).append(path)
+                elif outcome == end_run.TOO_LONG and states.astray(path):
                     later.append(path)
+                elif outcome == end_run.LIMIT:
+                    verdict = _limit(states, limits, path, found[k], needs)
+                    if verdict != end_run.LIMIT:
+                        states.outcome[path] = end_run.LOST
+                        # A trial at a limit takes one step, and no path is to be lost for that.
+                        may_go_on = states.steps[path] < states.most[path] or not states.tried[path]
+                        hopeful = verdict == end_run.OPEN and may_go_on
+                        (again if hopeful else later).append(path)
+                elif outcome == end_run.REGULAR:
+                    if not _confirm_end(states, path, terms):
+                        # Newton's method converged, but not to a regular zero: go on without it.
+                        states.straight[path] = 0
+                        states.outcome[path] = end_run.LIMIT if at_limit else end_run.LOST
+                        if not at_limit:
+                            again.append(path)
+                        del states.found[path]
+                    elif _ambiguous(homotopy, states, path, needs[0], terms) or (
+                        more and _affine_error(homotopy, states, path) > ROUNDED
+                    ):
+                        states.ends[path], states.tried[path] = states.found.pop(path), 0
+                        states.limits.pop(path, None)
+                        states.outcome[path] = end_run.LOST
+                        later.append(path)
+            if count is not None:
+                count.add(homotopy, states, np.setdiff1d(chosen, [*again, *later]))
         pending = np.array(again, dtype=np.int64)
     return np.array(sorted(later), dtype=np.int64)
+
+
+@dataclass
+class _Count:
+    """Counts paths that have ended, at infinity, and failed, and tells of them."""
+
+    told: Told
+    done: int = 0
+    infinite: int = 0
+    failed: int = 0
+
+    def add(self, homotopy: Homotopy, states: States, ended: np.ndarray) -> None:
+        from nag.tracking.ends import end_run
+
+        for path in ended.tolist():
+            known = states.outcome[path] in (end_run.REGULAR, end_run.LIMIT)
+            self.failed += not known
+            self.infinite += known and not _is_finite(homotopy, states, path)
+        self.done += len(ended)
+        self.told(self.done, self.infinite, self.failed)
+
+
+def _is_finite(homotopy: Homotopy, states: States, path: int) -> bool:
+    """Whether the end of a path, which is known, is finite."""
+    from nag.tracking.ends import end_run
+
+    infinite = list(homotopy.infinity)
+    if states.outcome[path] == end_run.REGULAR:
+        return bool(states.known_coordinates(path)[infinite].all())
+    return bool((states.limits[path].point[infinite] != 0).all())
 
 
 def _confirm_end(states: States, path: int, terms: Terms) -> bool:
@@ -410,11 +461,10 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
     accuracy = np.full(P, np.inf)
     balls: dict[int, Ball] = {}
     branches: dict[int, PathBranch] = {}
-    infinite = list(homotopy.infinity)
     for path in range(P):
         points[path] = states.point(path)
         if states.outcome[path] == end_run.REGULAR:
-            finite = bool(states.known_coordinates(path)[infinite].all())
+            finite = _is_finite(homotopy, states, path)
             status[path] = PathStatus.REGULAR if finite else PathStatus.AT_INFINITY
             own = float(states.errors[path].max())
             accuracy[path] = max(ROUNDING, own, _affine_error(homotopy, states, path))
@@ -423,7 +473,7 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
             limit = states.limits[path]
             points[path], states.winding[path] = limit.point, limit.winding
             branches[path] = PathBranch(limit.winding, limit.orders, limit.branch, limit.bends)
-            finite = bool((limit.point[infinite] != 0).all())
+            finite = _is_finite(homotopy, states, path)
             status[path] = PathStatus.SINGULAR if finite else PathStatus.AT_INFINITY
             accuracy[path] = max(ROUNDING, BEYOND * limit.tail)
         elif path in states.last:
