@@ -36,7 +36,7 @@ from nag.files.solutions_export import export_text as solutions_text
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.solving import end_judgements
 from nag.solving.certificate import certify_solutions
-from nag.tracking.blocks import in_blocks, open_engine
+from nag.tracking.blocks import in_blocks, open_engine, telling
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.ledger import Ledger, add_content, key_of
 from nag.tracking.track import block_in_doubles
@@ -184,6 +184,16 @@ def test_what_is_no_file_is_not_read_and_the_block_is_worked_out_again(
         assert solved(CYCLIC, resume=tmp_path) == plain
     assert {file: file.read_bytes() for file in blocks_in(tmp_path)} == whole
     assert made[0].is_file() and not made[0].is_symlink()
+
+
+def test_what_ended_runs_left_half_written_is_cleared_away_and_nothing_else(tmp_path) -> None:
+    names = {"old": "a.block.1.part", "new": "a.block.2.part", "kept": "a.block", "other": "a.txt"}
+    for name, file in names.items():
+        (tmp_path / file).write_bytes(b"x")
+        if name != "new":
+            os.utime(tmp_path / file, (0, 0))
+    Ledger.open(tmp_path)
+    assert {file.name for file in tmp_path.iterdir()} == {*names.values()} - {names["old"]}
 
 
 def test_a_folder_under_the_name_of_a_block_is_refused_before_any_work(
@@ -525,8 +535,12 @@ def test_certificates_are_found_again_block_by_block(tmp_path, monkeypatch) -> N
             assert proved() == plain
         assert engine is not None and engine.ledger is not None
         assert (engine.ledger.found, engine.ledger.kept) == (found, kept)
-    assert told[:4] == [("proving boxes, blocks", k, 4) for k in range(1, 5)]
-    assert told[4:] == [("proving errors, blocks", k, 4) for k in range(1, 5)]
+    for begin, stage in ((0, "proving boxes"), (4, "proving errors")):
+        assert told[begin : begin + 4] == [(stage, 8 * k, 32) for k in range(1, 5)]
+    alone: list[tuple[str, int, int]] = []
+    with telling(lambda *step: alone.append(step)):
+        assert proved() == plain
+    assert alone == told[:8]
 
 
 def test_what_is_proved_of_an_export_is_kept(tmp_path: Path, capsys) -> None:

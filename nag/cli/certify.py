@@ -51,6 +51,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
             f"{options.export}: is no export; nag certify proves what `nag solve --json FILE` or "
             "`nag decompose --json FILE` wrote, and --certify of these proves it at once"
         )
+    if options.progress is not None:
+        options.progress(f"reading {os.path.basename(options.export)}", 0, 0)
     found, title, lost = read_file(options.export, _read_result)
     proved = certify_result(found, options.paths, lost)
     rows = [("system", system_line(found.system)), *proved.rows]

@@ -166,12 +166,8 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
         return answer.complete
     from nag.text.table import label_lines
 
-    if tell is not None:
-        tell("proof", 0, 0)
-    with shared_work(options):
+    with show_progress(options) as options.progress, shared_work(options):
         rows, proved = answer.proof()
-    if tell is not None:
-        tell.erase()
     write(["", *label_lines(rows)])
     return answer.complete and proved
 
@@ -238,12 +234,12 @@ def shared_work(options: argparse.Namespace) -> Iterator[None]:
         nag.errors.InputError: if either cannot be had.
     """
     resume, executor = (getattr(options, name, None) for name in ("resume", "executor"))
-    if resume is None and executor is None:
+    if resume is None and executor is None and options.progress is None:
         yield
         return
-    from nag.tracking.blocks import open_engine
+    from nag.tracking.blocks import open_engine, telling
 
-    with open_engine(resume, executor, options.progress) as engine:
+    with telling(options.progress), open_engine(resume, executor, options.progress) as engine:
         yield
     if engine is None or engine.ledger is None or not (engine.ledger.damaged or engine.ledger.used):
         return

@@ -30,6 +30,7 @@ from nag.numerics.read_only import Several, equal_values
 from nag.numerics.zero_values import ON
 from nag.solving.parameter_line import parameter_line
 from nag.text.json_text import lay_out
+from nag.text.progress import REMARK, stage_text
 from nag.text.table import align, count_text, data_frame, named_line
 from nag.tracking import blocks
 from nag.tracking.paths import PathStatus
@@ -183,17 +184,29 @@ def sweep(
         run: how it is worked out; its ``found`` is told of the values that are done.
     """
     told, run = run.found, run.without_found
-    rng = run.random(13)
+    how, rng = run, run.random(13)
     general, reason = _general(system_at, values, rng, run)
     swept = []
-    for value in values:
+    for k, value in enumerate(values):
         system = system_at(value)
+        run = _tell_as_value(how, k, len(values))
         call = general, reason, system, value
         read = partial(_unpack_member, system, run)
         swept.append(blocks.keep_result(_member, call, run, _pack_member, read))
         if told is not None and len(swept) < len(values):
             told(list(swept))
     return swept
+
+
+def _tell_as_value(run: Run, done: int, count: int) -> Run:
+    """The same run, whose progress is told as that of the sweep."""
+    if not callable(run.progress):
+        return run
+
+    def tell(stage: str, step: int, steps: int) -> None:
+        run.tell(f"values{REMARK}{stage_text(stage, step, steps)}", done, count)
+
+    return replace(run, progress=tell)
 
 
 def _member(

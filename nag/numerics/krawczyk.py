@@ -47,11 +47,13 @@ MOST_POINTS, BLOCK = 1024, 2**19
 # order, each made when it is needed; how many there are, and what they are called where progress is
 # told.
 Work = Callable[..., Mapping[str, np.ndarray]]
-Share = Callable[[Work, Iterable[tuple[Any, ...]], int, str], Iterable[Mapping[str, np.ndarray]]]
+Share = Callable[
+    [Work, Iterable[tuple[Any, ...]], Sequence[int], str], Iterable[Mapping[str, np.ndarray]]
+]
 
 
 def work_here(
-    work: Work, calls: Iterable[tuple[Any, ...]], count: int, stage: str
+    work: Work, calls: Iterable[tuple[Any, ...]], sizes: Sequence[int], stage: str
 ) -> Iterator[Mapping[str, np.ndarray]]:
     """One after another, here."""
     return (work(*call) for call in calls)
@@ -125,7 +127,7 @@ def boxes_in_doubles(
     boxes = Boxes(copy_rows(points), *blank, none, {})
     blocks = _blocks(len(polynomials) + len(slices), n, P)
     calls = ((tuple(polynomials), slices, points[block]) for block in blocks)
-    done = share(prove_block, calls, len(blocks), "proving boxes")
+    done = share(prove_block, calls, _sizes(blocks), "proving boxes")
     for block, found in zip(blocks, done, strict=True):
         for name in ("outer", "inner", "proved"):
             getattr(boxes, name)[block] = found[name]
@@ -196,7 +198,7 @@ def sharpen_boxes(
         (tuple(polynomials), slices, boxes.centres[some], boxes.inner[some])
         for some in (chosen[block] for block in blocks)
     )
-    found = share(sharpen_radii, calls, len(blocks), "proving errors")
+    found = share(sharpen_radii, calls, _sizes(blocks), "proving errors")
     return join_columns([boxes.inner[:0], *(each["inner"] for each in found)])
 
 
@@ -247,6 +249,10 @@ def _blocks(rows: int, n: int, count: int) -> list[slice]:
     """So many points, as many at once as memory is for."""
     size = min(MOST_POINTS, max(1, BLOCK // max(1, rows * n)))
     return [slice(first, min(first + size, count)) for first in range(0, count, size)]
+
+
+def _sizes(blocks: Sequence[slice]) -> list[int]:
+    return [block.stop - block.start for block in blocks]
 
 
 def _grow(

@@ -35,7 +35,7 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, answers_early
 from nag.tracking.settings import Settings, find_settings, tighten
-from nag.tracking.track import Standing, track
+from nag.tracking.track import PathsSoFar, track
 
 # Digits of evidence, beyond the least, of zeros that are to be told from others beside them.
 SEPARATING = 60
@@ -292,7 +292,7 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
     stage = f"tracking {len(begin.points)} paths"
     run.tell(stage, 0, 0)
 
-    def tell(so_far: Standing) -> None:
+    def tell(so_far: PathsSoFar) -> None:
         name = f"ends of {so_far.total} paths in more digits" if so_far.in_digits else stage
         counts = {
             "doubtful": so_far.doubtful,

@@ -73,6 +73,7 @@ def open_engine(
 
 
 _engine: ContextVar[Engine | None] = ContextVar("engine", default=None)
+_told: ContextVar[Callable[[str, int, int], None] | None] = ContextVar("told", default=None)
 
 
 def in_blocks() -> bool:
@@ -130,28 +131,50 @@ def work_out(
     return [result for result in results if result is not None]
 
 
-def share(work: Work, calls: Iterable[tuple[Any, ...]], count: int, stage: str) -> Iterator[Arrays]:
+def share(
+    work: Work, calls: Iterable[tuple[Any, ...]], sizes: Sequence[int], stage: str
+) -> Iterator[Arrays]:
     """Results of a function for several arguments, in their order, few of them in memory.
 
     They are kept or shared where someone does; a single call is worked out in less time.
 
     Args:
         work, stage: see `work_out`.
-        calls: ``count`` of them, each made when it is needed.
+        calls: each made when it is needed.
+        sizes: for each of them how many points it is of, which are told.
     """
-    chosen = _engine.get()
+    chosen, count = _engine.get(), len(sizes)
     if chosen is None or count < 2:
-        yield from (work(*call) for call in calls)
+        for k, call in enumerate(calls):
+            yield work(*call)
+            tell(stage, sum(sizes[: k + 1]), sum(sizes))
         return
     left = iter(calls)
     for first in range(0, count, at_once()):
 
         def told(done: int, first: int = first) -> None:
             if chosen.tell is not None:
-                chosen.tell(f"{stage}, blocks", first + done, count)
+                chosen.tell(stage, sum(sizes[: first + done]), sum(sizes))
 
         some = list(islice(left, at_once()))
         yield from (found for found, _ in work_out(work, some, stage, 1, told))
+
+
+@contextlib.contextmanager
+def telling(progress: Callable[[str, int, int], None] | None) -> Iterator[None]:
+    """Have what is proved inside told of, where no run is given to it."""
+    token = _told.set(progress)
+    try:
+        yield
+    finally:
+        _told.reset(token)
+
+
+def tell(stage: str, done: int, total: int) -> None:
+    """Tell of a proof's step ``done`` of ``total`` whoever wants to hear of it."""
+    told = _told.get()
+    if told is not None:
+        told(stage, done, total)
 
 
 def keep_result(

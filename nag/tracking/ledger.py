@@ -7,6 +7,7 @@ done. A file appears whole or not at all, and one whose own digest is wrong coun
 
 from __future__ import annotations
 
+import contextlib
 import io
 import os
 import stat
@@ -27,6 +28,9 @@ from nag.errors import InputError
 # How a file begins; what follows are the digests of the block's content and of the rest, the rest.
 MAGIC = b"nag block 1\n"
 DIGEST = 32
+# Seconds, by the folder's clock, after which a block that is still being written is nobody's: to
+# write one takes less than one of them.
+DEAD = 3600.0
 
 Arrays = Mapping[str, np.ndarray]
 
@@ -58,6 +62,7 @@ class Ledger:
             path.mkdir(parents=True, exist_ok=True)
             trial = path / f"{uuid.uuid4().hex}.part"
             trial.touch()
+            _clear_away(path, trial.stat().st_mtime - DEAD)
             trial.unlink()
         except OSError as error:
             raise InputError(f"{folder}: no ledger can be kept there: {error.strerror}") from None
@@ -118,6 +123,15 @@ class Ledger:
 
     def _file(self, key: bytes) -> Path:
         return self.folder / f"{key.hex()}.block"
+
+
+def _clear_away(folder: Path, before: float) -> None:
+    """Remove what was being written then, and never came to its name."""
+    for part in folder.glob("*.part"):
+        # Another run may do the same.
+        with contextlib.suppress(OSError):
+            if part.stat().st_mtime < before:
+                part.unlink()
 
 
 def _packed(arrays: Arrays, key: bytes) -> bytes:

@@ -47,7 +47,7 @@ PATHS_PER_THREAD = 64
 BLOCK, LEAST_BLOCK = 1024, 32
 
 
-class Standing(NamedTuple):
+class PathsSoFar(NamedTuple):
     """How far paths are.
 
     Attributes:
@@ -64,7 +64,7 @@ class Standing(NamedTuple):
     failed: int = 0
 
 
-Tell = Callable[[Standing], None]
+Tell = Callable[[PathsSoFar], None]
 
 
 def track(
@@ -238,7 +238,7 @@ def _attempt(
 
 
 def _tell_in_digits(tell: Tell, total: int, done: int, infinite: int, failed: int) -> None:
-    tell(Standing(done, total, True, infinite=infinite, failed=failed))
+    tell(PathsSoFar(done, total, True, infinite=infinite, failed=failed))
 
 
 def _run_by_stretches(
@@ -263,7 +263,7 @@ def _run_by_stretches(
 
         def told(done: int, first: int = first, open_: int = open_) -> None:
             if tell is not None:
-                tell(Standing(min(first + done * BLOCK, total), total, doubtful=open_))
+                tell(PathsSoFar(min(first + done * BLOCK, total), total, doubtful=open_))
 
         raw = run_in_doubles(homotopy, begin, settings, threads, endgame, told=told)
         paths, regular = _judge_ends(homotopy, raw)
@@ -280,7 +280,7 @@ def _run_by_stretches(
             )
         )
         if tell is not None:
-            tell(Standing(min(first + stretch, total), total, doubtful=open_))
+            tell(PathsSoFar(min(first + stretch, total), total, doubtful=open_))
         yield paths
 
 

@@ -23,6 +23,7 @@ from nag.numerics.certified_points import Proof
 from nag.numerics.coincidence import NEAR, join_labels
 from nag.numerics.discs import Terms
 from nag.numerics.read_only import equal_values
+from nag.tracking import blocks
 from nag.tracking.certified_paths import ProvedZeros, certified_paths, prove_zeros_near
 from nag.tracking.moving_discs import MovingPart, MovingSystem
 from nag.witness.certificate import certify_witness_points
@@ -106,6 +107,7 @@ def prove_all(decomposition: Decomposition, seed: int = 0) -> tuple[ProvedMonodr
     """Loops of all components, in their order; those whose points find no equations have none."""
     found = []
     for k, component in enumerate(decomposition.components):
+        blocks.tell("proving loops of components", k, len(decomposition.components))
         try:
             rng = np.random.default_rng([seed, 19, k])
             found.append(prove_monodromy(decomposition.system, component, rng))
