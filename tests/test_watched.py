@@ -13,6 +13,8 @@ from pathlib import Path
 
 import pytest
 
+ROOT = Path(__file__).parents[1]
+
 # What stands for a stage, in the place of `nag model`: all but the first hold the interpreter.
 STAGES = {
     "Python": "time.sleep(60)",
@@ -80,6 +82,21 @@ def test_ctrl_c_ends_what_holds_the_interpreter_and_the_child_with_it(stage, tmp
     assert process.returncode == 130
     assert out == "" and err.startswith("nag: interrupted after ") and err.count("\n") == 1
     assert is_gone(child)
+
+
+def test_ctrl_c_while_the_program_is_being_loaded_is_one_line() -> None:
+    program = """
+import runpy, sys
+class Interrupt:
+    def find_spec(self, name, path, target=None):
+        if name == "nag.cli.command_line":
+            raise KeyboardInterrupt
+sys.meta_path.insert(0, Interrupt())
+runpy.run_module("nag", run_name="__main__")
+"""
+    command = [sys.executable, "-c", program]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "nag: interrupted\n")
 
 
 @pytest.mark.parametrize("lines", ["['one component']", "[]"])

@@ -27,6 +27,13 @@ call on the way gives them a value, and can be taken by its name; the methods of
 are asked first leave this case to the next ones.
 """
 
-from nag.cli.command_line import main
+import sys
+
+try:
+    from nag.cli.command_line import main
+except KeyboardInterrupt:
+    # Ctrl-C while the program is being loaded ends it as it does later.
+    sys.stderr.write("nag: interrupted\n")
+    sys.exit(130)
 
 __all__ = ["main"]

@@ -21,6 +21,7 @@ from nag.numerics.array_table import ArrayTable
 from nag.numerics.discs import LEAST, UP, Discs, magnitude, rounding_of_sum
 from nag.numerics.doubles import UNIT
 from nag.numerics.krawczyk import invert_matrices
+from nag.text.progress import REMARK
 from nag.tracking import blocks
 from nag.tracking.moving_discs import MovingSystem, times
 
@@ -173,7 +174,7 @@ def certified_paths(
                 steps += int(_try_step(system, state, active[first : first + BLOCK]).sum())
             going = (t[active] > endgame) & (state.step[active] > SHORTEST * t[active])
             active = active[going]
-            blocks.tell("proving paths", P - len(active), P)
+            blocks.tell(f"proving paths{REMARK}{steps} steps", P - len(active), P)
     return CertifiedPaths(t, at, steps, trials)
 
 
