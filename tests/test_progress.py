@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
@@ -10,6 +11,7 @@ import pytest
 
 import nag
 from nag.text.progress_line import progress_line
+from nag.tracking.settings import find_settings
 
 
 class Output:
@@ -68,6 +70,24 @@ def test_a_call_shows_its_progress_and_its_answer_does_not_depend_on_that(
     assert shown == nag.solve(equations, seed=1, start="total")
     assert any("tracking 8 paths: 8 of 8" in text for text in notebook[0].texts)
     assert notebook[0].texts[-1] == ""
+
+
+def test_ends_in_more_digits_are_counted_those_at_infinity_and_failures_by_themselves() -> None:
+    told: list[tuple[str, int, int]] = []
+    few = replace(find_settings("fast"), digits=32)
+    found = nag.solve(
+        ["x^9*y^2 - y - 1", "x^7*y^9 + x^2"],
+        start="total",
+        settings=few,
+        progress=lambda *step: told.append(step),
+    )
+    stages = [step for step in told if step[0].startswith("ends of ")]
+    assert [step[1] for step in stages] == sorted(step[1] for step in stages)
+    ends = found.paths
+    assert ends.at_infinity > 0 and ends.failed > 0
+    remark = f"{ends.at_infinity} to infinity, {ends.failed} failed"
+    count = ends.at_infinity + ends.failed
+    assert stages[-1] == (f"ends of {count} paths in more digits; {remark}", count, count)
 
 
 @pytest.mark.parametrize("given", [False, "bar", 1])

@@ -210,7 +210,7 @@ def follow(
     # What doubles lost on the way may have come close to other paths there.
     states.most[left.t > settings.radius] = MOST_STEPS
     pending = np.arange(len(left.safe))
-    count = None if told is None else _Count(told)
+    count = None if told is None else _Count(told, np.zeros(len(pending), dtype=bool))
     for words, digits in DIGITS.items():
         if not len(pending) or digits > settings.digits:
             break
@@ -346,7 +346,8 @@ def _follow_in(
                         states.outcome[path] = end_run.LOST
                         later.append(path)
             if count is not None:
-                count.add(homotopy, states, np.setdiff1d(chosen, [*again, *later]))
+                left = [*again, *later] if more else again
+                count.add(homotopy, states, np.setdiff1d(chosen, left))
         pending = np.array(again, dtype=np.int64)
     return np.array(sorted(later), dtype=np.int64)
 
@@ -356,19 +357,20 @@ class _Count:
     """Counts paths that have ended, at infinity, and failed, and tells of them."""
 
     told: Told
-    done: int = 0
+    counted: np.ndarray
     infinite: int = 0
     failed: int = 0
 
     def add(self, homotopy: Homotopy, states: States, ended: np.ndarray) -> None:
         from nag.tracking.ends import end_run
 
-        for path in ended.tolist():
+        more = ended[~self.counted[ended]]
+        for path in more.tolist():
             known = states.outcome[path] in (end_run.REGULAR, end_run.LIMIT)
             self.failed += not known
             self.infinite += known and not _is_finite(homotopy, states, path)
-        self.done += len(ended)
-        self.told(self.done, self.infinite, self.failed)
+        self.counted[more] = True
+        self.told(int(self.counted.sum()), self.infinite, self.failed)
 
 
 def _is_finite(homotopy: Homotopy, states: States, path: int) -> bool:
