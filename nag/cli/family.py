@@ -104,6 +104,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     family = _family_by_columns(options, case) if member is None else member.symmetric.original
     own = [0] * len(family.parameters) if member is None else member.values
     given = [complex(v) for v in own]
+    if options.progress is not None:
+        options.progress(f"reading {os.path.basename(options.values)}", 0, 0)
     values = read_member_values(options.values, family.parameters, given)
     values = check_values(family, values)
     start, count = options.start, None if member is None else member.solutions
