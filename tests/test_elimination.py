@@ -82,6 +82,16 @@ def test_slider_crank_loses_one_variable():
     assert crank(lifted) == [0, 0, 0, 0]
 
 
+def test_a_variable_with_a_small_coefficient_is_not_eliminated():
+    circle = "x^2 + y^2 - 1"
+    for line, kept in (("x/50 + y - z", 0), ("x + y/50 - z/100", 1)):
+        result = eliminate_linear(system("x y z", line, circle, "z^2 - z"))
+        assert kept in result.kept
+        # Points on the circle are as far apart as before, but for small factors.
+        slopes = [abs(c) for image in result.images for c in image.terms.values()]
+        assert max(slopes) <= 8
+
+
 def test_a_graph_is_solved_only_when_asked_for():
     curve = system("x y z", "x^2 + y^2 - 1", "z - 4*x^4 - 3*y^3 - x*y - 4")
     solved = eliminate_linear(curve)

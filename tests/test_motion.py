@@ -729,6 +729,97 @@ axis = [1, 2, 2]
 
 
 @pytest.mark.parametrize("seed", range(4))
+def slider_crank(pin: tuple[str, str], slider: str) -> nag.Mechanism:
+    """A crank about the origin with its pin at a point, and a slider at x on the x axis."""
+    up = (0, 0, 1)
+    joints = (
+        nag.Joint("O", "revolute", ("ground", "crank"), (0, 0, 0), up),
+        nag.Joint("B", "revolute", ("crank", "rod"), (*pin, 0), up),
+        nag.Joint("S", "revolute", ("rod", "slider"), (slider, 0, 0), up),
+        nag.Joint("T", "prismatic", ("ground", "slider"), axis=(1, 0, 0)),
+    )
+    return nag.Mechanism("ground", joints)
+
+
+# A rod that is longer than the crank by a hundredth, another that is shorter by 1e-4 of its length,
+# and one that is longer by 1e-6, the last two of them also with a thousandth of the size.
+CRANKS = [
+    (("29/20", "1/50"), "72750023617197/25000000000000"),
+    (("-11/100", "63/100"), "-21941710919393/100000000000000"),
+    (("-11/100000", "63/100000"), "-21941710919393/100000000000000000"),
+    (("24/25", "7/25"), "19200006/10000000"),
+    (("24/25000", "7/25000"), "19200006/10000000000"),
+]
+
+
+@pytest.mark.parametrize("formulation", ["E", "H"])
+@pytest.mark.parametrize(("pin", "slider"), CRANKS)
+def test_circuits_of_slider_cranks_whose_rod_is_nearly_the_crank(
+    pin: tuple[str, str], slider: str, formulation: str
+) -> None:
+    x, y = (float(Fraction(c)) for c in pin)
+    crank, rod = math.hypot(x, y), math.hypot(float(Fraction(slider)) - x, y)
+    short, long = sorted((crank, rod))
+    swing = 2 * math.asin(short / long)
+    # The longer one swings, and the slider goes as far as the shorter one is long, both ways.
+    widths = {"T": 2 * short, "O" if crank == long else "S": swing}
+    for seed in (0, 2, 7):
+        asked = slider_crank(pin, slider)
+        motion = nag.motion(asked, circuit="all", formulation=formulation, seed=seed)
+        assert motion.complete and len(motion.circuits) == 2
+        for circuit in motion.circuits:
+            values, size = circuit.values, motion.scene.size
+            assert joint_errors(motion.scene, circuit.poses).max() < FIT
+            dead = [p.coordinate for p in values.turning]
+            for i, each in enumerate(values.coordinates):
+                if each.name not in widths:
+                    assert values.turns_fully(i) and each.name not in dead
+                    continue
+                width, unit = np.ptp(values.ranges[i]), size if each.name == "T" else 1.0
+                assert abs(width - widths[each.name]) < 1e-8 * unit
+                assert dead.count(each.name) == 2
+
+
+# By 1e-7 from a kite and a rhombus, by 3e-8 and 1e-9 from folding.
+NEARLY_SPECIAL = [
+    ["2", "3", "3 + 1/10000000", "2 + 1/20000000"],
+    ["2", "2 + 1/10000000", "2", "2 + 1/30000000"],
+    ["3", "4 + 3/100000000", "5", "6"],
+    ["3", "4 + 1/1000000000", "5", "6"],
+]
+
+
+@pytest.mark.parametrize("lengths", NEARLY_SPECIAL)
+def test_round_a_motion_joints_reverse_an_even_number_of_times(lengths: list[str]) -> None:
+    sizes = [sum(map(Fraction, length.split(" + "))) for length in lengths]
+    for seed in range(3):
+        motion = nag.motion(four_bar(sizes), circuit="all", seed=seed)
+        assert motion.complete and not any(c.crossings for c in motion.circuits)
+        for circuit in motion.circuits:
+            dead = [p.coordinate for p in circuit.values.turning]
+            for i, each in enumerate(circuit.values.coordinates):
+                turns = circuit.values.turns_fully(i)
+                assert dead.count(each.name) == (0 if turns else 2)
+
+
+@pytest.mark.parametrize("seed", [0, 5])
+def test_motions_that_cross_at_the_reference_pass_it_in_both_formulations(seed: int) -> None:
+    # A parallelogram that is drawn flat.
+    bodies = ["ground", "crank", "coupler", "rocker"]
+    joints = [
+        nag.Joint(name, "revolute", (bodies[k], bodies[(k + 1) % 4]), (x, 0, 0), (0, 0, 1))
+        for k, (name, x) in enumerate(zip("ABCD", (0, "3/2", "11/2", 4), strict=True))
+    ]
+    mechanism = nag.Mechanism("ground", tuple(joints))
+    lengths = []
+    for formulation in "EH":
+        motion = nag.motion(mechanism, formulation=formulation, seed=seed)
+        assert all(circuit.through_reference for circuit in motion.circuits)
+        lengths.append(sorted(circuit.length for circuit in motion.circuits))
+    assert len(lengths[0]) == len(lengths[1]) == 2
+    assert np.allclose(*lengths, rtol=1e-9, atol=0)
+
+
 def test_a_circuit_passes_the_reference_with_whatever_signs_of_euler_parameters(
     tmp_path: Path, seed: int
 ) -> None:

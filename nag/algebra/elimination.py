@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -21,6 +22,9 @@ from nag.algebra.polynomial import (
 )
 from nag.algebra.root_basis import share_a_field
 from nag.algebra.system import PolynomialSystem
+
+# Bits by which coefficients differ that are as good to divide by.
+STEEP = 3
 
 
 @dataclass(frozen=True)
@@ -151,16 +155,21 @@ def _choose_pivot(
     groups: tuple[tuple[int, ...], ...],
     graphs: bool,
 ) -> tuple[int, int] | None:
-    """Equation and variable to solve it for: those that fill in least, lowest degree first."""
+    """Equation and variable to solve it for: those that fill in least, lowest degree first.
+
+    Where several are as good, a variable with a small coefficient is not taken: points that are as
+    far apart as others would be close together in the variables that are left.
+    """
     others = [f.support for f in equations]
     best: tuple[Any, tuple[int, int]] | None = None
     for row, f in enumerate(equations):
         if f.degree < 1 or (f.degree > 1 and not graphs):
             continue
+        steepness = _steepness(f)
         for index in linear_variables(f) & free:
             used_in = [i for i, support in enumerate(others) if index in support and i != row]
             fill = (len(f.terms) - 2) * len(used_in)
-            key = (f.degree, fill, len(f.terms), index, row)
+            key = (f.degree, fill, len(f.terms), steepness[index], index, row)
             if best is not None and key >= best[0]:
                 continue
             affected = [equations[i] for i in used_in]
@@ -169,6 +178,20 @@ def _choose_pivot(
                 continue
             best = key, (row, index)
     return None if best is None else best[1]
+
+
+def _steepness(f: Polynomial) -> dict[int, int]:
+    """For each variable of linear terms how small its coefficient is beside the largest of them."""
+    bits = {e.index(1): _binary_size(c) for e, c in f.terms.items() if sum(e) == 1}
+    most = max(bits.values(), default=0)
+    return {index: (most - own) // STEEP for index, own in bits.items()}
+
+
+def _binary_size(c: Any) -> int:
+    """The binary logarithm of a number's absolute value, within one."""
+    if isinstance(c, Fraction):
+        return abs(c.numerator).bit_length() - c.denominator.bit_length()
+    return math.frexp(abs(complex(c)))[1]
 
 
 def linear_variables(f: Polynomial) -> set[int]:

@@ -27,6 +27,8 @@ from nag.cli.arguments import UsageError
 from nag.cli.running import PRINTED, TellParent, forget_unfinished, take_unfinished
 from nag.text.progress_line import ProgressLine
 
+# The options that name files which are written.
+WRITTEN = ("json", "points", "csv", "html", "out")
 # Seconds in which the child may end by itself, its files cleared away; then it is killed. Ctrl-C is
 # to be obeyed within one.
 GRACE = 0.5
@@ -259,6 +261,14 @@ class _Watch:
         """The exit status, said why if the child did not come to its own end."""
         self._line.erase()
         killed = status < 0
+        if killed:
+            # Loaded by those alone who need it: this process is to start at once.
+            from nag.files.written_file import remove_temporary
+
+            for name in WRITTEN:
+                target = getattr(self._options, name, None)
+                if isinstance(target, str):
+                    remove_temporary(target, self._child)
         if not killed and status != INTERRUPTED:
             # An answer in full has taken the place of what was kept; an error has not.
             self._say_what_is_kept()

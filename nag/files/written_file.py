@@ -31,7 +31,14 @@ def _cannot_write(path: Path, error: OSError) -> TargetError:
 
 
 def _temporary(path: Path) -> Path:
-    return path.with_name(f".nag-{uuid.uuid4().hex}.tmp")
+    return path.with_name(f".nag-{os.getpid()}-{uuid.uuid4().hex}.tmp")
+
+
+def remove_temporary(path: str | os.PathLike[str], process: int) -> None:
+    """Delete what a process that is no more had written in part, beside ``path``."""
+    with contextlib.suppress(OSError, ValueError):
+        for left in Path(path).resolve().parent.glob(f".nag-{process}-*.tmp"):
+            left.unlink(missing_ok=True)
 
 
 def check_target(path: str | os.PathLike[str]) -> None:

@@ -28,7 +28,16 @@ from nag.kinematics.driven import (
     read_poses,
 )
 from nag.kinematics.joint_values import joint_coordinates
-from nag.kinematics.path import NARROWINGS, PLACES, Curve, MeasuredWalk, Path, sample_path
+from nag.kinematics.path import (
+    NARROWINGS,
+    PLACES,
+    Curve,
+    MeasuredWalk,
+    Path,
+    are_singular,
+    interpolate_ahead,
+    sample_path,
+)
 from nag.kinematics.poses import SAME, Poses, join_poses, pose_distances
 from nag.kinematics.rigid_assemblies import (
     Configurations,
@@ -66,6 +75,8 @@ LEAST_SAMPLES, MOST_SAMPLES = 12, 100_000
 BESIDE = 0.1
 # Steps along a curve to a point that may be on it.
 APPROACHES = 6
+# Points on either side of a place, between which a motion is interpolated.
+AROUND = 5
 # Singular configurations of which it is asked which components pass through them.
 MOST_PLACES = 8
 # In sizes: how far bodies are followed that go to infinity, beyond where they come nearest.
@@ -989,6 +1000,11 @@ def _begin_at(curve: Curve, walk: CurveWalk, reference: np.ndarray) -> CurveWalk
     distances = np.linalg.norm(gaps[:-1] + shares[:, None] * steps, axis=1)
     segment = int(distances.argmin())
     target = at[segment]
+    if are_singular(curve, target[None])[0]:
+        passes = _passes_through(walk, segment, target)
+        return (
+            walk.insert(np.array([segment]), target[None]).begin_at(segment + 1) if passes else None
+        )
     point = walk.chart[segment] + shares[segment] * steps[segment]
     ahead = steps[segment] / np.sqrt(squares[segment])
     for _ in range(APPROACHES):
@@ -997,6 +1013,19 @@ def _begin_at(curve: Curve, walk: CurveWalk, reference: np.ndarray) -> CurveWalk
         if np.linalg.norm(point - target) < SAME:
             return walk.insert(np.array([segment]), target[None]).begin_at(segment + 1)
     return None
+
+
+def _passes_through(walk: CurveWalk, segment: int, point: np.ndarray) -> bool:
+    """Whether a walk passes a point, next to which Newton's method may lead to another one."""
+    last = len(walk.chart) - 1
+    if walk.closed:
+        around = (segment + np.arange(1 - AROUND, AROUND + 1)) % last
+    else:
+        around = np.arange(max(segment + 1 - AROUND, 0), min(segment + AROUND, last) + 1)
+    chart = walk.coordinates.make_continuous(walk.chart[around])
+    near = walk.coordinates.align_signs(point[None], chart[len(chart) // 2])[0]
+    between = interpolate_ahead(chart, np.array([near @ (chart[-1] - chart[0])]))
+    return bool(np.linalg.norm(between - near) < SAME)
 
 
 def _sample(

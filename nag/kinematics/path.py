@@ -36,8 +36,8 @@ COSINE, LEAST_CHORD = 0.98, 1e-6
 # become as small between samples as where other motions meet it.
 PROMISING = 0.3
 # Decides: Second least singular value of the equations, over its median along a circuit, at which
-# other motions meet it: it is brought to 1e-8 there.
-SINGULAR = 1e-5
+# other motions meet it: it is brought to 1e-11 there; where they miss it by d it is the root of d.
+SINGULAR = 1e-9
 # How the way between samples is searched for it: places at a time, and how often that is narrowed.
 PLACES, NARROWINGS = 21, 9
 # Points of a motion on each side of a place where rank is lost, in units of how far it is
@@ -178,9 +178,23 @@ class SingularPassage:
         """Points of the motion so far beyond the place, shape ``(k, size)``."""
         # By arc, which is only nearly a smooth function, errors would be across the curve as well.
         ahead = self.chart[-1] - self.chart[0]
-        along = self.chart @ (ahead / np.linalg.norm(ahead))
-        wanted = _interpolation_weights(self.arcs, np.asarray(arcs)) @ along
-        return np.asarray(_interpolation_weights(along, wanted) @ self.chart)
+        wanted = _interpolation_weights(self.arcs, np.asarray(arcs)) @ (self.chart @ ahead)
+        return interpolate_ahead(self.chart, wanted)
+
+
+def interpolate_ahead(chart: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Points on the polynomials through points of a curve in a row, shape ``(k, size)``.
+
+    Args:
+        wanted: the products of these points with the way from the first of the others to the last.
+    """
+    along = chart @ (chart[-1] - chart[0])
+    return np.asarray(_interpolation_weights(along, wanted) @ chart)
+
+
+def are_singular(curve: Curve, chart: np.ndarray) -> np.ndarray:
+    """Whether the equations of a curve lose rank at points of a chart, shape ``(k,)``."""
+    return _second_least(curve, chart) < KERNEL
 
 
 @dataclass(frozen=True, eq=False)
@@ -293,6 +307,9 @@ def _find_passages(
 
     Where the rank is low all along, nothing is said.
     """
+    known = measured.curve.real.meetings
+    if known is not None and not len(known):
+        return ()
     sizes = _second_least(measured.curve, chart)
     usual = float(np.median(sizes))
     if usual < KERNEL:

@@ -124,10 +124,12 @@ def circuits_text(motion: Motion, number: int) -> str:
 def motion_rows(motion: Motion) -> list[tuple[str, str]]:
     """Labelled lines of the whole."""
     rows = [("model", motion.reason), ("mobility", motion.sentence)]
-    for i, component in enumerate(motion.components):
+    for i, (component, curve) in enumerate(zip(motion.components, motion.curves, strict=True)):
         text = f"dimension {component.dimension}, degree {component.degree}"
         own = [c for c in motion.circuits if c.component == i]
-        text += f"; {circuits_text(motion, len(own)) if own else 'no real motion of its own'}"
+        elsewhere = motion.which == "reference" and curve.edges
+        none = circuits_text(motion, 0) if elsewhere else "no real motion of its own"
+        text += f"; {circuits_text(motion, len(own)) if own else none}"
         rows.append(("component" if len(motion.components) == 1 else f"component {i + 1}", text))
     if motion.left_out:
         rows.append(("left out", f"{motion.left_out}, whose motions have more freedoms"))

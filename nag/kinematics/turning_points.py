@@ -10,7 +10,8 @@ from nag.kinematics.joint_values import Coordinate, joint_coordinates, joint_val
 from nag.kinematics.path import Path
 from nag.numerics.read_only import BooleanArray, FixedArrays, IntegerArray, RealArray, equal_values
 
-# Decides: By how much a joint moves that never does: 1e-14 was seen; others moved by 1e-3 and more.
+# Decides: By how much a joint moves that never does, slides beside the size of the mechanism: 1e-14
+# was seen; others moved by 1e-3 and more.
 STILL = 1e-9
 # Shares of the way between samples by which the parabolas through three points narrow.
 NARROWER = (1.0, 0.3, 0.1, 0.03, 0.01)
@@ -71,12 +72,13 @@ def values_along(path: Path) -> Values:
     coordinates = joint_coordinates(scene)
     values = unwrap_angles(coordinates, joint_values(scene, path.poses))
     in_loop = np.array([each.in_loop for each in coordinates], dtype=bool)
-    still = (np.ptp(values, axis=0) < STILL) & in_loop
+    angles = np.array([each.kind == "angle" for each in coordinates], dtype=bool)
+    units = np.where(angles, 1.0, scene.size)
+    still = (np.ptp(values, axis=0) < STILL * units) & in_loop
     whole = np.zeros(len(coordinates), dtype=int)
     if path.closed:
-        angles = np.array([each.kind == "angle" for each in coordinates], dtype=bool)
         whole[angles] = np.round((values[-1] - values[0])[angles] / (2 * np.pi)).astype(int)
-    extremes = _find_extremes(path, coordinates, in_loop & ~still)
+    extremes = _find_extremes(path, coordinates, in_loop & ~still, units)
     turning = _refine(path, coordinates, values, extremes)
     ranges = np.stack([values.min(axis=0), values.max(axis=0)], axis=-1)
     for i, each in enumerate(coordinates):
@@ -102,11 +104,14 @@ class _Extremes:
 
 
 def _find_extremes(
-    path: Path, coordinates: tuple[Coordinate, ...], moving: np.ndarray
+    path: Path, coordinates: tuple[Coordinate, ...], moving: np.ndarray, units: np.ndarray
 ) -> _Extremes:
     """The points of the walk at which coordinates that move reverse.
 
     They are nearer to each other than samples where the curve turns sharply.
+
+    Args:
+        moving: which coordinates do; units: sizes that they are compared with.
     """
     curve, arc = path.curve, path.measured.arc
     poses = curve.poses(path.measured.walk.chart)
@@ -117,10 +122,11 @@ def _find_extremes(
         arc = np.concatenate([[arc[-2] - arc[-1]], arc])
     found = []
     for column in np.flatnonzero(moving).tolist():
-        steps = np.diff(values[:, column])
+        steps = np.diff(values[:, column]) / units[column]
         # A value that stays the same to rounding has no direction of its own.
         signs = np.sign(np.where(np.abs(steps) < STILL / 10, 0.0, steps))
-        before = 0.0
+        # Round a closed motion a coordinate reverses an even number of times.
+        before = next(filter(None, signs[::-1].tolist()), 0.0) if path.closed else 0.0
         for i, sign in enumerate(signs.tolist()):
             if before * sign < 0 and i > 0:
                 found.append((i, column, sign > 0))

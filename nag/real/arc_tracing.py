@@ -28,6 +28,8 @@ CORRECTION = 0.1
 SHRINK = 0.05
 # Part of what a step may be off and turn that makes the next one longer.
 EASY = 0.25
+# Part of the one before that a correction is which rounding keeps from shrinking.
+STALLED = 0.5
 # Newton's corrections that are rounding: certainly, and where they do not shrink any more.
 ARRIVED, ROUNDED = 1e-13, 1e-10
 # Decides: By how much slopes may change in a step, in units in which they are 1 where it begins:
@@ -200,6 +202,17 @@ def _steps_over(
     return over
 
 
+def are_one_step(closure: ProjectiveClosure, points: np.ndarray, goal: np.ndarray) -> np.ndarray:
+    """Whether a smooth point is one step away from others along the curve, shape ``(P,)``.
+
+    Args:
+        points: normalised real points, shape ``(P, size)``; goal: one more, shape ``(size,)``.
+    """
+    goals = closure.align_signs(np.repeat(goal[None], len(points), axis=0), points)
+    tangents = tangents_at(closure, points, goals - points)
+    return _change_of_slopes(closure, points, tangents, goals) < CHANGE
+
+
 @np.errstate(all="ignore")
 def _change_of_slopes(
     closure: ProjectiveClosure, x: np.ndarray, tangent: np.ndarray, found: np.ndarray
@@ -254,10 +267,10 @@ def bring_to_curve(
         x[todo] = closure.normalise(moved)
         if k == 0:
             first[todo] = sizes
-        small = sizes < ARRIVED
+        small, rough = sizes < ARRIVED, sizes < rounding[todo]
         # Rounding keeps the corrections at badly conditioned points from shrinking further.
-        stalled = (sizes > SHRINK * last[todo]) & (sizes < rounding[todo])
-        good[todo] = fine & ((sizes <= SHRINK * last[todo]) | small | stalled)
+        stalled = rough & (sizes > STALLED * last[todo])
+        good[todo] = fine & ((sizes <= SHRINK * last[todo]) | small | rough)
         done[todo] = small | stalled
         last[todo] = sizes
     return x, first, good & done

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from nag.numerics.double_ranks import SINGULAR
-from nag.real.arc_tracing import CHORD, Intervals, TracingError, trace_arcs
+from nag.real.arc_tracing import CHORD, Intervals, TracingError, are_one_step, trace_arcs
 from nag.real.closure import AT_INFINITY, ProjectiveClosure
 from nag.real.curve import (
     PieceKind,
@@ -26,7 +26,7 @@ from nag.real.real_fibres import SpecialFibre, real_fibre
 
 # Angles from the ends of an interval at which arcs are told to which vertices they go, tried in
 # turn; and how much nearer the vertex must be than all others.
-NEAR_END = (0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4)
+NEAR_END = (0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6)
 # Decides: Distance from the vertex that an arc goes to, beside that from the next one; else it is
 # looked nearer to the end.
 NEARER = 0.3
@@ -161,6 +161,11 @@ def _end_of_interval(
     special: SpecialFibre,
     sense: int,
 ) -> _Stop:
+    places = [
+        (v, closure.normalise(special.points[v : v + 1].real)[0])
+        for v in np.flatnonzero(special.real).tolist()
+    ]
+    smooth = [(v, place) for v, place in places if closure.corank_gap(place) >= SINGULAR]
     for near in NEAR_END:
         angle = np.pi - near if sense else near
         points, real = real_fibre(table, closure, interval.at(np.array([angle]))[0])
@@ -171,6 +176,9 @@ def _end_of_interval(
         clear = len(special.points) == 1 or (by_row[:, 0] < NEARER * by_row[:, 1]).all()
         # What is farther from its vertex than a step of tracing may lie beyond it in another chart.
         clear &= bool((by_row[real, 0] < CHORD).all())
+        for v, place in smooth if clear else ():
+            own = _real_points(closure, points[real & (nearest == v)])
+            clear &= bool(are_one_step(closure, own, place).all())
         counts = np.bincount(nearest, minlength=len(special.points))
         if clear and (counts == special.sheets).all() and special.real[nearest[real]].all():
             return _Stop(angle, points, real, nearest)

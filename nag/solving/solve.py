@@ -32,13 +32,16 @@ from nag.solving.start.isotropic import isotropic
 from nag.solving.start.target import StartSystem
 from nag.text.progress import REMARK
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.paths import PathStatus
-from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, answers_early
+from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, TellFound, answers_early
 from nag.tracking.settings import Settings, find_settings, tighten
 from nag.tracking.track import PathsSoFar, track
 
 # Digits of evidence, beyond the least, of zeros that are to be told from others beside them.
 SEPARATING = 60
+# The stream of random numbers of answers that are told early, which change no later one, and the
+# coordinates of ends that are kept for them: with more of these the work goes on behind a ledger.
+EARLY, MOST_EARLY = (1 << 32) + 2, 1 << 19
 
 # Answers what is left of a task by the methods after the one that asks.
 Others = Callable[[SolveTask], SolveResult]
@@ -301,9 +304,25 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
         }
         run.tell(_with_counts(name, counts), so_far.done, so_far.total)
 
-    paths = track(
-        begin.homotopy, begin.points, run.settings, run.threads, known=begin.known, tell=tell
-    )
+    seen: list[Paths] = []
+
+    def first_zeros() -> SolveResult:
+        own = task.problem, begin, reason, Paths.concatenate(seen), run.random(EARLY)
+        return _unfinished(PathSearch.of(task, *own))
+
+    with TellFound(run, first_zeros) as tell_found:
+
+        def tell_all(so_far: PathsSoFar) -> None:
+            tell(so_far)
+            if run.found is None or so_far.ends is None or not len(so_far.ends):
+                return
+            if sum(each.points.size for each in (*seen, so_far.ends)) <= MOST_EARLY:
+                seen.append(so_far.ends)
+                tell_found(True)
+
+        how = run.settings, run.threads
+        paths = track(begin.homotopy, begin.points, *how, known=begin.known, tell=tell_all)
+    seen.clear()
     ends = {
         "to infinity": len(paths.where(PathStatus.AT_INFINITY)),
         "failed": len(paths.where(PathStatus.FAILED)),
@@ -311,12 +330,17 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
     run.tell(_with_counts(f"judging the ends of {len(paths)} paths", ends), 0, 0)
     search = PathSearch.of(task, task.problem, begin, reason, paths, task.rng)
     if run.found is not None:
-        run.found(replace(search.result(), complete=False, notes=(UNFINISHED,)))
+        run.found(_unfinished(search))
     search = _look(search)
     for find in AGAIN:
         if search.completeness is not Completeness.ALL:
             search = find(search)
     return search.result()
+
+
+def _unfinished(search: PathSearch) -> SolveResult:
+    """What would be the answer if the work ended here."""
+    return replace(search.result(), complete=False, notes=(UNFINISHED,))
 
 
 def _with_counts(stage: str, counts: dict[str, int]) -> str:

@@ -54,6 +54,7 @@ class PathsSoFar(NamedTuple):
         done, total: paths that are tracked in doubles, of all; where ``in_digits``, doubtful ones
             that are followed to their ends in more digits, of these.
         doubtful: of those in doubles; infinite, failed: of those in more digits.
+        ends: regular ones that were not told of before.
     """
 
     done: int
@@ -62,6 +63,7 @@ class PathsSoFar(NamedTuple):
     doubtful: int = 0
     infinite: int = 0
     failed: int = 0
+    ends: Paths | None = None
 
 
 Tell = Callable[[PathsSoFar], None]
@@ -280,7 +282,8 @@ def _run_by_stretches(
             )
         )
         if tell is not None:
-            tell(PathsSoFar(min(first + stretch, total), total, doubtful=open_))
+            ends = paths.select_rows(paths.where(PathStatus.REGULAR))
+            tell(PathsSoFar(min(first + stretch, total), total, doubtful=open_, ends=ends))
         yield paths
 
 
