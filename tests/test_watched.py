@@ -13,6 +13,8 @@ from pathlib import Path
 
 import pytest
 
+import nag
+
 ROOT = Path(__file__).parents[1]
 
 # What stands for a stage, in the place of `nag model`: all but the first hold the interpreter.
