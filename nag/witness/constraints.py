@@ -11,6 +11,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
+from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.numerics.read_only import RealArray
 from nag.witness.component_equations import component_system
 from nag.witness.witness import WitnessSet
@@ -30,7 +31,8 @@ class Constraints:
     rank wherever the equations have that rank. They are unique but for an orthogonal matrix, on
     which accelerations, forces and projections do not depend, and which may jump from point to
     point; so do not take differences of values or Jacobians at several points: `curvature` has what
-    equations of motion need. Each equation is divided by its largest coefficient.
+    equations of motion need. Rank and combinations are those in natural coordinates, whatever the
+    units and the place of the mechanism; each equation is divided by its largest coefficient there.
 
     Attributes:
         system: the equations that hold on the component.
@@ -52,7 +54,8 @@ class Constraints:
             ComponentError: if they are not independent there.
         """
         x = self._checked(point, "point")
-        return self._frame(x)[0] @ self._equations.values(x[None])[0].real
+        there = self._natural.points(x[None])
+        return self._frame(x)[0] @ self._equations.values(there)[0].real
 
     def jacobian(self, point: np.ndarray) -> RealArray:
         """Their Jacobian at a real point near the component, of full rank, ``(count, n)``.
@@ -71,13 +74,18 @@ class Constraints:
             ComponentError: if they are not independent there.
         """
         x, v = self._checked(point, "point"), self._checked(velocity, "velocity")
-        series = np.stack([x, v, np.zeros_like(x)], axis=-1)[None]
+        here, along = self._natural.points(x), v / self._natural.sizes
+        series = np.stack([here, along, np.zeros_like(x)], axis=-1)[None]
         second = 2 * self._equations.last_coefficients(series)[0].real
         return self._frame(x)[0] @ second
 
     @cached_property
+    def _natural(self) -> NaturalCoordinates:
+        return natural_coordinates(self.system.polynomials, self.system.n)
+
+    @cached_property
     def _equations(self) -> Evaluator:
-        return Evaluator.of(self.system.polynomials, self.system.n)
+        return Evaluator.of(self._natural.system(self.system).polynomials, self.system.n)
 
     def _checked(self, values: np.ndarray, name: str) -> np.ndarray:
         given = np.asarray(values)
@@ -86,8 +94,8 @@ class Constraints:
         return given.astype(float)
 
     def _frame(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Orthonormal combinations of the equations, ``(count, N)``, and their Jacobian."""
-        whole = self._equations.jacobian(x)
+        """Orthonormal combinations of the equations, ``(count, N)``, and their Jacobian by x."""
+        whole = self._equations.jacobian(self._natural.points(x))
         if np.isrealobj(x):
             whole = whole.real
         left, sizes, _ = np.linalg.svd(whole, full_matrices=False)
@@ -96,11 +104,11 @@ class Constraints:
         last, beyond = padded[self.count - 1], padded[self.count]
         if self.count and not (last > REGULAR * padded[0] and beyond < BEYOND * last):
             raise ComponentError(
-                f"constraints: the equations have no rank {self.count} at the point: it is "
-                "singular, or not on the component"
+                f"constraints: rank {self.count} of the equations is not certain at the point: it "
+                "is singular, not on the component, or far from the origin beside its distances"
             )
         frame = left[:, : self.count].conj().T
-        return frame, frame @ whole
+        return frame, frame @ whole / self._natural.sizes
 
 
 def find_constraints(component: WitnessSet, system: PolynomialSystem | None = None) -> Constraints:
