@@ -728,7 +728,6 @@ axis = [1, 2, 2]
 """
 
 
-@pytest.mark.parametrize("seed", range(4))
 def slider_crank(pin: tuple[str, str], slider: str) -> nag.Mechanism:
     """A crank about the origin with its pin at a point, and a slider at x on the x axis."""
     up = (0, 0, 1)
@@ -820,6 +819,7 @@ def test_motions_that_cross_at_the_reference_pass_it_in_both_formulations(seed: 
     assert np.allclose(*lengths, rtol=1e-9, atol=0)
 
 
+@pytest.mark.parametrize("seed", range(4))
 def test_a_circuit_passes_the_reference_with_whatever_signs_of_euler_parameters(
     tmp_path: Path, seed: int
 ) -> None:
