@@ -6,6 +6,7 @@ import cmath
 import json
 import math
 import random
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -777,6 +778,27 @@ def test_circuits_of_slider_cranks_whose_rod_is_nearly_the_crank(
                 width, unit = np.ptp(values.ranges[i]), size if each.name == "T" else 1.0
                 assert abs(width - widths[each.name]) < 1e-8 * unit
                 assert dead.count(each.name) == 2
+
+
+def test_dead_points_of_slides_do_not_depend_on_where_a_mechanism_is() -> None:
+    pin, slider = ("29/20", "1/50"), "72750023617197/25000000000000"
+    x, y = (float(Fraction(c)) for c in pin)
+    crank, rod = math.hypot(x, y), math.hypot(float(Fraction(slider)) - x, y)
+    away = [10000, -540]
+    # The slide's own place, which means nothing, stays at the origin.
+    joints = [
+        replace(j, point=tuple(p + d for p, d in zip(j.point, (*away, 0), strict=True)))
+        if j.type == "revolute"
+        else j
+        for j in slider_crank(pin, slider).joints
+    ]
+    for formulation in "EH":
+        motion = nag.motion(nag.Mechanism("ground", joints), formulation=formulation)
+        assert motion.scene.size == pytest.approx(max(crank, rod))
+        (circuit,) = motion.circuits
+        ends = sorted(p.value for p in circuit.values.turning if p.coordinate == "T")
+        start = float(Fraction(slider))
+        assert np.allclose(ends, [rod - crank - start, rod + crank - start], rtol=0, atol=1e-9)
 
 
 # By 1e-7 from a kite and a rhombus, by 3e-8 and 1e-9 from folding.

@@ -260,3 +260,14 @@ def test_equations_are_combined_about_the_origin_that_suits_them() -> None:
     assert all(
         answer.complete and len(answer.solutions) == 7 for answer in map(solve, (given, there))
     )
+
+
+def test_terms_that_vanish_far_from_all_zeros_are_no_origin() -> None:
+    # At x = -10000 the linear form is zero on the axis of x, and with it the terms in y and z.
+    equations = "(x/10000 + y/3 + z/5 + 1)^2/4 + x^2 - 1", "y^2 + z^2 - 1"
+    made = nag.system(list(equations), "x y z")
+    assert not any(natural_coordinates(made.polynomials, 3).origin)
+    # Where the same system was translated, so are the unknowns whose own origin is known.
+    away = [f.compose([x - 700 for x in Polynomial.variables(3)]) for f in made.polynomials]
+    x, y, z = natural_coordinates(away, 3).origin
+    assert y == z == 700 != x

@@ -22,6 +22,7 @@ from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.configuration import Configuration, as_entries
 from nag.mechanism.dh import DHEulerModel, DHModel
 from nag.mechanism.framework_model import FrameworkModel
+from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.linkage import LinkageModel
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem
@@ -104,13 +105,20 @@ class Scene(FixedArrays):
     @property
     def centres(self) -> np.ndarray:
         """The middle of each body's joints and named points, in its frame: ``(bodies, 3)``."""
-        places: list[list[np.ndarray]] = [[] for _ in self.bodies]
-        for joint in self.joints:
-            for body, point in zip(joint.bodies, joint.points, strict=True):
-                places[body].append(point)
-        for body, point in self.points.values():
-            places[body].append(point)
+        places = [self._places_on(body) for body in range(len(self.bodies))]
         return np.array([np.mean(own, axis=0) if own else np.zeros(3) for own in places])
+
+    def _places_on(self, body: int) -> list[np.ndarray]:
+        """Joints and named points of a body, in its frame.
+
+        Those of slides are anywhere along or beside them, and count where there are no others.
+        """
+        joints = [joint for joint in self.joints if body in joint.bodies]
+        placed = [joint for joint in joints if "point" in JOINT_TYPES[joint.type].fields]
+        named = [point for own, point in self.points.values() if own == body]
+        if not placed and not named:
+            placed = joints
+        return [j.points[j.bodies.index(body)] for j in placed] + named
 
     @property
     def hanging_joints(self) -> tuple[SceneJoint, ...]:
@@ -138,8 +146,7 @@ class Scene(FixedArrays):
         """The largest distance of two joints of one body; 1 where all are in one place."""
         largest = 0.0
         for body in range(len(self.bodies)):
-            own = [j.points[j.bodies.index(body)] for j in self.joints if body in j.bodies]
-            own += [point for b, point in self.points.values() if b == body]
+            own = self._places_on(body)
             for i, p in enumerate(own):
                 largest = max([largest, *(float(np.linalg.norm(p - q)) for q in own[:i])])
         return largest or 1.0

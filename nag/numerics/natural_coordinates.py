@@ -284,7 +284,9 @@ def _accepted_origin(
     there = Logarithms.of_integers(moved, n)
     after = there.best_scales(near=0.0 if sum(vanishing) > 0 else before)
     each = list(zip(sizes, before.tolist(), after.tolist(), strict=True))
-    kept = [translated or k <= old + LARGER or b <= old for b, old, k in each]
+    # Terms that vanish far from all zeros, as where a linear form of several variables is zero on
+    # the axis of one of them, say nothing of where these are.
+    kept = [k <= old + LARGER or b <= old for b, old, k in each]
     gain = max((b - k for (b, _, k), keep in zip(each, kept, strict=True) if keep), default=-inf)
     several = translated and there.spread(after) > SEVERAL_SIZES
     if gain <= log2(FAR) and not several:
