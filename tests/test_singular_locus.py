@@ -320,3 +320,18 @@ def test_multiple_points_are_singular_with_their_multiplicity(factor: str) -> No
         (multiplicity,) = one.multiplicities.values()
         assert multiplicity == power and one.essential
         assert (one.local.tangent_dimension, one.local.dimension) == (1, 0)
+
+
+def test_a_component_is_not_smooth_because_its_equations_lose_rank_on_more_than_its_points() -> (
+    None
+):
+    # Of the matrices of rank one two of the three minors are given; that of no entries is singular.
+    found = nag.singular(nag.system(["a*e - b*d", "b*f - c*e"], "a b c d e f"))
+    (minors,) = (
+        i for i, c in enumerate(nag.decompose(["a*e - b*d", "b*f - c*e"])) if c.degree == 3
+    )
+    assert minors not in found.smooth and not found.complete
+    assert any("its equations lose rank" in note for note in found.notes)
+    whole = nag.singular(["a*e - b*d", "b*f - c*e", "a*f - c*d"])
+    (origin,) = whole.sets
+    assert origin.dimension == 0 and whole.complete

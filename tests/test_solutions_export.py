@@ -202,3 +202,23 @@ def test_two_options_do_not_name_one_file(tmp_path, capsys) -> None:
     assert main([*told, str(again)]) == 2 and not file.exists()
     assert "--points" in (said := capsys.readouterr().err) and "--json" in said
     assert main(["solve", str(case), "--quiet", "--json", os.devnull, "--points", os.devnull]) == 0
+
+
+@pytest.mark.parametrize("start", ["auto", "total", "polyhedral"])
+@pytest.mark.parametrize(
+    "equations",
+    [
+        ["x^2 + y^2 - sqrt(2)", "x*y - 1/3"],
+        ["x^2 + y^2 - 2", "x*y - 1"],
+        ["x^3 + y^2 + z - 1", "x*y*z - 1", "x + y^2 - z"],
+    ],
+)
+def test_what_was_written_is_equal_when_it_is_read(
+    equations: list[str], start: str, tmp_path: Path
+) -> None:
+    solved = nag.solve(equations, start=start)
+    nag.write(solved, tmp_path / "solved.json")
+    again = nag.read(tmp_path / "solved.json")
+    assert again == solved and list(again) == list(solved) and again.larger == solved.larger
+    assert all(solution in list(again) for solution in solved)
+    assert solved != nag.solve(equations[1:] + ["x + y - 5"] * (len(equations) - 1))

@@ -269,6 +269,18 @@ class _SingularSearch:
             self.proved.append(i)
         self.candidates += [replace(one, source=(i,)) for one in found.sets]
 
+    def leave_open(self, i: int, dimension: int, judged: SingularSet | None) -> None:
+        """A set on which the equations of a component lose rank, and it is smooth in general.
+
+        Its own singular points on such a set are not told apart from the others there.
+        """
+        if i in self.examined and (judged is None or judged.multiplicities.get(i, 1) == 1):
+            self.examined.remove(i)
+            self.notes.append(
+                f"component {i + 1}: its equations lose rank on a set of dimension {dimension} "
+                "where it is smooth in general; at which points of that it is singular is not known"
+            )
+
     def told(self) -> SingularLocus:
         """What is known by now: which components are smooth, and no singular points yet."""
         singular = {i for one in self.candidates for i in one.source}
@@ -448,6 +460,8 @@ def _judge_candidates(
             if not all(candidate.is_apart_from(seen[i]) for i in same):
                 continue
         judged = _judge_candidate(search, candidate, rng, run)
+        if candidate.dimension and len(candidate.source) == 1:
+            search.leave_open(*candidate.source, candidate.dimension, judged)
         if judged is None:
             continue
         if candidate.dimension == 0:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, field, fields
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -59,7 +59,7 @@ class Solution(FixedArrays):
             solution that of the deflated system.
         precision: decimal digits of the arithmetic that was needed.
         radii: errors of the coordinates, absolute, shape ``(n,)``; None where only ``accuracy`` is
-            known.
+            known, as from an export. Solutions are equal whatever these are.
     """
 
     point: ComplexArray
@@ -69,7 +69,7 @@ class Solution(FixedArrays):
     accuracy: float
     condition: float
     precision: int
-    radii: RealArray | None = None
+    radii: RealArray | None = field(default=None, compare=False)
 
     __eq__ = equal_values
 
@@ -212,9 +212,12 @@ class LargerSets(FixedArrays):
     excluded: ComplexArray
     doubtful: ComplexArray
 
+    __eq__ = equal_values
+
     def __post_init__(self) -> None:
-        for field in fields(self):
-            object.__setattr__(self, field.name, fixed_array(getattr(self, field.name)))
+        for each in fields(self):
+            points = fixed_array(getattr(self, each.name), np.complex128)
+            object.__setattr__(self, each.name, points)
 
     @classmethod
     def of(cls, n: int, points: Sequence[tuple[np.ndarray, bool | None]] = ()) -> LargerSets:
@@ -334,7 +337,7 @@ class SolveResult(Several[Solution]):
             points = getattr(self, name)
             if points is None:
                 points = np.zeros((0, self.system.n), dtype=complex)
-            object.__setattr__(self, name, fixed_array(points))
+            object.__setattr__(self, name, fixed_array(points, np.complex128))
 
     @classmethod
     def of(
