@@ -836,3 +836,17 @@ def test_singular_takes_variables_whatever_they_are_called(tmp_path: Path) -> No
         command, input=script, capture_output=True, text=True, timeout=60
     ).stdout
     assert printed.split() == [str(len(names))]
+
+
+@pytest.mark.parametrize("name", ["I", "K"])
+def test_what_a_program_of_macaulay2_makes_of_an_ideal_is_left_alone(
+    name: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "ideal.m2"
+    given = f"R = QQ[x,y,z]\n{name} = ideal(x*y, x*z)\n"
+    for line in (f"J = {name}", f"d = dim {name}", f"P = decompose {name}; {name}"):
+        file.write_text(given + line)
+        assert nag.read(file).system == nag.system(["x*y", "x*z"], "x y z")
+    file.write_text(f"{given}J = {name} + ideal(x - z^2)")
+    with pytest.raises(nag.InputError, match="line 3, column 5: sums of ideals are not read"):
+        nag.read(file)

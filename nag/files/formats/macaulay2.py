@@ -29,6 +29,8 @@ _QUOTED = re.compile(r'\bideal\b[ \t(]*"')
 # A number as an element of a ring, 0_R.
 _IN_RING = re.compile(r"\b([0-9]+)(_[A-Za-z]\w*)\b")
 _IDEAL = re.compile(r"\bideal[ \t]*\(")
+_NAME = re.compile(r"[A-Za-z]\w*")
+_SUMS = "sums of ideals are not read; write one ideal(..., ...)"
 _ASSIGNED = re.compile(r"\s*([A-Za-z]\w*)\s*:?=(?!=)\s*")
 _OF_LIST = re.compile(r"ideal\b\s*\(?\s*([A-Za-z]\w*)\s*\)?")
 _LISTED = re.compile(r"(?:(?:ideal|polySystem|matrix)\b\s*)?([({])")
@@ -99,6 +101,10 @@ def read(source: SourceFile) -> GivenSystem:
         if polynomials is not None:
             ideals.append((statement, polynomials))
             lists |= {assigned[1]} if assigned else set()
+        elif assigned and lists & set(_NAME.findall(right.text)):
+            # What a program goes on to make of the ideal; another ideal may be the one meant.
+            if _IDEAL.search(right.text):
+                source.fail(right.offset, _SUMS)
         elif assigned:
             definitions[assigned[1]] = right
     if not ideals:
@@ -120,7 +126,7 @@ def _is_of_unit(field: re.Match[str]) -> bool:
 def _refuse_operations(source: SourceFile, start: int) -> None:
     """Refuse an operation that would make an ideal, by its name, and other ways to write one."""
     for pattern, message in (
-        (_SUM, "sums of ideals are not read; write one ideal(..., ...)"),
+        (_SUM, _SUMS),
         (_QUOTED, "polynomials in quotes are not read; write ideal(..., ...), with '*' and '^'"),
     ):
         written = pattern.search(source.text, start)
