@@ -36,7 +36,7 @@ from nag.files.solutions_export import export_text as solutions_text
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.solving import end_judgements
 from nag.solving.certificate import certify_solutions
-from nag.tracking.blocks import in_blocks, open_engine, telling
+from nag.tracking.blocks import in_blocks, open_engine, tell_proofs_to
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.ledger import Ledger, add_content, key_of
 from nag.tracking.track import block_in_doubles
@@ -538,7 +538,7 @@ def test_certificates_are_found_again_block_by_block(tmp_path, monkeypatch) -> N
     for begin, stage in ((0, "proving boxes"), (4, "proving errors")):
         assert told[begin : begin + 4] == [(stage, 8 * k, 32) for k in range(1, 5)]
     alone: list[tuple[str, int, int]] = []
-    with telling(lambda *step: alone.append(step)):
+    with tell_proofs_to(lambda *step: alone.append(step)):
         assert proved() == plain
     assert alone == told[:8]
 

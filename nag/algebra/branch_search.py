@@ -125,7 +125,7 @@ class Search:
     def finer(self, leaf: State) -> Iterator[State]:
         """The branches of a branch whose equations are irreducible; itself where it has none."""
         found = consequences([product_of(e) for e in leaf.equations])
-        more = self.telling(leaf, found) if found is not None else []
+        more = self.find_telling_equations(leaf, found) if found is not None else []
         needed = 0 if found is None else found.codimension
         if more:
             state = replace(leaf, equations=(*leaf.equations, *more))
@@ -144,7 +144,7 @@ class Search:
         self._count(leaf)
         yield leaf
 
-    def telling(self, leaf: State, found: Consequences) -> list[Equation]:
+    def find_telling_equations(self, leaf: State, found: Consequences) -> list[Equation]:
         """Consequences of a branch's equations that say more when factors are excluded."""
         excluded = {p.key for p in leaf.excluded}
         given = {p.key for e in leaf.equations for p in e}

@@ -237,9 +237,12 @@ def shared_work(options: argparse.Namespace) -> Iterator[None]:
     if resume is None and executor is None and options.progress is None:
         yield
         return
-    from nag.tracking.blocks import open_engine, telling
+    from nag.tracking.blocks import open_engine, tell_proofs_to
 
-    with telling(options.progress), open_engine(resume, executor, options.progress) as engine:
+    with (
+        tell_proofs_to(options.progress),
+        open_engine(resume, executor, options.progress) as engine,
+    ):
         yield
     if engine is None or engine.ledger is None or not (engine.ledger.damaged or engine.ledger.used):
         return

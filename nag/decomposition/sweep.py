@@ -192,7 +192,7 @@ def sweep(
         run = _tell_as_value(how, k, len(values))
         call = general, reason, system, value
         read = partial(_unpack_member, system, run)
-        swept.append(blocks.keep_result(_member, call, run, _pack_member, read))
+        swept.append(blocks.keep_result(_find_components_at, call, run, _pack_member, read))
         if told is not None and len(swept) < len(values):
             told(list(swept))
     return swept
@@ -209,7 +209,7 @@ def _tell_as_value(run: Run, done: int, count: int) -> Run:
     return replace(run, progress=tell)
 
 
-def _member(
+def _find_components_at(
     general: _General | None, reason: str, system: PolynomialSystem, value: Fraction, run: Run
 ) -> Swept:
     """The components at a value: followed from a general one, unless there is a reason not to."""
@@ -227,7 +227,7 @@ def _member(
     return Swept(value, answer, not why, paths, why)
 
 
-def _decomposed(system: PolynomialSystem, run: Run) -> Decomposition:
+def _decompose_alone(system: PolynomialSystem, run: Run) -> Decomposition:
     return decompose(system, run=run)
 
 
@@ -275,7 +275,7 @@ def _general(
     start = first + (last - first) * Fraction(int(rng.integers(1, 10**6)), 10**6 + 3)
     system = system_at(start)
     read = partial(_unpack, system, run)
-    answer = blocks.keep_result(_decomposed, (system,), run, _pack, read)
+    answer = blocks.keep_result(_decompose_alone, (system,), run, _pack, read)
     if not answer.complete:
         return None, "the components for a general value are not all known"
     if not answer.components:

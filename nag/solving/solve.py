@@ -308,16 +308,17 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
 
     def first_zeros() -> SolveResult:
         own = task.problem, begin, reason, Paths.concatenate(seen), run.random(EARLY)
-        return _unfinished(PathSearch.of(task, *own))
+        return _result_so_far(PathSearch.of(task, *own))
 
     with TellFound(run, first_zeros) as tell_found:
 
         def tell_all(so_far: PathsSoFar) -> None:
             tell(so_far)
-            if run.found is None or so_far.ends is None or not len(so_far.ends):
+            if run.found is None or so_far.paths is None:
                 return
-            if sum(each.points.size for each in (*seen, so_far.ends)) <= MOST_EARLY:
-                seen.append(so_far.ends)
+            ends = so_far.paths.select_rows(so_far.paths.where(PathStatus.REGULAR))
+            if len(ends) and sum(each.points.size for each in (*seen, ends)) <= MOST_EARLY:
+                seen.append(ends)
                 tell_found(True)
 
         how = run.settings, run.threads
@@ -330,7 +331,7 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
     run.tell(_with_counts(f"judging the ends of {len(paths)} paths", ends), 0, 0)
     search = PathSearch.of(task, task.problem, begin, reason, paths, task.rng)
     if run.found is not None:
-        run.found(_unfinished(search))
+        run.found(_result_so_far(search))
     search = _look(search)
     for find in AGAIN:
         if search.completeness is not Completeness.ALL:
@@ -338,7 +339,7 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
     return search.result()
 
 
-def _unfinished(search: PathSearch) -> SolveResult:
+def _result_so_far(search: PathSearch) -> SolveResult:
     """What would be the answer if the work ended here."""
     return replace(search.result(), complete=False, notes=(UNFINISHED,))
 

@@ -161,7 +161,7 @@ def share(
 
 
 @contextlib.contextmanager
-def telling(progress: Callable[[str, int, int], None] | None) -> Iterator[None]:
+def tell_proofs_to(progress: Callable[[str, int, int], None] | None) -> Iterator[None]:
     """Have what is proved inside told of, where no run is given to it."""
     token = _told.set(progress)
     try:

@@ -54,7 +54,7 @@ class PathsSoFar(NamedTuple):
         done, total: paths that are tracked in doubles, of all; where ``in_digits``, doubtful ones
             that are followed to their ends in more digits, of these.
         doubtful: of those in doubles; infinite, failed: of those in more digits.
-        ends: regular ones that were not told of before.
+        paths: those of doubles that were not told of before; the ends of doubtful ones have failed.
     """
 
     done: int
@@ -63,7 +63,7 @@ class PathsSoFar(NamedTuple):
     doubtful: int = 0
     infinite: int = 0
     failed: int = 0
-    ends: Paths | None = None
+    paths: Paths | None = None
 
 
 Tell = Callable[[PathsSoFar], None]
@@ -282,8 +282,7 @@ def _run_by_stretches(
             )
         )
         if tell is not None:
-            ends = paths.select_rows(paths.where(PathStatus.REGULAR))
-            tell(PathsSoFar(min(first + stretch, total), total, doubtful=open_, ends=ends))
+            tell(PathsSoFar(min(first + stretch, total), total, doubtful=open_, paths=paths))
         yield paths
 
 
