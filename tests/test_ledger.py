@@ -445,6 +445,8 @@ def test_commands_work_under_mpi(tmp_path: Path, expected: str) -> None:
     system.write_text("\n".join(EQUATIONS) + "\n")
     words = ["solve", str(system), "--executor", "mpi", "--seed", "2", "--json", str(answer)]
     mine = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    # More workers than processors: by Open MPI 4 and by 5.
+    mine |= {"OMPI_MCA_rmaps_base_oversubscribe": "1"}
     mine |= {"PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe"}
     command = ["mpiexec", "-n", "3", sys.executable, "-m", "mpi4py.futures", "-m", "nag", *words]
     subprocess.run(command, cwd=ROOT, env=mine, check=True, capture_output=True, timeout=60)
