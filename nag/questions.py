@@ -216,8 +216,8 @@ def write(
     Components, solutions, samples and singular points are written as ``nag decompose``,
     ``nag solve``, ``nag sample`` and ``nag singular`` do with ``--json``. Cases, mechanisms, their
     models, parts and systems are written as cases, in TOML: `read` gives a `nag.Case`, equal to the
-    one that was written, or whose ``mechanism``, ``assembly`` or ``system`` is. Of a motion a page
-    in which it moves is written, in HTML, which is not read. Other results are kept by `pickle`.
+    one that was written, or in which ``described`` is what was written. Of a motion a page in which
+    it moves is written, in HTML, which is not read. Other results are kept by `pickle`.
 
     Args:
         result: what `nag.decompose`, `nag.intersect`, `nag.solve`, `nag.sample` or `nag.singular`
@@ -245,7 +245,7 @@ def write(
     ...     nag.write(circle, f"{folder}/circle.json")
     ...     nag.write(four_bar, f"{folder}/bars.toml", title="four bars")
     ...     nag.read(f"{folder}/circle.json") == circle
-    ...     nag.read(f"{folder}/bars.toml").assembly.linkage == four_bar
+    ...     nag.read(f"{folder}/bars.toml").described == four_bar
     True
     True
     """

@@ -624,7 +624,7 @@ def test_real_realisations_of_a_solved_framework_have_its_lengths(tmp_path, caps
     printed = capsys.readouterr().out
     document = json.loads(file.read_text())
     jsonschema.validate(document, schema("nag-solutions"))
-    framework = read_case(given).described.framework
+    framework = read_case(given).described
     assert len(document["realisations"]) == 8
     for each in document["realisations"]:
         at = {name: np.array(place) for name, place in each["places"].items()}

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +12,8 @@ import pytest
 from linkages import CASES
 
 import nag
+from nag.mechanism.dh import Row
+from nag.mechanism.joint_types import JOINT_TYPES
 
 SHIPPED = sorted(path.relative_to(CASES).as_posix() for path in CASES.rglob("*.toml"))
 
@@ -35,16 +40,71 @@ def test_values_that_were_set_are_those_of_the_case(tmp_path: Path) -> None:
     assert not again(case, tmp_path).truth
 
 
-def test_parts_are_read_again(tmp_path: Path) -> None:
+@cache
+def parts() -> dict[str, Any]:
+    """Something of every kind that a case describes."""
     placed = nag.Framework.of({"A": (0, 0), "B": ("1/3", 0.25), "C": (1, "sqrt(2)")}, ["AB", "BC"])
     by_lengths = nag.Framework.of("ABC", ["AB", "BC", "CA"], [3, "sqrt(5)", 4])
     plate = {"P": (0, 0), "Q": (2, 0), "R": (1, "1/7")}
     linkage = nag.Linkage.of({"base": plate, "rod": ("P", "S", 2), "other": "QS3"}, "base")
     rows = [{"a": "5/3", "alpha": "pi/3"}, {"a": 1, "d": "1/2", "alpha": 0}, {"alpha": "pi"}]
     table = nag.DHLoop.of([*rows, {"a": 1, "alpha": "pi/2", "theta": "pi/5"}])
-    for part, name in ((placed, "framework"), (by_lengths, "framework"), (linkage, "linkage")):
-        assert getattr(again(part, tmp_path).assembly, name) == part
-    assert again(table, tmp_path).assembly.loop == table
+    angles = ["2*pi/7", "pi/8", "pi/12", "1/2", "-3*pi/5", "sqrt(2)"]
+    six = nag.DHLoop.of([{"a": 1, "d": "1/3", "alpha": angle} for angle in angles])
+    sides = ["AB", "BC", "CA", "AD", "BD", "CD"]
+    closed = nag.DHLoop.of([{"a": 1, "alpha": 0, "theta": "pi/2"}] * 4)
+    steps = [(name, JOINT_TYPES[name]) for name in JOINT_TYPES]
+    joints, given = (
+        [],
+        {"point": (0, "1/3", "sqrt(2)"), "axis": (0, 1, 2), "second_axis": (1, 0, 0)},
+    )
+    for i, (name, of_type) in enumerate(steps):
+        vectors = {key: given[key] for key in of_type.fields}
+        joints.append(nag.Joint(f"J {i}", name, (f"b{i}", f"b{(i + 1) % len(steps)}"), **vectors))
+    bodies = [nag.Body("b1", ("1/2", "1/2", "1/2", "1/2"))]
+    return {
+        "framework by places": placed,
+        "framework by lengths": by_lengths,
+        "framework in space": nag.Framework.of("ABCD", sides, [3, 4, 5, 4, 4, 4], dimension=3),
+        "linkage": linkage,
+        "table": table,
+        "table of many angles": six,
+        "closed table": closed,
+        "mechanism of all joints": nag.Mechanism("b0", tuple(joints), tuple(bodies)),
+        "system": nag.system(["x^2 - I*y", "y - sqrt(2)"], imaginary="I"),
+    }
+
+
+@pytest.mark.parametrize("kind", parts())
+def test_parts_are_read_again_as_the_same_kind_of_thing(kind: str, tmp_path: Path) -> None:
+    part = parts()[kind]
+    case = again(part, tmp_path)
+    assert type(case.described) is type(part) and case.described == part
+    assert again(case, tmp_path) == case
+    if "of all joints" not in kind:
+        assert nag.model(case) == nag.model(part)
+
+
+def test_half_angles_of_any_scale_are_one(tmp_path: Path) -> None:
+    row, other = (Row("J", 1, 0, (c, s)) for c, s in ((1, 2), (Fraction(-1, 3), Fraction(-2, 3))))
+    assert row == other and row.alpha == other.alpha == (1, 2)
+    assert Row("J", 1, 0, (0, -3)).alpha == (0, 1)
+
+
+def test_a_title_changes_nothing_else(tmp_path: Path) -> None:
+    case = nag.read_case(CASES / "planar" / "four-bar.toml")
+    titled = again(case, tmp_path, title="another one")
+    assert titled.title == "another one" and replace(titled, title=case.title) == case
+
+
+def test_robots_are_read_again_as_mechanisms_with_what_is_known(tmp_path: Path) -> None:
+    page = (CASES.parent / "docs" / "formats.md").read_text()
+    for name, language in (("bar.urdf", "xml"), ("robot.toml", "toml")):
+        block = page.partition(f"```{language}\n")[2].partition("```")[0]
+        (tmp_path / name).write_text(block)
+    case = nag.read(tmp_path / "robot.toml")
+    assert isinstance(case, nag.Case) and case.truth and case.parameters
+    assert again(case, tmp_path) == case
 
 
 def test_systems_mechanisms_and_models_are_read_again(tmp_path: Path) -> None:

@@ -51,11 +51,11 @@ def case_text(given: Any, title: str = "") -> str:
     Raises:
         NagError: if a case file cannot say it; one line says what.
     """
-    if isinstance(given, Case) and not title:
-        own = _text_of_case(given)
+    if isinstance(given, Case):
+        own = _text_of_case(given, title)
         if own is not None:
             return own
-        title = given.title
+        title = title or given.title
     tables = _tables_of(given)
     return _toml({"title": title or _title_of_kind(tables["kind"]), **tables})
 
@@ -65,16 +65,23 @@ def _title_of_kind(kind: str) -> str:
     return {"system": "a polynomial system", "dh": "a loop of joints"}.get(kind, f"a {kind}")
 
 
-def _text_of_case(case: Case) -> str | None:
-    """The text of a case in TOML, with the values that were set; None of another format."""
+def _text_of_case(case: Case, title: str) -> str | None:
+    """The text of a case in TOML, with the values that were set and the title that is given.
+
+    None of another format.
+    """
     if case.format != "toml" or not case.text:
         return None
     values = parse_toml(case.path, case.text)
     if values["kind"] == "robot":
         # What its file says of the robot may not be there, where the case is written to.
         return None
-    if not case.set:
+    if title:
+        values["title"] = title
+    elif not case.set:
         return case.text
+    if not case.set:
+        return _toml(values)
     changed = with_values(parameter_table(case.path, values), case.set).values
     values["parameters"] = {name: _plain(value) for name, value in changed.items()}
     if not case.truth and case.truth_at_reference is None:
@@ -91,8 +98,8 @@ def _tables_of(given: Any) -> dict[str, Any]:
     """
     if isinstance(given, Case):
         parameters = {name: _plain(value) for name, value in given.parameters.items()}
-        own = {"parameters": parameters} if parameters and given.mechanism is None else {}
-        return _tables_of(given.described) | own
+        own = {"parameters": parameters} if parameters else {}
+        return _tables_of(given.described) | own | _of_truth(given)
     if isinstance(given, Problem):
         if given.model is not None:
             return _tables_of(given.model)
@@ -108,6 +115,18 @@ def _tables_of(given: Any) -> dict[str, Any]:
         if isinstance(given, kind):
             return tables(given)
     raise NagError(f"result: {value_text(given)} is given; it is nothing that a case describes")
+
+
+def _of_truth(case: Case) -> dict[str, Any]:
+    """What a case says is known."""
+    plain = [
+        {k: v for k, v in vars(t).items() if v is not None and (k != "source" or v)}
+        for t in case.truth
+    ]
+    at_reference = case.truth_at_reference
+    reference = {} if at_reference is None else {"reference": vars(at_reference)}
+    known = {**({"component": plain} if plain else {}), **reference}
+    return {"truth": known} if known else {}
 
 
 def _of_system(system: PolynomialSystem) -> dict[str, Any]:
@@ -194,10 +213,7 @@ def _half(name: str, half: HalfAngle) -> tuple[str, str]:
     cosine, sine = half
     if is_zero(cosine):
         return name, "pi"
-    if is_zero(sine) and cosine == 2:
-        # As the angle itself gives it.
-        return name, "0"
-    return f"{name}_half_tangent", number_text(sine / cosine)
+    return (name, "0") if is_zero(sine) else (f"{name}_half_tangent", number_text(sine))
 
 
 # What parts a model of assemblies is of.

@@ -47,7 +47,10 @@ from nag.text.table import lines_of, one_line
 if TYPE_CHECKING:
     from nag.algebra.symmetric_family import FamilyMember
     from nag.mechanism.assembly import AssemblyModel
+    from nag.mechanism.dh import DHLoop
+    from nag.mechanism.framework import Framework
     from nag.mechanism.graph import Mechanism
+    from nag.mechanism.linkage import Linkage
 
 __all__ = ["Case", "CaseError", "NamedPoint", "Truth", "TruthAtReference", "read_case"]
 
@@ -165,8 +168,9 @@ class Case:
     """A case file, read and checked. Either `system` or `mechanism` is there.
 
     `symmetries` are those that the file declares; each was verified exactly on the equations.
-    `family` is the one that the file declares the system to belong to. Where the file gives the
-    parts of a mechanism but not how they are assembled, `system` is that of `assembly`. What the
+    `family` is the one that the file declares the system to belong to. Of a framework, a linkage
+    and a table of joints these are `parts`; where they do not fix how they are assembled,
+    `assembly` is the model of all ways, and `system` is its own. What the
     `notes` say is what numbers of a robot's file were taken for, and what is not used. What the
     file says is known, of components (`truth`) or at the reference configuration alone
     (`truth_at_reference`), is left out where parameters were given other values.
@@ -182,6 +186,7 @@ class Case:
     truth: tuple[Truth, ...] = ()
     symmetries: tuple[SignedPermutation, ...] = ()
     family: FamilyMember | None = None
+    parts: Framework | Linkage | DHLoop | None = None
     assembly: AssemblyModel | None = None
     truth_at_reference: TruthAtReference | None = None
     notes: tuple[str, ...] = field(default=(), compare=False)
@@ -202,8 +207,14 @@ class Case:
         return lines_of(f'Case "{self.title}"', [*rows, ("describes", described)])
 
     @property
-    def described(self) -> Mechanism | AssemblyModel | PolynomialSystem:
+    def described(self) -> Mechanism | Framework | Linkage | DHLoop | PolynomialSystem:
         """What the file describes: a mechanism, parts of one, or equations."""
+        given = self.modelled if self.parts is None else self.parts
+        return given  # type: ignore[return-value]
+
+    @property
+    def modelled(self) -> Mechanism | AssemblyModel | PolynomialSystem:
+        """What is asked about: a mechanism, the model of all ways to assemble it, equations."""
         if self.mechanism is not None:
             return self.mechanism
         given = self.system if self.assembly is None else self.assembly
@@ -327,9 +338,9 @@ def _case_of_text(
         parameters = changed
     numbers = _Numbers(parameters, budget)
     if kind != "system":
-        made, notes = _read_parts(kind, top, numbers.number)
+        parts, made, notes = _read_parts(kind, top, numbers.number)
         case = _assembly_case(made, title=title, kind=kind, path=path, truth=truth, of=parameters)
-        case = replace(case, truth_at_reference=at_reference, notes=notes)
+        case = replace(case, truth_at_reference=at_reference, notes=notes, parts=parts)
         return _with_points(case, top, numbers)
     system, family = _read_system(top, numbers)
     return Case(
@@ -471,30 +482,30 @@ def freed_system(case: Case, names: Sequence[str]) -> PolynomialSystem:
 
 def _read_parts(
     kind: str, top: CaseTable, number: ReadNumber
-) -> tuple[AssemblyModel | Mechanism, tuple[str, ...]]:
-    """The model of all assemblies, or a mechanism where the case fixes how it is assembled; notes.
+) -> tuple[Framework | Linkage | DHLoop | None, AssemblyModel | Mechanism, tuple[str, ...]]:
+    """What parts are given, what they make, and the notes of `Case`.
 
-    The notes are those of `Case`.
+    They make the model of all assemblies, or a mechanism where that is fixed.
     """
     if kind == "robot":
         from nag.files.robot_case import read_robot_case
 
-        return read_robot_case(top, number)
+        return None, *read_robot_case(top, number)
     if kind == "mechanism":
         from nag.files.mechanism_case import read_mechanism
 
-        return read_mechanism(top, number), ()
+        return None, read_mechanism(top, number), ()
     if kind == "dh":
         from nag.files.dh_case import read_dh
 
-        return read_dh(top, number), ()
+        return *read_dh(top, number), ()
     if kind == "framework":
         from nag.files.framework_case import read_framework
 
-        return read_framework(top, number), ()
+        return *read_framework(top, number), ()
     from nag.files.linkage_case import read_linkage
 
-    return read_linkage(top, number), ()
+    return *read_linkage(top, number), ()
 
 
 def _assembly_case(

@@ -13,12 +13,13 @@ from nag.mechanism.parts import model_parts
 _JOINT_KEYS = ("name", "a", "d", "alpha", "alpha_half_tangent", "theta", "theta_half_tangent")
 
 
-def read_dh(top: CaseTable, number: ReadNumber) -> DHModel | Mechanism:
-    """A table with open angles as a model of its closings, one without as a mechanism."""
+def read_dh(top: CaseTable, number: ReadNumber) -> tuple[DHLoop, DHModel | Mechanism]:
+    """A table, and the model of its closings; a mechanism of one without open angles."""
     tables = top.tables("joint")
     rows = [_read_row(i, table, number) for i, table in enumerate(tables, 1)]
     try:
-        return model_parts(DHLoop(tuple(rows)))
+        loop = DHLoop(tuple(rows))
+        return loop, model_parts(loop)
     except DHError as error:
         if error.joint is None:
             top.fail("joint", error.message)

@@ -13,8 +13,8 @@ from nag.mechanism.framework_model import FrameworkModel, framework_model
 _LENGTHS = ("lengths", "squared_lengths")
 
 
-def read_framework(top: CaseTable, number: ReadNumber) -> FrameworkModel:
-    """The model of a framework, given by a placement or by lengths."""
+def read_framework(top: CaseTable, number: ReadNumber) -> tuple[Framework, FrameworkModel]:
+    """A framework, given by a placement or by lengths, and its model."""
     dimension = top.count("dimension", 2, default=2)
     if dimension > 3:
         top.fail("dimension", f"is {dimension}; write 2 for the plane or 3 for space")
@@ -29,7 +29,7 @@ def read_framework(top: CaseTable, number: ReadNumber) -> FrameworkModel:
             names = _read_names(top.texts("points", "names of points"), top)
             squared = _read_squared_lengths(top, len(bars), number)
             framework = Framework(dimension, tuple(names), tuple(bars), tuple(squared))
-        return framework_model(framework)
+        return framework, framework_model(framework)
     except FrameworkError as error:
         top.fail(error.key, error.message)
 

@@ -11,15 +11,16 @@ from nag.mechanism.linkage import Link, Linkage, LinkageError, LinkageModel, Pla
 _LINK_KEYS = ("name", "pins", "length", "shape")
 
 
-def read_linkage(top: CaseTable, number: ReadNumber) -> LinkageModel:
-    """The model of a linkage."""
+def read_linkage(top: CaseTable, number: ReadNumber) -> tuple[Linkage, LinkageModel]:
+    """A linkage and its model."""
     ground = top.text("ground")
     for table in top.tables("link"):
         table.require({"name": wanted_text("name"), "pins": "a list of names of pins"})
     tables = [(t.text("name"), t) for t in top.tables("link")]
     try:
         links = [_read_link(name, table.called(name), number) for name, table in tables]
-        return linkage_model(Linkage(ground, tuple(links)))
+        linkage = Linkage(ground, tuple(links))
+        return linkage, linkage_model(linkage)
     except LinkageError as error:
         # The last table of a name, as a repeated name is the fault of the later one.
         for name, table in reversed(tables):

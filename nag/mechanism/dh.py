@@ -77,16 +77,19 @@ class DHError(MechanismError):
         self.key = key
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Row:
-    """A joint and the link after it; rows are equal whatever the scale of their half-angles.
+    """A joint and the link after it.
+
+    Half-angles are given up to scale and kept as (1 : tangent), or (0 : 1), so that equal rows make
+    equal equations.
 
     Attributes:
         name: of the joint.
         a: length of the link, the distance of its two axes.
         d: offset along the joint's axis.
-        alpha: (cos : sin) of half the link's twist, up to scale.
-        theta: (cos : sin) of half the joint's angle, up to scale; None where it is open.
+        alpha: (cos : sin) of half the link's twist.
+        theta: (cos : sin) of half the joint's angle; None where it is open.
     """
 
     name: str
@@ -95,16 +98,10 @@ class Row:
     alpha: HalfAngle
     theta: HalfAngle | None = None
 
-    def __eq__(self, other: object) -> bool:
-        return self._key == other._key if isinstance(other, Row) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._key)
-
-    @property
-    def _key(self) -> tuple[Any, ...]:
-        """What it is compared by: tangents of the half-angles, which have no scale."""
-        return (self.name, self.a, self.d, _tangent(self.alpha), _tangent(self.theta))
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "alpha", _scale_half_angle(self.alpha))
+        if self.theta is not None:
+            object.__setattr__(self, "theta", _scale_half_angle(self.theta))
 
     @property
     def link(self) -> DualQuaternion:
@@ -122,11 +119,10 @@ class Row:
         return dual_multiply(((c, ZERO, ZERO, s), NOTHING), self.link)
 
 
-def _tangent(half: HalfAngle | None) -> Number | str | None:
-    """The tangent of half an angle, infinite at half a turn."""
-    if half is None:
-        return None
-    return "infinite" if is_zero(half[0]) else half[1] / half[0]
+def _scale_half_angle(half: HalfAngle) -> HalfAngle:
+    """The same with cosine 1, or with sine 1 at half a turn."""
+    cosine, sine = half
+    return (ZERO, ONE) if is_zero(cosine) else (ONE, sine / cosine)
 
 
 @dataclass(frozen=True)

@@ -48,7 +48,7 @@ def parts_in_formulation(parts: AssemblyModel, formulation: str) -> AssemblyMode
 
 
 def model_parts(given: Any) -> Any:
-    """What parts make: the model of their assemblies, or a mechanism; of a case what it describes.
+    """What parts make: the model of their assemblies, or a mechanism; of a case what is asked.
 
     Anything else is given back as it is.
 
@@ -56,7 +56,7 @@ def model_parts(given: Any) -> Any:
         nag.MechanismError: if the parts have no model.
     """
     if is_a(given, "nag.files.cases", "Case"):
-        return given.described
+        return given.modelled
     if is_a(given, "nag.mechanism.framework", "Framework"):
         from nag.mechanism.framework_model import framework_model
 
