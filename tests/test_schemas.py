@@ -170,6 +170,9 @@ def write_everything(
     found["nag-solutions", 1] = [json.loads(Path(solved).read_text())]
     linkage = str(CASES / "planar-four-bar.toml")
     export = ask("decompose", whole)
+    ask("show", whole, rest=["--quiet"])
+    ask("show", export, rest=["--quiet"])
+    ask("show", solved, rest=["--quiet"])
     ask("eliminate", export, "--component", "1", "--onto", "x,y")
     ask("eliminate", export, "--component", "3")
     ask("member", whole, "top")

@@ -6,8 +6,14 @@ import argparse
 import os
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import add_reading, read_given_case, refuse_reading
-from nag.cli.running import CommandAnswer
+from nag.cli.arguments import (
+    add_json,
+    add_quiet,
+    add_reading,
+    read_given_case,
+    refuse_reading,
+)
+from nag.cli.running import CommandAnswer, document_head, name_case
 from nag.cli.witness_input import is_export
 
 if TYPE_CHECKING:
@@ -71,15 +77,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="case file, system in another program's format, or what a command wrote with --json",
     )
     add_reading(parser)
+    add_json(parser)
+    add_quiet(parser)
 
 
 def run(options: argparse.Namespace) -> CommandAnswer:
     """What a file holds."""
     from nag.text.table import sheet
 
-    title, blocks, asked = _describe(options)
+    case, kind, title, blocks, asked = _describe(options)
+    document = document_head("nag-contents", case) | {
+        "kind": kind,
+        "title": title,
+        "said": [_said(part) for block in blocks for part in block],
+        "questions": [
+            {"about": about, "command": command, "question": text}
+            for about, questions in asked.items()
+            for command, text in questions
+        ],
+    }
     if not asked:
-        return CommandAnswer(sheet(title, *blocks))
+        return CommandAnswer(sheet(title, *blocks), document=lambda: document)
     width = max(len(f"nag {name}") for questions in asked.values() for name, _ in questions)
     name = os.path.relpath(options.case) if os.path.isabs(options.case) else options.case
     for heading, questions in asked.items():
@@ -87,21 +105,39 @@ def run(options: argparse.Namespace) -> CommandAnswer:
             [f"{heading}: nag COMMAND {name}"],
             [(f"nag {command}", text) for command, text in questions],
         ]
-    return CommandAnswer(sheet(title, *blocks, width=width))
+    return CommandAnswer(sheet(title, *blocks, width=width), document=lambda: document)
+
+
+def _said(part: str | Row) -> dict[str, str]:
+    """A line as an object of JSON, with an empty label if it has none."""
+    label, text = ("", part) if isinstance(part, str) else part
+    return {"label": label, "text": text}
 
 
 def _describe(
     options: argparse.Namespace,
-) -> tuple[str, list[list[str] | list[Row]], dict[str, Questions]]:
-    """Title, what is said below it, and what can be asked, by headings."""
-    from nag.solving.solutions import SolveResult
-    from nag.witness.witness import Decomposition
+) -> tuple[tuple[str, str] | None, str, str, list[list[str] | list[Row]], dict[str, Questions]]:
+    """Case, kind, title, what is said below it, and what can be asked, by headings.
 
+    The case is that which a file is or is of, if any; the kind is that of a case, or the format of
+    what a command wrote.
+    """
     path = options.case
     if not is_export(path):
-        return _describe_case(read_given_case(options))
+        case = read_given_case(options)
+        return name_case(case), case.kind, *_describe_case(case)
     refuse_reading(options)
+    of, kind = _origin(path)
+    return of, kind, *_describe_export(path)
+
+
+def _describe_export(
+    path: str,
+) -> tuple[str, list[list[str] | list[Row]], dict[str, Questions]]:
+    """Title, what is said below it, and what can be asked, by headings, of what was written."""
     from nag.questions import read
+    from nag.solving.solutions import SolveResult
+    from nag.witness.witness import Decomposition
 
     found = read(path)
     title = os.path.basename(path)
@@ -147,6 +183,16 @@ def _describe_answer(document: dict[str, Any]) -> list[Row]:
     ]
     notes = [*document.get("notes", ()), *filter(None, [document.get("open")])]
     return [*rows, *(("open", note) for note in notes)]
+
+
+def _origin(path: str) -> tuple[tuple[str, str] | None, str]:
+    """The case that an export is of, if that is known, and the export's format."""
+    from nag.files.json_values import read_file
+
+    document = read_file(path, dict)
+    case = document.get("case")
+    of = (case["title"], case["file"]) if case else None
+    return of, document.get("format", "")
 
 
 def _origin_rows(path: str) -> list[Row]:
