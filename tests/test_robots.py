@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from math import atan2
 from pathlib import Path
@@ -176,7 +177,23 @@ def test_bad_files_are_one_line(
     text, message = BROKEN[name]
     assert main(["mobility", str(written(tmp_path, text))]) == 2
     (line,) = capsys.readouterr().err.splitlines()
-    assert message in line
+    assert message in line and re.search(r": line \d+, column \d+: ", line)
+
+
+def test_faults_are_placed_at_the_start_of_their_elements(tmp_path: Path) -> None:
+    joint = '<joint name="é" type="revolute"><parent link="a"/><child link="b"/>{}</joint>'
+    bad = {
+        '<axis xyz="0 0"/>': "line 3, column 68: <axis>: xyz: has 2 entries",
+        '<mimic joint="a"/>': "line 3, column 68: <mimic>",
+        '<axis xyz="0 0 1"': "line 3, column 85: is not valid XML",
+    }
+    for text, place in bad.items():
+        lines = '<robot name="r">\n<link name="a"/><link name="b"/>\n' + joint.format(text)
+        with pytest.raises(nag.CaseError, match=re.escape(place)):
+            nag.read(written(tmp_path, f"{lines}</robot>"))
+    twice = FOUR_BAR.replace('name="C"', 'name="A"')
+    with pytest.raises(nag.CaseError, match=r"line 4, column 32: joint 'A' is there twice"):
+        nag.read(written(tmp_path, twice))
 
 
 def test_links_and_joints_are_asked_for_by_name(

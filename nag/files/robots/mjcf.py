@@ -163,7 +163,7 @@ def _read_body(
     childclass: str | None,
     found: _FoundJoints,
 ) -> None:
-    where = line_of(element.file, f"line {element.line}")
+    where = line_of(element.file, element.place)
     named = "name" in element.attributes
     name = element.text("name") if named else f"body {len(found.bodies) + 1}"
     found.bodies.append((name, where))
@@ -204,10 +204,14 @@ def _read_joint(
     if own not in found.classes:
         element.fail(f"{quote(own)} is no default class{nearest(own, found.classes)}", "class")
     given = XmlElement(
-        element.file, element.line, element.tag, {**found.classes[own], **element.attributes}
+        element.file,
+        element.line,
+        element.column,
+        element.tag,
+        {**found.classes[own], **element.attributes},
     )
     name = given.text("name") if "name" in given.attributes else unnamed
-    where = line_of(given.file, f"line {given.line}")
+    where = line_of(given.file, given.place)
     kind = "free" if given.tag == "freejoint" else given.choice("type", tuple(TYPES), "hinge")
     axis, zero = None, Fraction(0)
     if kind in ("hinge", "slide"):
@@ -291,7 +295,7 @@ def _closures(root: XmlElement, found: _FoundJoints) -> list[LoopClosure]:
 def _closure(
     element: XmlElement, bodies: list[str], found: _FoundJoints, number: int
 ) -> LoopClosure:
-    where = line_of(element.file, f"line {element.line}", f"<{element.tag}>")
+    where = line_of(element.file, element.place, f"<{element.tag}>")
     name = element.text("name") if "name" in element.attributes else f"{element.tag} {number}"
     kind = "spherical" if element.tag == "connect" else "rigid"
     if "site1" in element.attributes or "site2" in element.attributes:

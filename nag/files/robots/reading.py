@@ -5,6 +5,7 @@ from __future__ import annotations
 from nag.files.case_table import CaseError, line_of
 from nag.files.robots import mjcf, urdf
 from nag.files.robots.robot import Robot
+from nag.files.robots.xml_file import parse_xml
 
 _MODULES = {"urdf": urdf, "mjcf": mjcf}
 
@@ -18,7 +19,10 @@ def recognise_robot(file: str, text: str) -> str:
     for name, module in _MODULES.items():
         if module.recognise(text):
             return name
-    raise CaseError(line_of(file, "is no robot: it has no <robot> (URDF) and no <mujoco> (MJCF)"))
+    message = "is no robot: it has no <robot> (URDF) and no <mujoco> (MJCF)"
+    if not text.lstrip().startswith("<"):
+        raise CaseError(line_of(file, message))
+    parse_xml(file, text).fail(message)
 
 
 def read_robot(file: str, text: str, format: str = "auto") -> Robot:

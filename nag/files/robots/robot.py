@@ -36,7 +36,7 @@ class RobotJoint:
         parent: the link nearer to the ground.
         child: the other one.
         place: the joint's frame in the parent's, and that of the child where the joint is at zero.
-        where: file and line, for messages.
+        where: file, line and column, for messages.
         axis: in the joint's frame; None for types without one.
         point: a point of the axis in that frame.
         zero: the value at which the child is where it is drawn.

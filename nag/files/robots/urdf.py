@@ -41,18 +41,18 @@ def read(file: str, text: str) -> Robot:
     if root.tag != "robot":
         root.fail("is no robot in URDF; its outermost element is <robot>")
     links = {link.text("name"): link for link in root.all("link")}
-    check_unique([(e.text("name"), f"{file}: line {e.line}") for e in root.all("link")], "link")
+    check_unique([(e.text("name"), line_of(file, e.place)) for e in root.all("link")], "link")
     elements = root.all("joint")
     if not elements:
         root.fail("has no <joint>; a mechanism has at least one")
-    check_unique([(e.text("name"), f"{file}: line {e.line}") for e in elements], "joint")
+    check_unique([(e.text("name"), line_of(file, e.place)) for e in elements], "joint")
     joints = [_joint(element, links) for element in elements]
     children: dict[str, XmlElement] = {}
     for joint, element in zip(joints, elements, strict=True):
         if joint.child in children:
             element.fail(
-                f"{quote(joint.child)} is the child of a joint already (line "
-                f'{children[joint.child].line}); a case of kind "robot" closes loops'
+                f"{quote(joint.child)} is the child of a joint already "
+                f'({children[joint.child].place}); a case of kind "robot" closes loops'
             )
         children[joint.child] = element
     roots = [name for name in links if name not in children]
@@ -106,7 +106,7 @@ def _joint(element: XmlElement, links: dict[str, XmlElement]) -> RobotJoint:
                 raise
             except NagError as error:
                 given.fail(str(error), "xyz")
-    where = line_of(element.file, f"line {element.line}")
+    where = line_of(element.file, element.place)
     # A continuous joint may have a <limit> of its speed alone.
     limited = kind in ("revolute", "prismatic") and bool(element.all("limit"))
     return RobotJoint(name, TYPES[kind], *ends, place, where, axis, taken=taken, limited=limited)

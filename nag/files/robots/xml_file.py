@@ -1,4 +1,4 @@
-"""Files in XML as plain data: elements, their attributes and lines.
+"""Files in XML as plain data: elements, their attributes and places.
 
 Document types and entities are refused, so that nothing in a file grows or leads to another file.
 """
@@ -30,6 +30,7 @@ class XmlElement:
     Attributes:
         file: path of the file.
         line: where it begins, from 1.
+        column: likewise.
         tag: its name.
         attributes: texts by name.
         children: the elements inside, in order.
@@ -37,16 +38,22 @@ class XmlElement:
 
     file: str
     line: int
+    column: int
     tag: str
     attributes: dict[str, str]
     children: list[XmlElement] = field(default_factory=list)
+
+    @property
+    def place(self) -> str:
+        """Where it begins, for messages."""
+        return _place_text(self.line, self.column)
 
     def fail(self, message: str, key: str | None = None) -> NoReturn:
         """Raise a `CaseError` about the element, or one of its attributes."""
         name = self.attributes.get("name", "")
         tag = self.tag if len(self.tag) <= 40 else f"{self.tag[:37]}..."
         shown = f"<{tag}>" + (f" {quote(name)}" if name else "")
-        raise CaseError(line_of(self.file, f"line {self.line}", shown, key, message))
+        raise CaseError(line_of(self.file, self.place, shown, key, message))
 
     def all(self, tag: str) -> list[XmlElement]:
         """The elements of a name inside."""
@@ -96,6 +103,10 @@ class XmlElement:
         return Fraction(Decimal(word))
 
 
+def _place_text(line: int, column: int) -> str:
+    return f"line {line}, column {column}"
+
+
 def parse_xml(file: str, text: str) -> XmlElement:
     """The element that a text in XML is.
 
@@ -108,8 +119,11 @@ def parse_xml(file: str, text: str) -> XmlElement:
     # The text is decoded already, whatever encoding its first line names.
     parser = expat.ParserCreate("utf-8")
 
+    def here() -> tuple[int, int]:
+        return parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
+
     def fail(message: str) -> NoReturn:
-        raise CaseError(line_of(file, f"line {parser.CurrentLineNumber}", message))
+        raise CaseError(line_of(file, _place_text(*here()), message))
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         nonlocal count
@@ -118,7 +132,7 @@ def parse_xml(file: str, text: str) -> XmlElement:
             fail(f"more than {MAX_ELEMENTS} elements, or {MAX_DEPTH} inside of each other")
         if tag.startswith("xacro:"):
             fail(f"<{tag[:40]}> is a macro of xacro; expand the file with xacro first")
-        element = XmlElement(file, parser.CurrentLineNumber, tag, dict(attributes))
+        element = XmlElement(file, *here(), tag, dict(attributes))
         (stack[-1].children if stack else roots).append(element)
         stack.append(element)
 
@@ -133,7 +147,8 @@ def parse_xml(file: str, text: str) -> XmlElement:
         parser.Parse(text.encode(), True)
     except expat.ExpatError as error:
         message = expat.ErrorString(error.code)
+        place = _place_text(error.lineno, error.offset + 1)
         raise CaseError(
-            line_of(file, f"line {error.lineno}", f"is not valid XML: {message}; mend it there")
+            line_of(file, place, f"is not valid XML: {message}; mend it there")
         ) from None
     return roots[0]
