@@ -1334,7 +1334,7 @@ def free_parameters(given: Any, free: Any) -> tuple[PolynomialSystem, int]:
     """
     from nag.algebra.system import PolynomialSystem
     from nag.algebra.tokens import nearest, quote
-    from nag.files.cases import freed_system
+    from nag.files.cases import as_unknowns, freed_system
     from nag.solving.family_members import list_names
 
     names = list_names(free)
@@ -1345,6 +1345,8 @@ def free_parameters(given: Any, free: Any) -> tuple[PolynomialSystem, int]:
     else:
         from nag.mechanism.problem import problem_of
 
+        if is_a(given, "nag.files.cases", "Case"):
+            given = as_unknowns(given, names)
         system = problem_of(given).system
         known = system.own_variables
         for name in names:
@@ -1364,8 +1366,9 @@ def free_parameters(given: Any, free: Any) -> tuple[PolynomialSystem, int]:
 
 
 def _variables_of(case: Case) -> tuple[str, ...]:
-    """The unknowns of a case's equations; none of a mechanism."""
-    return case.system.own_variables if case.system is not None else ()
+    """The unknowns of a case's equations, without parameters; none of a mechanism."""
+    own = case.system.own_variables if case.system is not None else ()
+    return tuple(name for name in own if name not in case.unset)
 
 
 @takes_components
@@ -1802,10 +1805,11 @@ def _family_in(
             subset = by_name and {*names} <= {*family.parameters}
             if not names or tuple(names) == family.parameters or subset:
                 return family, [complex(v) for v in member.values], member.solutions
-        if names and {*names} <= given.parameters.keys():
-            from nag.files.cases import freed_system
+        from nag.files.cases import as_unknowns, freed_system
 
+        if names and {*names} <= {*given.parameters, *given.unset}:
             return family_of(freed_system(given, names), names), None, None
+        given = as_unknowns(given, names)
     if not names:
         raise NagError("parameters: which are they? give their names, ['a', 'b']")
     every = None if variables is None else [*list_names(variables), *names]

@@ -137,7 +137,7 @@ def test_what_is_divided_by_may_be_a_name_of_a_constant() -> None:
 
 
 def test_groups_and_parameters_of_bertini_are_kept() -> None:
-    system, parameters = read_system_text("file", BERTINI, "bertini")
+    system, parameters, _ = read_system_text("file", BERTINI, "bertini")
     assert system.groups == ((0, 1), (2,))
     assert parameters == {"a": Fraction(1, 2), "b": 1}
     assert read_system_text("file", BERTINI, "bertini", {"a": "3"})[1] == {"a": 3, "b": 6}
@@ -774,6 +774,50 @@ def test_an_ideal_without_a_ring_is_asked_for_its_ring(tmp_path: Path) -> None:
     file.write_text("K = ideal(a^2 - b, b^2 - a*b^2)\n")
     with pytest.raises(CaseError, match=r"there is no ring; write R = QQ\[x, y\]"):
         read_case(file)
+
+
+WITH_PARAMETERS = {
+    "hc": """
+@var x y p[1:2] q
+F = System([x^2 + p[1]*y - p[2], y^2 - q*x]; variables = [x, y], parameters = [p; q])
+solve(F, target_parameters = [1, 3, 2])
+""",
+    "bertini": """
+variable_group x, y;
+parameter p[1], q;
+parameter p[2];
+constant c;
+c = p[2]/2;
+function f, g;
+f = x^2 + p[1]*y - 2*c; g = y^2 - q*x;
+""",
+}
+
+
+@pytest.mark.parametrize("format", WITH_PARAMETERS)
+def test_parameters_without_a_value_are_asked_for_before_anything_else(
+    format: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, table = tmp_path / "system.txt", tmp_path / "values.csv"
+    file.write_text(WITH_PARAMETERS[format])
+    case = nag.read(file)
+    assert isinstance(case, nag.Case) and {*case.unset} == {"p[1]", "p[2]", "q"}
+    for ask in (nag.solve, nag.decompose, nag.problem, lambda c: nag.write(c, tmp_path / "a.toml")):
+        with pytest.raises(nag.CaseError, match=r"parameters .* have no values; write --set p"):
+            ask(case)
+    given = {"p[1]": 1, "p[2]": 3}
+    with pytest.raises(nag.CaseError, match="parameter q has no value; write --set q"):
+        nag.solve(file, set=given)
+    same = nag.solve(["x^2 + y - 3", "y^2 - 2*x"])
+    assert nag.solve(file, set={**given, "q": 2}).points == pytest.approx(same.points)
+    table.write_text("q,p[1],p[2]\n2,1,3\n")
+    assert nag.solve_family(file, values=table).counts.tolist() == [4]
+    assert main(["family", str(file), "--values", str(table), "--quiet"]) == 0
+    table.write_text("q,p[1]\n2,1\n")
+    with pytest.raises(nag.CaseError, match=r"parameter p\[2\] has no value"):
+        nag.solve_family(file, values=table)
+    assert main(["show", str(file)]) == 0
+    assert "parameters without a value" in capsys.readouterr().out
 
 
 def test_an_unknown_that_has_a_value_is_a_parameter(tmp_path: Path) -> None:

@@ -64,13 +64,13 @@ def _family_by_columns(options: argparse.Namespace, case: Case) -> Family:
         UsageError: if there is no such table, or it names something else.
     """
     from nag.errors import NagError
-    from nag.files.cases import freed_system
+    from nag.files.cases import as_unknowns, freed_system
     from nag.files.member_values import check_names, read_member_names
     from nag.solving.family_members import family_of
 
     system = case.system
     names = read_member_names(options.values)
-    if system is not None and not system.nonzero and set(names) <= set(case.parameters):
+    if system is not None and not system.nonzero and set(names) <= {*case.parameters, *case.unset}:
         system = freed_system(case, names)
     known = () if system is None or system.nonzero else system.own_variables
     if known and not os.fspath(options.values).endswith(".npy"):
@@ -81,6 +81,8 @@ def _family_by_columns(options: argparse.Namespace, case: Case) -> Family:
             '[family] parameters = ["a"], or have the first line of --values name parameters, or '
             "unknowns that are to be parameters"
         )
+    # Those that the table has no values of are refused.
+    as_unknowns(case, names).refuse_unset()
     unknowns = [name for name in known if name not in names]
     texts = system.text()[: len(system.polynomials) - system.imaginary]
     unit = system.variables[-1] if system.imaginary else None

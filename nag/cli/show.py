@@ -244,6 +244,8 @@ def _describe_case(
         rows.append(("system", system_line(case.system)))
     if case.parameters:
         rows.append(("set", f"{values_text(case.parameters, case.parameters.values())}: --set"))
+    if case.unset:
+        rows.append(("unset", f"parameters without a value, {', '.join(case.unset)}: --set"))
     if case.points:
         rows.append(("points", ", ".join(point.name for point in case.points)))
     rows += [("known", _known_text(t)) for t in case.truth]

@@ -97,6 +97,8 @@ def _tables_of(given: Any) -> dict[str, Any]:
         NagError: if it cannot say it.
     """
     if isinstance(given, Case):
+        # In TOML every parameter has a value.
+        given.refuse_unset()
         parameters = {name: _plain(value) for name, value in given.parameters.items()}
         own = {"parameters": parameters} if parameters else {}
         return _tables_of(given.described) | own | _of_truth(given)

@@ -170,7 +170,9 @@ class Case:
     `symmetries` are those that the file declares; each was verified exactly on the equations.
     `family` is the one that the file declares the system to belong to. Of a framework, a linkage
     and a table of joints these are `parts`; where they do not fix how they are assembled,
-    `assembly` is the model of all ways, and `system` is its own. What the
+    `assembly` is the model of all ways, and `system` is its own. Where parameters are declared and
+    have no value, they are `unset`, and the last variables of `system`: nothing is asked of a case
+    before they have one, or are the parameters of a family. What the
     `notes` say is what numbers of a robot's file were taken for, and what is not used. What the
     file says is known, of components (`truth`) or at the reference configuration alone
     (`truth_at_reference`), is left out where parameters were given other values.
@@ -186,6 +188,7 @@ class Case:
     truth: tuple[Truth, ...] = ()
     symmetries: tuple[SignedPermutation, ...] = ()
     family: FamilyMember | None = None
+    unset: tuple[str, ...] = ()
     parts: Framework | Linkage | DHLoop | None = None
     assembly: AssemblyModel | None = None
     truth_at_reference: TruthAtReference | None = None
@@ -209,18 +212,41 @@ class Case:
     @property
     def described(self) -> Mechanism | Framework | Linkage | DHLoop | PolynomialSystem:
         """What the file describes: a mechanism, parts of one, or equations."""
-        given = self.modelled if self.parts is None else self.parts
-        return given  # type: ignore[return-value]
+        given = self.mechanism or self.system if self.parts is None else self.parts
+        if given is None:
+            raise NagError("a case without a system and without a mechanism")
+        return given
 
     @property
     def modelled(self) -> Mechanism | AssemblyModel | PolynomialSystem:
-        """What is asked about: a mechanism, the model of all ways to assemble it, equations."""
+        """What is asked about: a mechanism, the model of all ways to assemble it, equations.
+
+        Raises:
+            CaseError: if parameters have no values.
+        """
+        self.refuse_unset()
         if self.mechanism is not None:
             return self.mechanism
         given = self.system if self.assembly is None else self.assembly
         if given is None:
             raise NagError("a case without a system and without a mechanism")
         return given
+
+    def refuse_unset(self) -> None:
+        """Make sure that all parameters have values.
+
+        Raises:
+            CaseError: otherwise.
+        """
+        if self.unset:
+            names, first = ", ".join(self.unset), self.unset[0]
+            what = f"parameter {names} has no value"
+            if len(self.unset) > 1:
+                what = f"parameters {names} have no values"
+            raise CaseError(
+                f"{self.path}: {what}; write --set {first}=..., in Python "
+                f"set={{'{first}': ...}}, or solve for many values with nag family"
+            )
 
     @property
     def note_rows(self) -> list[tuple[str, str]]:
@@ -438,8 +464,13 @@ def _system_case(
 ) -> Case:
     from nag.files.formats.reading import read_system_text
 
-    system, parameters = read_system_text(str(path), text, format, values)
-    return Case(path.name, "system", path, parameters, system=system)
+    system, parameters, unset = read_system_text(str(path), text, format, values)
+    return Case(path.name, "system", path, parameters, system=system, unset=unset)
+
+
+def as_unknowns(case: Case, names: Sequence[str]) -> Case:
+    """The same case, where parameters of these names need no value: they are unknowns."""
+    return replace(case, unset=tuple(name for name in case.unset if name not in names))
 
 
 def freed_system(case: Case, names: Sequence[str]) -> PolynomialSystem:
@@ -456,11 +487,13 @@ def freed_system(case: Case, names: Sequence[str]) -> PolynomialSystem:
             "ask about one value after the other"
         ).mended_by("set")
     for name in names:
-        if name not in case.parameters:
+        known = (*case.parameters, *case.unset)
+        if name not in known:
             raise CaseError(
-                f"{path}: {quote(name)} is no parameter{nearest(name, case.parameters)}; it has "
-                f"{', '.join(case.parameters) or 'none'}"
+                f"{path}: {quote(name)} is no parameter{nearest(name, known)}; it has "
+                f"{', '.join(known) or 'none'}"
             )
+    as_unknowns(case, names).refuse_unset()
     if case.format != "toml":
         from nag.files.formats.reading import read_system_text
 

@@ -21,7 +21,14 @@ _WORD = re.compile(r"\s*([A-Za-z_]+)\b")
 _ASSIGNED = re.compile(r"\s*([^\W\d][\w\[\],]*)\s*=(?!=)")
 IMAGINARY = ("I", "i")
 NUMBERS = {"Pi": PI}
-_DECLARED = ("variable_group", "hom_variable_group", "variable", "function", "constant")
+_DECLARED = (
+    "variable_group",
+    "hom_variable_group",
+    "variable",
+    "function",
+    "constant",
+    "parameter",
+)
 _REFUSED = {
     "pathvariable": "a homotopy of the user's own is not read; write the system at its end",
     "random": "random numbers are not read; write the constant's value",
@@ -79,13 +86,13 @@ def _read_parameter(
     declared: dict[str, list[list[Passage]]],
     assigned: dict[str, Passage],
 ) -> None:
-    """``parameter a = 3`` (a number), and ``parameter a`` with its value in a later statement."""
+    """``parameter a = 3`` (a number), and ``parameter a`` with its value elsewhere, or nowhere."""
     listed = statement.part(len("parameter"), len(statement.text))
     for item in source.statements(listed, ","):
         name = item
         if "=" in item.text:
             name = _assign(source, item, assigned)
-        declared["constant"].append([name])
+        declared["parameter"].append([name])
 
 
 def _assign(source: SourceFile, statement: Passage, assigned: dict[str, Passage]) -> Passage:
@@ -112,6 +119,13 @@ def _given(
     if not functions:
         source.fail(0, "no function is declared; write 'function f, g;' and what they are")
     constants = [name for names in declared["constant"] for name in names]
+    parameters = [name for names in declared["parameter"] for name in names]
+    unset = [name for name in parameters if name.text not in assigned]
+    # Those that have no value are unknown.
+    variables = check_names(
+        source, (*(n for group in (*groups, *projective) for n in group), *unset)
+    )
+    constants += [name for name in parameters if name not in unset]
     for name in (*functions, *constants):
         if name.text not in assigned:
             value = "1" if name in constants else f"{variables[0]} - 1"
@@ -132,4 +146,5 @@ def _given(
         tuple(tuple(n.text for n in group) for group in projective),
         IMAGINARY,
         {name: value for name, value in NUMBERS.items() if name not in {*variables, *assigned}},
+        unset=tuple(name.text for name in unset),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from nag.algebra.tokens import quote
 from nag.files.case_table import MAX_ENTRIES
@@ -17,6 +18,8 @@ _RANGE = re.compile(r"(\w+)\[(?:([0-9]{1,6}):)?([0-9]{1,6})\]")
 _LIST = re.compile(r"(?:\w+\s*=\s*)?((?:\w+\s*\(\s*)*)\[")
 _DEFINED = re.compile(r"(\w+)\s*=\s*")
 _CALL = re.compile(r"(?<!\w)(?!(?:sqrt|sin|cos)\b)[A-Za-z_]\w*[!.]?\s*\(")
+_PARAMETERS = re.compile(r"(?<![\w.!])parameters\s*=(?!=)\s*")
+_INDEXED_NAME = re.compile(r"[^\W\d]\w*(?:\[[0-9]+\])?")
 # 2x and 2(x + 1), but not 2e5.
 _FACTOR = re.compile(r"(?<![\w.])([0-9]+(?:\.[0-9]*)?)(?=[A-Za-z_(])(?!e[-+]?[0-9])")
 
@@ -29,7 +32,8 @@ def recognise(text: str) -> bool:
 def read(source: SourceFile) -> GivenSystem:
     """The system of the variables and the one list of equations in a text in Julia.
 
-    Its parameters are variables like the others; what else is called or computed is left out.
+    What ``parameters = [...]`` lists has values where the file is read, not in it. What else is
+    called or computed is left out.
 
     Raises:
         CaseError: if no variables are declared, or there is not one list of equations.
@@ -59,7 +63,25 @@ def read(source: SourceFile) -> GivenSystem:
     if len(lists) > 1:
         source.fail(lists[1][1].offset, "a second list of equations; leave one in the file")
     equations = tuple(_write_out(each) for each in source.statements(lists[0][1], ","))
-    return GivenSystem(check_names(source, names), equations, {}, definitions, imaginary=("im",))
+    declared_names = check_names(source, names)
+    unset = _parameters(source, declared_names)
+    # They come last, as where they are unknowns they are those of a family.
+    variables = (*(n for n in declared_names if n not in unset), *unset)
+    return GivenSystem(variables, equations, {}, definitions, imaginary=("im",), unset=tuple(unset))
+
+
+def _parameters(source: SourceFile, variables: Sequence[str]) -> list[str]:
+    """The variables that a system's ``parameters = ...`` lists, by themselves or as p of p[1:3]."""
+    found: list[str] = []
+    for given in _PARAMETERS.finditer(source.text):
+        end, depth = given.end(), 0
+        while end < len(source.text) and (depth or source.text[end] not in ",)\n"):
+            depth += (source.text[end] in "([{") - (source.text[end] in ")]}")
+            end += 1
+        listed = re.sub(r"\s", "", source.text[given.end() : end])
+        names = {m[0] for m in _INDEXED_NAME.finditer(listed)}
+        found += [v for v in variables if v not in found and {v, v.partition("[")[0]} & names]
+    return found
 
 
 def _split_semicolons(source: SourceFile) -> SourceFile:

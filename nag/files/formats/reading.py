@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
-from nag.algebra.number import Number
+from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.system import PolynomialSystem
 from nag.files.formats import bertini, julia, macaulay2, phcpack, plain, singular
 from nag.files.formats.source import (
@@ -48,8 +48,10 @@ def read_system_text(
     values: Mapping[str, str | Number] | None = None,
     *,
     freed: Sequence[str] = (),
-) -> tuple[PolynomialSystem, dict[str, Number]]:
+) -> tuple[PolynomialSystem, dict[str, Number | ComplexNumber], tuple[str, ...]]:
     """The system that a text in one of `READERS` gives, and the values of its parameters.
+
+    Parameters without a value are named besides; they are its last variables.
 
     Args:
         values: other values of some parameters.

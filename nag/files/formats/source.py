@@ -117,6 +117,7 @@ class GivenSystem:
         imaginary: names of the imaginary unit.
         numbers: those that the program has a name for.
         nonzero: polynomials that must not vanish at a solution.
+        unset: variables that are declared as parameters, and have no value.
     """
 
     variables: tuple[str, ...]
@@ -128,6 +129,7 @@ class GivenSystem:
     imaginary: tuple[str, ...] = ()
     numbers: Mapping[str, Number] = field(default_factory=dict)
     nonzero: tuple[Passage, ...] = ()
+    unset: tuple[str, ...] = ()
 
 
 def check_names(source: SourceFile, names: Iterable[Passage]) -> tuple[str, ...]:
@@ -150,8 +152,8 @@ def check_names(source: SourceFile, names: Iterable[Passage]) -> tuple[str, ...]
 
 def read_given(
     source: SourceFile, given: GivenSystem, values: Mapping[str, Any] | None = None
-) -> tuple[PolynomialSystem, dict[str, Number | ComplexNumber]]:
-    """The exact system that a file gives, and the values of its parameters.
+) -> tuple[PolynomialSystem, dict[str, Number | ComplexNumber], tuple[str, ...]]:
+    """The exact system that a file gives, the values of its parameters, and those without one.
 
     Args:
         values: other values of some parameters, and values of unknowns, which are parameters then.
@@ -161,6 +163,7 @@ def read_given(
     """
     budget = Budget()
     given = _with_fixed_unknowns(source, given, values or {})
+    given = _define_dependent_parameters(given, given.unset)
     units = [u for u in given.imaginary if u not in _names(given)]
     parameters: dict[str, Number | ComplexNumber] = {}
     for name, text in given.parameters.items():
@@ -200,8 +203,9 @@ def read_given(
     whole = given.groups if grouped == set(given.variables) and len(given.groups) > 1 else ()
     groups = tuple(tuple(given.variables.index(name) for name in group) for group in whole)
     if unit is not None:
-        return adjoin_unit(names, equations, nonzero, groups), parameters
-    return PolynomialSystem(names, tuple(equations), tuple(nonzero), groups), parameters
+        return adjoin_unit(names, equations, nonzero, groups), parameters, given.unset
+    system = PolynomialSystem(names, tuple(equations), tuple(nonzero), groups)
+    return system, parameters, given.unset
 
 
 def _with_fixed_unknowns(
@@ -231,9 +235,21 @@ def _with_fixed_unknowns(
     return replace(
         given,
         variables=left,
-        parameters={**given.parameters, **placed},
+        # Others may be made of them.
+        parameters={**placed, **given.parameters},
         groups=tuple(group for group in groups if group),
+        unset=tuple(name for name in given.unset if name not in fixed),
     )
+
+
+def _define_dependent_parameters(given: GivenSystem, unknown: Sequence[str]) -> GivenSystem:
+    """The same, where parameters that depend on unknown ones are definitions."""
+    depending: dict[str, Passage] = {}
+    for name, text in given.parameters.items():
+        if name not in unknown and names_in(text.text) & {*unknown, *depending}:
+            depending[name] = text
+    kept = {name: text for name, text in given.parameters.items() if name not in depending}
+    return replace(given, parameters=kept, definitions={**depending, **given.definitions})
 
 
 def _names(given: GivenSystem) -> tuple[str, ...]:
@@ -267,19 +283,17 @@ def free_parameters(source: SourceFile, given: GivenSystem, names: Sequence[str]
     """The same with parameters as its last variables.
 
     Raises:
-        CaseError: if one is no parameter, or another parameter depends on one.
+        CaseError: if one is no parameter.
     """
     for name in names:
-        if name not in given.parameters:
-            known = ", ".join(given.parameters) or "none"
+        if name not in given.parameters and name not in given.unset:
+            known = ", ".join((*given.parameters, *given.unset)) or "none"
             raise CaseError(line_of(source.file, quote(name), f"is no parameter; it has {known}"))
+    given = _define_dependent_parameters(given, names)
     kept = {name: text for name, text in given.parameters.items() if name not in names}
-    for name, text in kept.items():
-        used = sorted(names_in(text.text) & set(names))
-        if used:
-            source.fail(text.offset, f"{name} depends on {used[0]}; free it as well")
-    variables = (*given.variables, *names)
-    return replace(given, variables=variables, parameters=kept, groups=())
+    unset = tuple(name for name in given.unset if name not in names)
+    variables = (*(name for name in given.variables if name not in names), *names)
+    return replace(given, variables=variables, parameters=kept, groups=(), unset=unset)
 
 
 @dataclass(frozen=True)
