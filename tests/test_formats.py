@@ -610,6 +610,66 @@ def test_operations_of_macaulay2_are_refused_by_their_names(tmp_path: Path, name
 
 
 @pytest.mark.parametrize(
+    ("text", "place", "message"),
+    [
+        ("I = ideal(x^2)\nJ = ideal(y)\nK = intersect(I, J)", "4, column 5", "intersect is not"),
+        ("f = x^3 + y\nI = ideal(f, diff(x, f))", "3, column 14", "diff is not worked out"),
+        ("f = x^3 + y\ng = diff(x, f)\nI = ideal(f, g)", "3, column 5", "diff is not"),
+        ("f = x^3 + y\nI = ideal jacobian ideal f", "3, column 11", "jacobian is not"),
+        ("F = {x^3, y}\nI = ideal jacobian matrix {F}", "3, column 11", "jacobian is not"),
+        ("M = matrix{{x,y},{y,x}}\nI = ideal(det M, x-1)", "3, column 11", "det is not"),
+        ("M = matrix{{x,y}}\nI = minors(1, M)", "3, column 5", "minors is not"),
+        ("I = ideal(sub(x^2, x=>y), y)", "2, column 11", "sub is not worked out here"),
+        ("I = ideal apply(3, i -> x^i)", "2, column 11", "apply is not worked out here"),
+        ("L = apply(3, i -> x^i)\nI = ideal L", "2, column 5", "apply is not worked out here"),
+        ("I = ideal for i from 1 to 2 list x^i", "2, column 11", "for is not worked out here"),
+        ("I = ideal(x, y)^2", "2, column 16", "what is made of ideals is not worked out here"),
+        ("I = (ideal(x, y)) : ideal(x)", "2, column 19", "what is made of ideals is not"),
+        ("S = QQ[z]\nI = ideal(x)", "2, column 5", "a second ring; leave one in the file"),
+    ],
+)
+def test_what_macaulay2_would_work_out_is_named_with_its_place(
+    text: str, place: str, message: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "made.m2"
+    file.write_text(f"R = QQ[x,y]\n{text}\n")
+    with pytest.raises(nag.CaseError, match=re.escape(f"line {place}: {message}")):
+        nag.read(file)
+
+
+@pytest.mark.parametrize(
+    ("ring", "place", "message"),
+    [
+        ("kk = ZZ/101\nR = kk[x,y]", "2, column 5", "a ring over a finite field"),
+        ("R = QQ[a][x,y]", "1, column 5", "coefficients with unknowns; write one ring"),
+        ("R = frac(QQ[a])[x,y]", "1, column 10", "coefficients with unknowns; write one ring"),
+    ],
+)
+def test_rings_of_macaulay2_over_others_are_refused(
+    ring: str, place: str, message: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "made.m2"
+    file.write_text(f"{ring}\nI = ideal(x, y)\n")
+    with pytest.raises(nag.CaseError, match=re.escape(f"line {place}: {message}")):
+        nag.read(file)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "I = ideal matrix {{x^2 - 1, y}, {x*y, y - 1}}",
+        "M = matrix {{x^2 - 1, y}, {x*y, y - 1}}\nI = ideal flatten entries M",
+        "h = hilbertPolynomial R\nf = x^2 - 1\nI = ideal(f, y, x*y, y - 1)\nJ = saturate(I, x)",
+        "F = {x^2 - 1, y, x*y, y - 1}\nsols = solveSystem F",
+    ],
+)
+def test_lists_and_matrices_of_macaulay2_are_read(text: str, tmp_path: Path) -> None:
+    file = tmp_path / "made.m2"
+    file.write_text(f"R = QQ[x,y]\n{text}\n")
+    assert nag.read(file).system == nag.system(["x^2 - 1", "y", "x*y", "y - 1"], "x y")
+
+
+@pytest.mark.parametrize(
     ("kind", "text"),
     [
         ("m2", "R = QQ[x];\n" + "-*" * 200_000),
