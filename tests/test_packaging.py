@@ -361,6 +361,9 @@ def test_the_website_is_built_and_its_links_lead_somewhere(tmp_path) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
     # Prompts of examples are prompts, not quotes in quotes.
     assert 'class="gp"' in (tmp_path / "site" / "reference.html").read_text("utf-8")
+    # What stands in a page in place of a link to it.
+    built = (tmp_path / "site" / "coming-from" / "bertini.html").read_text("utf-8")
+    assert "In nag:" in built and ">In nag</a>" not in built
     missing = []
     for page in (tmp_path / "site").rglob("*.html"):
         if page.name == "404.html":  # shown by a server, in any folder
@@ -374,7 +377,11 @@ def test_the_website_is_built_and_its_links_lead_somewhere(tmp_path) -> None:
 def _heading_names(text: str) -> set[str]:
     """What links call the headings of a page."""
     headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
-    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+    return {_heading_name(heading) for heading in headings}
+
+
+def _heading_name(heading: str) -> str:
+    return re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
 
 
 @pytest.mark.parametrize("page", PAGES)
@@ -387,6 +394,21 @@ def test_links_lead_to_files_and_headings_that_are_there(page: str) -> None:
         assert file.is_file(), target
         if heading:
             assert heading in _heading_names(file.read_text("utf-8")), target
+
+
+def test_pages_read_well_where_they_are_not_built() -> None:
+    """Nothing is left for the website to fill in; what it shows in place, a link leads to."""
+    tasks = PAGES["docs/coming-from/tasks.md"]
+    headings = re.findall(r"^## (\d\. .*)$", tasks, re.MULTILINE)
+    for page, text in PAGES.items():
+        prose = re.sub(r"```.*?```", "", text, flags=re.DOTALL)
+        assert "{{" not in prose, page
+        about = page.removeprefix("docs/coming-from/")
+        if f"]({about})" not in tasks:
+            continue
+        links = re.findall(r"^\[In nag\]\(tasks\.md#(.*)\)$", text, re.MULTILINE)
+        assert links == [name for name in map(_heading_name, headings) if name in links], page
+        assert len(links) == text.count("[In nag]") >= 4
 
 
 def test_a_first_reader_is_shown_every_command_and_not_more_than_250_lines() -> None:

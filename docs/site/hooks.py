@@ -32,6 +32,9 @@ CASES = sorted(
     for path in ROOT.glob("cases/**/*.toml")
     if (table := tomllib.loads(path.read_text("utf-8")))["kind"] != "system"
 )
+# Lines that lead to what a page of the website has in their place.
+_TASK_LINK = re.compile(r"^\[In nag\]\(tasks\.md#(\d)-[^)]*\)$", re.MULTILINE)
+_NAMES_LINK = re.compile(r"^\[All public names\]\([^)]*\).*$", re.MULTILINE)
 FOLDERS = {
     "": "The papers' mechanisms",
     "planar": "In the plane",
@@ -136,7 +139,7 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
     markdown = markdown.replace("](../README.md", "](readme.md")
     markdown = markdown.replace("](../nag/bench/charts/", "](charts/")
     if uri.name == "reference.md":
-        return markdown.replace("{{ public names }}", _public_names())
+        return _NAMES_LINK.sub(lambda _: _public_names(), markdown)
     if uri.parts[0] == "tutorials":
         head, _, rest = markdown.partition("\n\n")
         note = f"[As a notebook, for Jupyter]({uri.stem}.ipynb){{ download }}"
@@ -146,7 +149,7 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
         ours = dict(
             re.findall(r"^## (\d)\..*?\n\n(.*?)\n(?=## |\Z)", tasks, re.DOTALL | re.MULTILINE)
         )
-        return re.sub(r"{{ ours (\d) }}", lambda match: f"In nag:\n\n{ours[match[1]]}", markdown)
+        return _TASK_LINK.sub(lambda match: f"In nag:\n\n{ours[match[1]]}", markdown)
     return markdown
 
 
