@@ -836,6 +836,50 @@ def test_an_ideal_without_a_ring_is_asked_for_its_ring(tmp_path: Path) -> None:
         read_case(file)
 
 
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        ("variable_group x, y\nfunction f, g;\nf = x - 1; g = y;", "line 1, column 20"),
+        ("variable_group x, y;\nfunction f, g;\nf = x - 1\n\n  g = y;", "line 3, column 10"),
+        ("variable_group x, y;\nfunction f, g\nf = x - 1; g = y;", "line 2, column 14"),
+    ],
+)
+def test_a_semicolon_that_is_missing_in_bertini_is_missed_where_it_was(
+    text: str, place: str
+) -> None:
+    with pytest.raises(CaseError, match=f"{place}: ';' is missing here; write it"):
+        read_system_text("file", text, "bertini")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "CONFIG MPType: 2; END; INPUT variable_group x; hom_variable_group y, z; {} END; f = 1",
+        "config\nTrackType: 0;\nend;\ninput\nVariable_Group x;\nhom_variable_group y, z;\n{}\nEND",
+    ],
+)
+def test_sections_of_bertini_need_no_lines_and_groups_keep_their_order(text: str) -> None:
+    whole = text.replace("{}", "function f, g; f = x^2 - 1; g = y - x*z;")
+    assert recognise_format(whole) == "bertini"
+    system = read_system_text("file", whole, "bertini")[0]
+    assert system.variables == ("x", "y", "z") and system.groups == ((0,), (1, 2))
+    turned = whole.replace("variable_group x;", "").replace("y, z;", "y, z; variable_group x;")
+    turned = turned.replace("Variable_Group x;", "")
+    turned = turned.replace("INPUT  hom", "INPUT hom")
+    assert read_system_text("file", turned, "bertini")[0].variables == ("y", "z", "x")
+
+
+def test_polynomials_of_phcpack_beyond_their_number_are_refused() -> None:
+    text = "2\nx^2 - 1;\ny - x;\n"
+    with pytest.raises(CaseError, match="line 4, column 1: more polynomials than the 2"):
+        read_system_text("file", f"{text}x - y;\n", "phc")
+    solutions = (
+        "TITLE : a; b\n\nTHE SOLUTIONS :\n1 2\nsolution 1 :\n x : 1.0E+00 0.0\n== err : 0 ==\n"
+    )
+    whole = read_system_text("file", text, "phc")
+    assert read_system_text("file", text + solutions, "phc") == whole
+
+
 WITH_PARAMETERS = {
     "hc": """
 @var x y p[1:2] q

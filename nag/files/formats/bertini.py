@@ -13,11 +13,18 @@ from nag.algebra.tokens import quote
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
 _COMMENT = re.compile(r"%[^\n]*")
-_SECTION = re.compile(r"^[ \t]*(CONFIG|INPUT|END)[ \t]*;?[ \t]*$", re.MULTILINE)
-_RECOGNISED = re.compile(
-    r"^[ \t]*(?:CONFIG|INPUT)[ \t]*;?[ \t]*$|^[ \t]*(?:hom_)?variable_group\b", re.MULTILINE
+# A line of its own, or the first word of one.
+_SECTION = re.compile(
+    r"(?:^|(?<=;))[ \t]*(?:(CONFIG|INPUT)(?:[ \t]*;|[ \t]*$|[ \t]+(?=[A-Za-z_]))"
+    r"|(END)[ \t]*(?:;|$))",
+    re.MULTILINE | re.IGNORECASE,
 )
-_WORD = re.compile(r"\s*([A-Za-z_]+)\b")
+_RECOGNISED = re.compile(
+    r"^[ \t]*(?:CONFIG|INPUT)(?:[ \t]*;?[ \t]*$|[ \t]+(?:(?:hom_)?variable|\w+[ \t]*:))"
+    r"|^[ \t]*(?:hom_)?variable_group\b",
+    re.MULTILINE | re.IGNORECASE,
+)
+_WORD = re.compile(r"\s*([A-Za-z_]+)\b(?!\s*=)")
 _ASSIGNED = re.compile(r"\s*([^\W\d][\w\[\],]*)\s*=(?!=)")
 IMAGINARY = ("I", "i")
 NUMBERS = {"Pi": PI}
@@ -33,8 +40,17 @@ _REFUSED = {
     "pathvariable": "a homotopy of the user's own is not read; write the system at its end",
     "random": "random numbers are not read; write the constant's value",
     "random_real": "random numbers are not read; write the constant's value",
-    "definedSubfunction": "subfunctions with arguments are not read; write them out",
+    "definedsubfunction": "subfunctions with arguments are not read; write them out",
 }
+
+
+# Where a statement is not ended before the next line begins another one.
+_UNENDED = re.compile(
+    r"(?<=\S)[ \t]*\n\s*+(?:(?:"
+    + "|".join((*_DECLARED, *_REFUSED))
+    + r")\b|[^\W\d][\w\[\],]*[ \t]*=(?!=))",
+    re.IGNORECASE,
+)
 
 
 def recognise(text: str) -> bool:
@@ -54,7 +70,10 @@ def read(source: SourceFile) -> GivenSystem:
     declared: dict[str, list[list[Passage]]] = {kind: [] for kind in _DECLARED}
     assigned: dict[str, Passage] = {}
     for statement in source.statements(_input_section(source)):
-        kind = (_WORD.match(statement.text) or [""])[0].strip()
+        unended = _UNENDED.search(statement.text)
+        if unended is not None:
+            source.fail(statement.offset + unended.start(), "';' is missing here; write it")
+        kind = (_WORD.match(statement.text) or [""])[0].strip().lower()
         if kind in _REFUSED:
             source.fail(statement.offset, f"{quote(kind)}: {_REFUSED[kind]}")
         if kind == "parameter":
@@ -70,13 +89,14 @@ def read(source: SourceFile) -> GivenSystem:
 
 def _input_section(source: SourceFile) -> Passage:
     marks = list(_SECTION.finditer(source.text))
-    begins = [m.end() for m in marks if m[1] == "INPUT"]
+    names = [(m[1] or m[2]).upper() for m in marks]
+    begins = [m.end() for m, name in zip(marks, names, strict=True) if name == "INPUT"]
     if not begins:
-        config = [m for m in marks if m[1] == "CONFIG"]
+        config = [m for m, name in zip(marks, names, strict=True) if name == "CONFIG"]
         if config:
             source.fail(config[0].start(), "CONFIG without INPUT; write the line INPUT after it")
         begins = [0]
-    end = next((m.start() for m in marks if m[1] == "END" and m.start() >= begins[0]), None)
+    end = next((m.start() for m in marks if m[2] and m.start() >= begins[0]), None)
     return Passage(source.text[begins[0] : end], begins[0])
 
 
@@ -110,9 +130,10 @@ def _assign(source: SourceFile, statement: Passage, assigned: dict[str, Passage]
 def _given(
     source: SourceFile, declared: dict[str, list[list[Passage]]], assigned: dict[str, Passage]
 ) -> GivenSystem:
-    groups = [*declared["variable_group"], *declared["variable"]]
     projective = declared["hom_variable_group"]
-    variables = check_names(source, (n for group in (*groups, *projective) for n in group))
+    groups = [*declared["variable_group"], *declared["variable"], *projective]
+    groups = sorted((g for g in groups if g), key=lambda group: group[0].offset)
+    variables = check_names(source, (n for group in groups for n in group))
     functions = [name for names in declared["function"] for name in names]
     if not variables:
         source.fail(0, "no variable_group is declared; write one with the variables")
@@ -122,9 +143,7 @@ def _given(
     parameters = [name for names in declared["parameter"] for name in names]
     unset = [name for name in parameters if name.text not in assigned]
     # Those that have no value are unknown.
-    variables = check_names(
-        source, (*(n for group in (*groups, *projective) for n in group), *unset)
-    )
+    variables = check_names(source, (*(n for group in groups for n in group), *unset))
     constants += [name for name in parameters if name not in unset]
     for name in (*functions, *constants):
         if name.text not in assigned:
@@ -142,7 +161,7 @@ def _given(
         tuple(assigned[name.text] for name in functions),
         {name: text for name, text in assigned.items() if name in named},
         {name: text for name, text in assigned.items() if name not in named | called},
-        tuple(tuple(n.text for n in group) for group in (*groups, *projective)),
+        tuple(tuple(n.text for n in group) for group in groups),
         tuple(tuple(n.text for n in group) for group in projective),
         IMAGINARY,
         {name: value for name, value in NUMBERS.items() if name not in {*variables, *assigned}},

@@ -14,6 +14,8 @@ from nag.files.case_table import MAX_ENTRIES
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
 _HEAD = re.compile(r"\s*([0-9]{1,9})(?:[ \t]+([0-9]{1,9}))?[^\n;]*\n")
+# A further polynomial: titles and solutions have colons and no semicolon before them.
+_MORE = re.compile(r"\s*([^\s;:=][^;:=]*;)")
 IMAGINARY = ("i", "I")
 
 
@@ -42,6 +44,10 @@ def read(source: SourceFile) -> GivenSystem:
             source.fail(len(source.text.rstrip()), message)
         equations.append(Passage(source.text[start:end], start).stripped())
         start = end + 1
+    more = _MORE.match(source.text, start)
+    if more is not None:
+        message = f"more polynomials than the {count} that are said; write their number"
+        source.fail(more.start(1), message)
     names = _names_in_order(source, equations)
     unknowns = int(head[2]) if head[2] else None
     if unknowns is not None and unknowns != len(names):
