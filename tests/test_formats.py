@@ -829,6 +829,40 @@ def test_i_is_the_unit_of_singulars_complex_rings(tmp_path: Path) -> None:
     assert read_case(file).system.imaginary
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "ideal i = x2-y, xy-1;\nint d = vdim(std(i));\nlist L = minAssGTZ(i);\nL;",
+        "ideal i = x2-y, xy-1;\nmatrix M[2][2] = x,y,1,x;\ndef S = absPrimdecGTZ(i);\nsetring S;",
+        "int n = 1;\nideal i = x2-y, xy-n;",
+    ],
+)
+def test_values_of_singular_that_no_polynomial_is_made_of_are_left_alone(
+    text: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "ideal.sing"
+    file.write_text(f"ring r = 0, (x, y), dp;\n{text}")
+    assert nag.read(file).system == nag.system(["x^2 - y", "x*y - 1"], "x y")
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (";\nlist L = x, y;\nideal i = L[1], y;", "line 2, column 1: 'list L = x, y' is not read"),
+        (";\ndef i = ideal(x, y);", "line 2, column 1: 'def i = ideal(x, y)' is not read"),
+        ("\nideal i = x, y;", "line 1, column 23: ';' is missing here; write it"),
+        (";\nideal i = x\nideal j = y;", "line 2, column 12: ';' is missing here; write it"),
+    ],
+)
+def test_what_singular_would_make_of_other_values_is_refused_with_its_place(
+    text: str, said: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "ideal.sing"
+    file.write_text(f"ring r = 0, (x, y), dp{text}")
+    with pytest.raises(CaseError, match=re.escape(said)):
+        nag.read(file)
+
+
 def test_an_ideal_without_a_ring_is_asked_for_its_ring(tmp_path: Path) -> None:
     file = tmp_path / "ideal.m2"
     file.write_text("K = ideal(a^2 - b, b^2 - a*b^2)\n")

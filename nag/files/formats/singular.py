@@ -23,6 +23,17 @@ _PRINTED = re.compile(
     re.MULTILINE,
 )
 _DECLARED = re.compile(r"\s*(poly|number|ideal)\s+(.+)", re.DOTALL)
+# What is not read, and left alone where no polynomial is made of it.
+_OTHER = re.compile(
+    r"\s*(?:list|int|bigint|intvec|intmat|string|matrix|module|vector|map|resolution|def)\s+"
+    r"([A-Za-z]\w*)\b"
+)
+_WHOLE = re.compile(r"\s*(?:int|bigint)\s+[A-Za-z]\w*\s*=\s*-?[0-9]+\s*")
+# Where a statement is not ended before the next line begins another one.
+_UNENDED = re.compile(
+    r"(?<=\S)[ \t]*\n\s*+(?:(?:ring|poly|number|ideal|list|int)[ \t]+\w+[ \t(,;=]"
+    r"|[A-Za-z]\w*[ \t]*=(?!=))"
+)
 # p = ..., p(1) = ..., and I[1] = ..., an entry of an ideal.
 _ASSIGNED = re.compile(r"\s*([A-Za-z]\w*(?:\([0-9]{1,6}\))*)(?:\[([0-9]{1,6})\])?\s*=(?!=)\s*")
 _ASSIGNMENT = re.compile(r"[^=<>!]=[^=]")
@@ -86,6 +97,10 @@ def read(source: SourceFile) -> GivenSystem:
         source.fail(program.start(1), message)
     source, printed = _take_printed(source)
     statements = source.statements()
+    for statement in statements:
+        unended = _UNENDED.search(statement.text)
+        if unended is not None:
+            source.fail(statement.offset + unended.start(), "';' is missing here; write it")
     rings = [(s, m) for s in statements if (m := _RING.match(s.text))]
     if not rings and printed:
         # Without it x2 may be x^2, and how many unknowns there are is not said.
@@ -111,6 +126,7 @@ def read(source: SourceFile) -> GivenSystem:
             read.statement(statement)
     for entry in printed:
         read.read_printed_entry(*entry)
+    read.refuse_others()
     if not read.ideals:
         source.fail(len(source.text.rstrip()), "there is no ideal; write ideal i = ..., ...;")
     last = [name for name in read.ideals if name not in read.used]
@@ -166,6 +182,7 @@ class _Definitions:
         self._kinds: dict[str, str] = {}
         self._with_entries = set(_ENTRY.findall(source.text))
         self._depth = 0
+        self._others: dict[str, Passage] = {}
         self.definitions: dict[str, Passage] = {}
         self.ideals: dict[str, dict[int, Passage]] = {}
         self.places: dict[str, int] = {}
@@ -174,6 +191,12 @@ class _Definitions:
     def statement(self, statement: Passage) -> None:
         """Read one; what gives nothing a name, as a command that prints, is left out."""
         declared = _DECLARED.match(statement.text)
+        if _WHOLE.fullmatch(statement.text):
+            # A whole number is a number.
+            declared = re.fullmatch(r"\s*(\w+)\s+(.+)", statement.text, re.DOTALL)
+        elif other := _OTHER.match(statement.text):
+            self._others[other[1]] = statement
+            return
         kind, rest = "", statement
         if declared is not None:
             kind, rest = declared[1], statement.part(declared.start(2), len(statement.text))
@@ -204,6 +227,14 @@ class _Definitions:
             self._source.fail(rest.offset, f"{quote(name)} is no ideal; write ideal {name}; before")
         else:
             self._refuse(statement)
+
+    def refuse_others(self) -> None:
+        """Refuse what is not read where polynomials are made of it, or nothing else is read."""
+        texts = [*self.definitions.values(), *(e for i in self.ideals.values() for e in i.values())]
+        names = {name.partition("[")[0] for text in texts for name in names_in(text.text)}
+        for name, statement in self._others.items():
+            if name in names or not self.ideals:
+                self._refuse(statement)
 
     def read_printed_entry(self, name: Passage, number: int, polynomial: Passage) -> None:
         """Read an entry of an ideal that Singular printed, which need not be declared."""
