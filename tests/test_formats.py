@@ -932,6 +932,52 @@ f = x^2 + p[1]*y - 2*c; g = y^2 - q*x;
 }
 
 
+@pytest.mark.parametrize(
+    "system",
+    [
+        "System([x^2 - p*y, y - 1]; parameters = [p])",
+        "System([x^2 - p*y, y - 1], [x, y], [p])",
+        "System([x^2 - p*y, y - 1], v, w)",
+        "System([x^2 - p*y, y - 1], [x, y], parameters = w)",
+    ],
+)
+def test_parameters_of_julia_are_those_of_its_system(system: str, tmp_path: Path) -> None:
+    file = tmp_path / "system.jl"
+    file.write_text(f"@var x y z p\nv = [x, y]; w = [p]\nF = {system}\nsolve(F)\n")
+    case = nag.read(file)
+    assert isinstance(case, nag.Case) and case.unset == ("p",)
+    assert nag.read(file, set={"p": 2}).system == nag.system(["x^2 - 2*y", "y - 1"], "x y")
+
+
+@pytest.mark.parametrize(
+    ("equations", "variables"),
+    [
+        ("System([x^2 - π])", ["x"]),
+        ("System([x^2 - π], variables = [x, z])", ["x", "z"]),
+        ("[y^2 - π]", ["y"]),
+    ],
+)
+def test_unknowns_of_julia_are_those_of_the_equations_or_of_the_system(
+    equations: str, variables: list[str]
+) -> None:
+    system = read_text(f"@var x y z\nF = {equations}\n", "hc")
+    assert system == nag.system([f"{variables[0]}^2 - pi"], variables)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("F = [x^2 - sum(y)]", "line 2, column 12: 'sum' is not worked out here; write out"),
+        ("g = f(x)\nF = [x^2 - 1, y + f(1)]", "line 3, column 19: 'f' is not worked out here"),
+        ("F = [x^i - y for i in 1:2]", "line 2, column 14: 'for' is not worked out here"),
+        ("@var z, w\nF = [x]", "line 2, column 6: names have blanks between them"),
+    ],
+)
+def test_what_julia_would_work_out_is_named_with_its_place(text: str, said: str) -> None:
+    with pytest.raises(CaseError, match=re.escape(said)):
+        read_system_text("file", f"@var x y\n{text}\n", "hc")
+
+
 @pytest.mark.parametrize("format", WITH_PARAMETERS)
 def test_parameters_without_a_value_are_asked_for_before_anything_else(
     format: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

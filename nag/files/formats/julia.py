@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+from nag.algebra.number import PI
 from nag.algebra.tokens import quote
 from nag.files.case_table import MAX_ENTRIES
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
@@ -18,7 +19,12 @@ _RANGE = re.compile(r"(\w+)\[(?:([0-9]{1,6}):)?([0-9]{1,6})\]")
 _LIST = re.compile(r"(?:\w+\s*=\s*)?((?:\w+\s*\(\s*)*)\[")
 _DEFINED = re.compile(r"(\w+)\s*=\s*")
 _CALL = re.compile(r"(?<!\w)(?!(?:sqrt|sin|cos)\b)[A-Za-z_]\w*[!.]?\s*\(")
+_OF_SYSTEM = re.compile(r"(?<![\w.!])variables\s*=(?!=)\s*")
 _PARAMETERS = re.compile(r"(?<![\w.!])parameters\s*=(?!=)\s*")
+# Between a system's equations and its parameters: its variables, a list or the name of one.
+_SECOND_LIST = re.compile(
+    r"\s*,\s*(?:\[[^=\[\]]*(?:\[[0-9]+\][^=\[\]]*)*+\]|\w+)\s*,\s*(?!\s|\w+\s*=)"
+)
 _INDEXED_NAME = re.compile(r"[^\W\d]\w*(?:\[[0-9]+\])?")
 # 2x and 2(x + 1), but not 2e5.
 _FACTOR = re.compile(r"(?<![\w.])([0-9]+(?:\.[0-9]*)?)(?=[A-Za-z_(])(?!e[-+]?[0-9])")
@@ -63,25 +69,75 @@ def read(source: SourceFile) -> GivenSystem:
     if len(lists) > 1:
         source.fail(lists[1][1].offset, "a second list of equations; leave one in the file")
     equations = tuple(_write_out(each) for each in source.statements(lists[0][1], ","))
+    for text in (*equations, *definitions.values()):
+        called = _CALL.search(text.text) or re.search(r"\bfor\b", text.text)
+        if called is not None:
+            function = called[0].rstrip("( \t")
+            message = f"{quote(function)} is not worked out here; write out what it gives"
+            source.fail(text.offset + called.start(), message)
     declared_names = check_names(source, names)
-    unset = _parameters(source, declared_names)
+    unset = _parameters(source, declared_names, lists[0][1])
+    used = _used_names(equations, definitions) | _named_variables(source)
+    # Others are of no interest to it.
+    declared_names = (
+        tuple(n for n in declared_names if {n, n.partition("[")[0]} & used or n in unset)
+        or declared_names
+    )
     # They come last, as where they are unknowns they are those of a family.
     variables = (*(n for n in declared_names if n not in unset), *unset)
-    return GivenSystem(variables, equations, {}, definitions, imaginary=("im",), unset=tuple(unset))
+    return GivenSystem(
+        variables,
+        equations,
+        {},
+        definitions,
+        imaginary=("im",),
+        numbers={} if "π" in variables else {"π": PI},
+        unset=tuple(unset),
+    )
 
 
-def _parameters(source: SourceFile, variables: Sequence[str]) -> list[str]:
-    """The variables that a system's ``parameters = ...`` lists, by themselves or as p of p[1:3]."""
+def _used_names(equations: Sequence[Passage], definitions: Mapping[str, Passage]) -> set[str]:
+    """The names in equations, and in what these are made of."""
+    used, front = set[str](), list(equations)
+    while front:
+        names = set(_INDEXED_NAME.findall(front.pop().text)) - used
+        used |= names
+        front += [definitions[name] for name in names if name in definitions]
+    return used
+
+
+def _named_variables(source: SourceFile) -> set[str]:
+    """The names that ``variables = ...`` lists."""
+    found = [_names_listed(source.text, given.end()) for given in _OF_SYSTEM.finditer(source.text)]
+    return set().union(*found)
+
+
+def _parameters(source: SourceFile, variables: Sequence[str], equations: Passage) -> list[str]:
+    """The variables that are parameters of a system, as its ``parameters = ...`` or third list say.
+
+    They are named by themselves, as p of p[1:3], or by a list that has a name.
+    """
+    starts = [given.end() for given in _PARAMETERS.finditer(source.text)]
+    behind = equations.offset + len(equations.text)
+    third = _SECOND_LIST.match(source.text, source.text.find("]", behind) + 1)
+    starts += [] if third is None else [third.end()]
     found: list[str] = []
-    for given in _PARAMETERS.finditer(source.text):
-        end, depth = given.end(), 0
-        while end < len(source.text) and (depth or source.text[end] not in ",)\n"):
-            depth += (source.text[end] in "([{") - (source.text[end] in ")]}")
-            end += 1
-        listed = re.sub(r"\s", "", source.text[given.end() : end])
-        names = {m[0] for m in _INDEXED_NAME.finditer(listed)}
+    for start in starts:
+        names = _names_listed(source.text, start)
+        for name in [*names]:
+            named = re.search(rf"^[ \t]*{name}\s*=(?!=)\s*(?=\[)", source.text, re.MULTILINE)
+            names |= _names_listed(source.text, named.end()) if named else set()
         found += [v for v in variables if v not in found and {v, v.partition("[")[0]} & names]
     return found
+
+
+def _names_listed(text: str, start: int) -> set[str]:
+    """The names in what begins at ``start``, to a comma, a line's end or a bracket's."""
+    end, depth = start, 0
+    while end < len(text) and (depth or text[end] not in ",)\n"):
+        depth += (text[end] in "([{") - (text[end] in ")]}")
+        end += 1
+    return {m[0] for m in _INDEXED_NAME.finditer(re.sub(r"\s", "", text[start:end]))}
 
 
 def _split_semicolons(source: SourceFile) -> SourceFile:
@@ -100,6 +156,8 @@ def _read_names(source: SourceFile, listed: Passage) -> list[Passage]:
         name = listed.part(*item.span())
         bounds = _RANGE.fullmatch(name.text)
         if bounds is None:
+            if name.text.endswith(","):
+                source.fail(name.offset, "names have blanks between them; write @var x y")
             if "[" in name.text:
                 message = f"{quote(name.text)} is not read; write indices as in x[1:3]"
                 source.fail(name.offset, message)
