@@ -987,10 +987,10 @@ def test_parameters_without_a_value_are_asked_for_before_anything_else(
     case = nag.read(file)
     assert isinstance(case, nag.Case) and {*case.unset} == {"p[1]", "p[2]", "q"}
     for ask in (nag.solve, nag.decompose, nag.problem, lambda c: nag.write(c, tmp_path / "a.toml")):
-        with pytest.raises(nag.CaseError, match=r"parameters .* have no values; write --set p"):
+        with pytest.raises(nag.CaseError, match=r"parameters .* have no values; solve for many"):
             ask(case)
     given = {"p[1]": 1, "p[2]": 3}
-    with pytest.raises(nag.CaseError, match="parameter q has no value; write --set q"):
+    with pytest.raises(nag.CaseError, match=r"parameter q has no value; .* set it, as q=1"):
         nag.solve(file, set=given)
     same = nag.solve(["x^2 + y - 3", "y^2 - 2*x"])
     assert nag.solve(file, set={**given, "q": 2}).points == pytest.approx(same.points)
@@ -1000,6 +1000,8 @@ def test_parameters_without_a_value_are_asked_for_before_anything_else(
     table.write_text("q,p[1]\n2,1\n")
     with pytest.raises(nag.CaseError, match=r"parameter p\[2\] has no value"):
         nag.solve_family(file, values=table)
+    assert main(["solve", str(file), "--set", "q=1", "--set", "p[1]=1"]) == 2
+    assert "or set it, as p[2]=1 (--set)" in capsys.readouterr().err
     assert main(["show", str(file)]) == 0
     assert "parameters without a value" in capsys.readouterr().out
 

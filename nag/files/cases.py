@@ -240,13 +240,13 @@ class Case:
         """
         if self.unset:
             names, first = ", ".join(self.unset), self.unset[0]
-            what = f"parameter {names} has no value"
+            what, them = f"parameter {names} has no value", "it"
             if len(self.unset) > 1:
-                what = f"parameters {names} have no values"
+                what, them = f"parameters {names} have no values", "each"
             raise CaseError(
-                f"{self.path}: {what}; write --set {first}=..., in Python "
-                f"set={{'{first}': ...}}, or solve for many values with nag family"
-            )
+                f"{self.path}: {what}; solve for many values with nag family, or set {them}, as "
+                f"{first}=1"
+            ).mended_by("set")
 
     @property
     def note_rows(self) -> list[tuple[str, str]]:
@@ -487,11 +487,11 @@ def freed_system(case: Case, names: Sequence[str]) -> PolynomialSystem:
             "ask about one value after the other"
         ).mended_by("set")
     for name in names:
-        known = (*case.parameters, *case.unset)
-        if name not in known:
+        declared = (*case.parameters, *case.unset)
+        if name not in declared:
             raise CaseError(
-                f"{path}: {quote(name)} is no parameter{nearest(name, known)}; it has "
-                f"{', '.join(known) or 'none'}"
+                f"{path}: {quote(name)} is no parameter{nearest(name, declared)}; it has "
+                f"{', '.join(declared) or 'none'}"
             )
     as_unknowns(case, names).refuse_unset()
     if case.format != "toml":

@@ -111,8 +111,7 @@ def read(source: SourceFile) -> GivenSystem:
     read = _Statements(source, variables)
     for statement in _statements(source, end + 1):
         read.statement(statement)
-    units = (*dict.fromkeys(units), "ii")
-    return GivenSystem(variables, *read.chosen(), imaginary=units)
+    return GivenSystem(variables, *read.chosen(), imaginary=(*dict.fromkeys(units), "ii"))
 
 
 class _Statements:
