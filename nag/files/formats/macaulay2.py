@@ -29,13 +29,14 @@ _APPLIED = re.compile(r"""(?<![\w.])([A-Za-z]\w*+)(?<!_)(?=[ \t]*[({"]|[ \t]+[A-
 # What is done to a list of polynomials, so that it is none that is meant to vanish.
 _MADE_OF_LIST = ("ideal", "minors", "pfaffians", "det", "jacobian", "permanents", "exteriorPower")
 _IDEALS = ("ideal", "polySystem", "matrix")
-_SUM = re.compile(r"\bideal\b[^;\n]*\+[ \t]*ideal\b")
+_SUM = re.compile(r"\+[ \t]*ideal\b")
 _QUOTED = re.compile(r'\bideal\b[ \t(]*"')
 # A number as an element of a ring, 0_R.
 _IN_RING = re.compile(r"\b([0-9]+)(_[A-Za-z]\w*)\b")
 _IDEAL = re.compile(r"\bideal[ \t]*\(")
 _NAME = re.compile(r"[A-Za-z]\w*")
 _SUMS = "sums of ideals are not read; write one ideal(..., ...)"
+_IN_QUOTES = "polynomials in quotes are not read; write ideal(..., ...), with '*' and '^'"
 _OPERATIONS = (
     "what is made of ideals is not worked out here; write the polynomials, as Macaulay2 prints "
     "them with toString: ideal(..., ...)"
@@ -44,7 +45,7 @@ _ASSIGNED = re.compile(r"\s*([A-Za-z]\w*)\s*:?=(?!=)\s*")
 _OF_LIST = re.compile(r"ideal\b\s*\(?\s*(?:flatten\s+entries\s+)?([A-Za-z]\w*)\s*\)?")
 _LISTED = re.compile(r"((?:ideal|polySystem)\b\s*)?(?:matrix\b\s*)?([({])")
 # What is made of an ideal by an operator.
-_OPERATED = re.compile(r"\bideal\b[^;\n]*\)[ \t]*(\^|:|\*)")
+_OPERATED = re.compile(r"\)[ \t]*(\^|:|\*)")
 _SUBSCRIPT = re.compile(r"\b([A-Za-z]\w*)_\(([0-9]+(?:,[0-9]+)*)\)")
 _RANGE = re.compile(r"(.+?)\.\.(.+)")
 _INDEXED = re.compile(r"([A-Za-z]\w*?)_(?:([0-9]{1,6})|\{([0-9]{1,6}(?:,[0-9]{1,6})*)\})")
@@ -180,7 +181,8 @@ class _Statements:
         while front:
             passage = front.pop()
             self._refuse_calls(passage)
-            names = {*_NAME.findall(passage.text)} & self._definitions.keys() - needed.keys()
+            used = {*_NAME.findall(passage.text)}
+            names = {n for n in used if n in self._definitions and n not in needed}
             needed |= {name: self._definitions[name] for name in names}
             front += [self._definitions[name] for name in names]
         kept = {n: text for n, text in self._definitions.items() if n in needed}
@@ -203,18 +205,15 @@ class _Statements:
     def _refuse_operations(self, rights: Sequence[Passage]) -> None:
         """Refuse what would make an ideal, by its name, and other ways to write one."""
         for right in rights:
-            for pattern, message in (
-                (_SUM, _SUMS),
-                (
-                    _QUOTED,
-                    "polynomials in quotes are not read; write ideal(..., ...), with '*' and '^'",
-                ),
-            ):
-                written = pattern.search(right.text)
-                if written is not None:
-                    self._source.fail(right.offset + written.start(), message)
+            first = re.search(r"\bideal\b", right.text)
+            behind = len(right.text) if first is None else first.end()
+            if first is not None and _SUM.search(right.text, behind):
+                self._source.fail(right.offset + first.start(), _SUMS)
+            quoted = _QUOTED.search(right.text)
+            if quoted is not None:
+                self._source.fail(right.offset + quoted.start(), _IN_QUOTES)
             self._refuse_calls(right, _IDEALS)
-            operated = _OPERATED.search(right.text)
+            operated = _OPERATED.search(right.text, behind)
             if operated is not None:
                 self._source.fail(right.offset + operated.start(1), _OPERATIONS)
 
