@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
@@ -11,10 +12,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import (
     SignedPermutation,
     SymmetryError,
     check_symmetry,
+    find_symmetries,
     first_outside_span,
 )
 from nag.algebra.system import PolynomialSystem
@@ -123,6 +126,86 @@ def test_conditions_and_groups_must_be_kept() -> None:
     check_symmetry(system("x*y", groups=((0, 1), (2, 3))), swap)
     with pytest.raises(SymmetryError, match="group of x"):
         check_symmetry(system("x*y", groups=((0, 2), (1, 3))), swap)
+
+
+def generated(maps: Sequence[SignedPermutation], n: int) -> set[SignedPermutation]:
+    """The group that some maps generate."""
+    group = new = {SignedPermutation.identity(n)}
+    while new:
+        new = {g.after(h) for g in maps for h in new} - group
+        group = group | new
+    return group
+
+
+@given(
+    symmetries(),
+    st.lists(
+        st.tuples(st.tuples(*[st.integers(0, 3)] * 4), st.integers(-3, 3)), min_size=1, max_size=4
+    ),
+)
+def test_the_symmetries_of_what_one_carries_a_polynomial_to_are_found(g, terms) -> None:
+    f, images = Polynomial(4, dict(terms)), []
+    for h in generated([g], 4):
+        image = h.of_polynomial(f)
+        # Which sign a polynomial has says nothing.
+        images += [image] if image not in images and -image not in images else []
+    own = PolynomialSystem(NAMES, images)
+    found = find_symmetries(own)
+    assert g in generated(found, 4)
+    for h in found:
+        check_symmetry(own, h)
+
+
+@pytest.mark.parametrize(
+    ("equations", "order"),
+    [
+        # Those that carry single equations to themselves, up to signs.
+        (["x + 2*y + 3*z + 5*w - 1"], 1),
+        (["x + 2*y + 3*z + 5*w"], 2),
+        (["x^2 + 2*y^2 + 3*z^2 + 5*w^2 - 1"], 16),
+        (["x + y + z + w - 1"], 24),
+        (["x*y*z*w - 1"], 24 * 8),
+        (["x*y + z*w - 1"], 8 * 4),
+        (["x^3 + y^3 - 3*x*y", "z - x", "w - y"], 2),
+        # Turning and reading backwards; their products with the change of all signs.
+        (["x + y + z + w", "x*y + y*z + z*w + w*x", "x*y*z + y*z*w + z*w*x + w*x*y"], 16),
+    ],
+)
+def test_groups_of_symmetries_are_found_whole(equations, order) -> None:
+    assert len(generated(find_symmetries(system(*equations)), 4)) == order
+
+
+def test_found_symmetries_keep_conditions_groups_and_the_unit() -> None:
+    all_of, swap = ("x + y + z + w - 1",), SignedPermutation.of_map(SWAP, NAMES)
+    keeps, not_so = (parse_polynomial(text, NAMES) for text in ("x - y", "x - 2*y"))
+    for more, order in (
+        ({"nonzero": (keeps,)}, 4),
+        ({"nonzero": (not_so,)}, 2),
+        ({"groups": ((0, 1), (2, 3))}, 4),
+        ({"groups": ((0, 1, 2), (3,))}, 6),
+    ):
+        group = generated(find_symmetries(system(*all_of, **more)), 4)
+        assert len(group) == order
+        assert (swap in group) == (order != 2)
+    unit = PolynomialSystem(
+        ("x", "y", "I"),
+        [parse_polynomial(e, ("x", "y", "I")) for e in ("x^2 + y^2 - 1", "x + y - I", "I^2 + 1")],
+        imaginary=True,
+    )
+    assert generated(find_symmetries(unit), 3) == {
+        SignedPermutation.identity(3),
+        SignedPermutation((1, 0, 2), (1, 1, 1)),
+        SignedPermutation((0, 1, 2), (-1, -1, -1)),
+        SignedPermutation((1, 0, 2), (-1, -1, -1)),
+    }
+
+
+def test_declared_symmetries_are_among_those_that_are_found() -> None:
+    folder = Path(__file__).parent.parent / "cases" / "benchmarks"
+    for name in ("rhombus-chain-4.toml", "cyclic-8.toml"):
+        case = read_case(folder / name)
+        found = generated(find_symmetries(case.system), case.system.n)
+        assert case.symmetries and set(case.symmetries) <= found
 
 
 CASE = """

@@ -2,13 +2,15 @@
 
 Everything here is decided exactly: a signed permutation is a symmetry when it carries every
 equation into the ideal of the equations, which is read off by linear algebra over the rationals.
+Those that carry every equation to one of the equations, up to its sign, are found: they are the
+automorphisms of a graph (McKay & Piperno, Practical graph isomorphism, 2014).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations_with_replacement, islice
+from itertools import combinations_with_replacement, islice, product
 from operator import add
 from typing import Any
 
@@ -22,6 +24,8 @@ from nag.errors import EquationError
 
 # Multiples of equations beyond this number are not searched for the image of an equation.
 MOST_MULTIPLES = 400
+# Vertices of graphs whose automorphisms are looked for: those of larger ones could take long.
+MOST_VERTICES = 50_000
 
 
 class SymmetryError(EquationError):
@@ -169,6 +173,114 @@ def check_symmetry(system: PolynomialSystem, g: SignedPermutation) -> None:
         if {g.sources[i] for i in group} != set(group):
             name = system.variables[group[0]]
             raise SymmetryError(f"it does not keep the group of {name} together")
+
+
+def find_symmetries(system: PolynomialSystem) -> tuple[SignedPermutation, ...]:
+    """Generators of the signed permutations that carry each equation to one, up to its sign.
+
+    They keep the polynomials that must not vanish in the same way, the groups of variables and the
+    imaginary unit. Of very large systems none are found.
+    """
+    import igraph
+
+    graph = _SymmetryGraph.of(system)
+    if graph is None:
+        return ()
+    drawn = igraph.Graph(n=len(graph.colours), edges=graph.edges)
+    numbers = {colour: k for k, colour in enumerate(dict.fromkeys(graph.colours))}
+    found = drawn.automorphism_group(color=[numbers[colour] for colour in graph.colours])
+    maps = [
+        # The vertices 2 i and 2 i + 1 are a variable and its negative.
+        SignedPermutation(
+            tuple(images[2 * i] // 2 for i in range(system.n)),
+            tuple(1 - 2 * (images[2 * i] % 2) for i in range(system.n)),
+        )
+        for images in found
+    ]
+    return tuple(dict.fromkeys(g for g in maps if not g.is_identity))
+
+
+@dataclass(frozen=True, eq=False)
+class _SymmetryGraph:
+    """A graph whose automorphisms are the signed permutations that keep polynomials up to signs.
+
+    Every variable, monomial and polynomial is a pair of adjacent vertices, itself and its negative.
+    Powers of variables are pairs if they are odd, single vertices if not. A monomial meets its
+    powers in gates, one for each choice of their signs, which lie at the sign of their product; a
+    polynomial is adjacent to the monomials with the signs that they have in it.
+    """
+
+    colours: list[Any]
+    edges: list[tuple[int, int]]
+
+    @classmethod
+    def of(cls, system: PolynomialSystem) -> _SymmetryGraph | None:
+        """The graph of a system; None if it is too large."""
+        graph = cls([], [])
+        places = {i: k for k, group in enumerate(system.groups) for i in group}
+        unit = system.n - 1 if system.imaginary else -1
+        for i in range(system.n):
+            graph._add_pair(("variable", places.get(i), i == unit))
+        powers: dict[tuple[int, int], tuple[int, ...]] = {}
+        for kind, polynomials in (("zero", system.polynomials), ("nonzero", system.nonzero)):
+            for f in polynomials:
+                own = graph._add_pair((kind,))
+                for exponents, c in f.terms.items():
+                    size, sign = _size_and_sign(c)
+                    one = graph._add_pair(("term", size))
+                    graph._join((own[0], one[sign]), (own[1], one[1 - sign]))
+                    if not graph._add_gates(exponents, one, powers):
+                        return None
+        return graph
+
+    def _add(self, colour: Any) -> int:
+        self.colours.append(colour)
+        return len(self.colours) - 1
+
+    def _add_pair(self, colour: Any) -> tuple[int, int]:
+        first, second = self._add(colour), self._add(colour)
+        self._join((first, second))
+        return first, second
+
+    def _join(self, *edges: tuple[int, int]) -> None:
+        self.edges.extend(edges)
+
+    def _power(
+        self, i: int, k: int, powers: dict[tuple[int, int], tuple[int, ...]]
+    ) -> tuple[int, ...]:
+        """The vertices of the power ``k`` of a variable: two that are joined if it is odd."""
+        if (i, k) not in powers:
+            if k % 2:
+                powers[i, k] = self._add(("power", k)), self._add(("power", k))
+                self._join((powers[i, k][0], 2 * i), (powers[i, k][1], 2 * i + 1))
+            else:
+                powers[i, k] = (self._add(("power", k)),)
+                self._join((powers[i, k][0], 2 * i), (powers[i, k][0], 2 * i + 1))
+        return powers[i, k]
+
+    def _add_gates(
+        self,
+        exponents: Exponents,
+        monomial: tuple[int, int],
+        powers: dict[tuple[int, int], tuple[int, ...]],
+    ) -> bool:
+        """The gates of a monomial; False if the graph becomes too large."""
+        meets = [self._power(i, k, powers) for i, k in enumerate(exponents) if k]
+        odd = sum(len(each) == 2 for each in meets)
+        if len(self.colours) + 2**odd > MOST_VERTICES:
+            return False
+        for signs in product(*(range(len(each)) for each in meets)):
+            gate = self._add(("gate",))
+            self._join((gate, monomial[sum(signs) % 2]))
+            self._join(*((gate, each[sign]) for each, sign in zip(meets, signs, strict=True)))
+        return True
+
+
+def _size_and_sign(c: Any) -> tuple[str, int]:
+    """A number up to its sign, as text, and 0 or 1 by which of the two it is."""
+    texts = [repr(c), repr(-c)]
+    size = min(texts)
+    return size, texts.index(size)
 
 
 def _proportional(f: Polynomial, g: Polynomial) -> bool:

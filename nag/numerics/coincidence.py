@@ -7,7 +7,7 @@ classes, each labelled by its smallest index.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +38,11 @@ NEAR = 1e-6
 
 # Pairs of neighbours that are looked at together.
 PAIRS = 1 << 11
+# Images of a point under a group that are looked at: of more some are left out.
+MOST_IMAGES = 1 << 10
+
+# What carries points, shape ``(P, n)``, to others.
+PointMap = Callable[[np.ndarray], np.ndarray]
 
 
 def radii_of_balls(points: np.ndarray, errors: np.ndarray | float) -> np.ndarray:
@@ -216,3 +221,24 @@ def conjugates_present(
             if not taken[a] and not taken[b]:
                 taken[a] = taken[b] = True
     return bool(taken.all())
+
+
+def point_orbit(x: np.ndarray, maps: Sequence[PointMap]) -> np.ndarray:
+    """The images of a point under the finite group that some maps and conjugation generate.
+
+    Args:
+        x: shape ``(n,)``.
+
+    Returns:
+        Points of shape ``(images, n)``, the point itself first.
+    """
+    images = new = x[None]
+    while len(new) and len(images) < MOST_IMAGES:
+        moved = np.vstack([new.conj(), *(g(new) for g in maps)])
+        kept: list[int] = []
+        for k, z in enumerate(moved):
+            if not coincident(np.vstack([images, moved[kept]]), z, LEAST).any():
+                kept.append(k)
+        new = moved[kept]
+        images = np.vstack([images, new])
+    return images

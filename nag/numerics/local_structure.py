@@ -67,10 +67,12 @@ class Effort:
     Attributes:
         hold: whether what vanishes must do so to as many digits as the coefficients ask for.
         patience: part of the usual work after which its local ring is left undecided.
+        most: the largest multiplicity that it may have if it is isolated, where that is known.
     """
 
     hold: bool = True
     patience: float = 1.0
+    most: int | None = None
 
 
 def judge_zero(
@@ -164,6 +166,10 @@ def _at_zero(
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
         return _end(system, found, Place.ON_COMPONENT, 0, reason, missing)
+    if effort.most is not None and effort.most < 2**found.corank:
+        # As many equations as are singular there, in as many variables, have no linear terms.
+        reason = f"isolated zeros of corank {found.corank} are of multiplicity {2**found.corank}"
+        return _end(system, found, Place.ON_COMPONENT, 0, f"{reason} and more", 1)
     if found.corank > 1 and is_exact_zero(system, found):
         reason, dimension = _on_a_curve(system, found, rng)
         if dimension:

@@ -92,13 +92,15 @@ def analyse(
     slices: np.ndarray | None = None,
     place_only: bool = False,
     patience: float = 1.0,
+    most: int | None = None,
 ) -> SingularEnd:
     """Sharpen a zero, and decide whether it is isolated, and of which multiplicity.
 
     That it is multiple is decided at an exact zero of exact deflated equations, known to 125
     digits, where all that should vanish is below 1e-100; that it is isolated by the dual space of
     its local ring (modulo two primes of 62 bits if the point is rational, in 150 digits else); that
-    it is not by following a set of zeros from it, exact in the same sense at every point.
+    it is not by following a set of zeros from it, exact in the same sense at every point, or as its
+    corank asks for a larger multiplicity than it can have.
 
     Args:
         polynomials: exact, in ``n`` variables.
@@ -110,7 +112,9 @@ def analyse(
         place_only: whether 150 digits will do for coefficients of any length, as only where the
             zero lies is of interest: not how many zeros it may be, nearer together than that.
         patience: part of the usual work after which a local ring is left undecided.
+        most: the largest multiplicity that it may have if it is isolated, where there are as many
+            equations as variables and that is known.
     """
     from nag.numerics.local_structure import Effort, judge_zero
 
-    return judge_zero(polynomials, x, accuracy, rng, slices, Effort(not place_only, patience))
+    return judge_zero(polynomials, x, accuracy, rng, slices, Effort(not place_only, patience, most))

@@ -31,6 +31,7 @@ class EndJudgements:
         limits: which are limits of branches, shape ``(P,)``: their coordinates vanish, or are known
             each by itself.
         paths: whose ends they are, shape ``(P,)``.
+        most: how many zeros each may stand for at most, shape ``(P,)``; 0 where that is not known.
         key: what their generators are drawn from, besides.
     """
 
@@ -39,22 +40,25 @@ class EndJudgements:
     accuracy: np.ndarray
     limits: np.ndarray
     paths: np.ndarray
+    most: np.ndarray
     key: int
     _judged: dict[int, SingularEnd] = field(default_factory=dict)
 
     def judge(self, i: int) -> SingularEnd:
         """Where the end ``i`` lies."""
         if i not in self._judged:
-            error, limit, path = self.accuracy[i], self.limits[i], self.paths[i]
-            end = _judge(self.equations, self.points[i], error, limit, self.key, path)
-            self._judged[i] = end
+            own = (column[i] for column in self._columns)
+            self._judged[i] = _judge(self.equations, *own, key=self.key)
         return self._judged[i]
+
+    @property
+    def _columns(self) -> tuple[np.ndarray, ...]:
+        return self.points, self.accuracy, self.limits, self.paths, self.most
 
     def judge_in_blocks(self, chosen: Sequence[int]) -> None:
         """Judge several ends where blocks are kept or shared (`nag.tracking.blocks.in_blocks`)."""
         parts = [np.array(chosen[k : k + BLOCK]) for k in range(0, len(chosen), BLOCK)]
-        columns = (self.points, self.accuracy, self.limits, self.paths)
-        calls = [(self.equations, *(a[part] for a in columns), self.key) for part in parts]
+        calls = [(self.equations, *(a[part] for a in self._columns), self.key) for part in parts]
         found = blocks.work_out(block_of_judgements, calls, "singular ends")
         for part, (arrays, _) in zip(parts, found, strict=True):
             ends = map(SingularEnd.from_parts, json.loads(arrays["ends"].tobytes()))
@@ -67,14 +71,13 @@ def block_of_judgements(
     accuracy: np.ndarray,
     limits: np.ndarray,
     paths: np.ndarray,
+    most: np.ndarray,
     key: int,
     threads: int = 1,
 ) -> dict[str, np.ndarray]:
     """What is said of a block of ends, as JSON in an array of bytes; see `EndJudgements`."""
-    ends = [
-        _judge(equations, *end, key=key, path=path)
-        for *end, path in zip(points, accuracy, limits, paths, strict=True)
-    ]
+    columns = points, accuracy, limits, paths, most
+    ends = [_judge(equations, *end, key=key) for end in zip(*columns, strict=True)]
     text = json.dumps([end.parts() for end in ends])
     return {"ends": np.frombuffer(text.encode(), dtype=np.uint8)}
 
@@ -84,12 +87,15 @@ def _judge(
     point: np.ndarray,
     accuracy: float,
     limit: bool,
-    key: int,
     path: int,
+    most: int,
+    *,
+    key: int,
 ) -> SingularEnd:
     rng = np.random.default_rng([key, int(path)])
-    end = analyse(equations, point, float(accuracy), rng)
+    known = int(most) or None
+    end = analyse(equations, point, float(accuracy), rng, most=known)
     if end.place is Place.UNDECIDED and limit:
         # Each coordinate's own error says more.
-        end = analyse(equations, point, accuracy * np.abs(point), rng)
+        end = analyse(equations, point, accuracy * np.abs(point), rng, most=known)
     return end

@@ -16,7 +16,14 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.array_table import map_rows, take_rows
-from nag.numerics.coincidence import SortedPoints, clusters, conjugates_present
+from nag.numerics.coincidence import (
+    SAFETY,
+    PointMap,
+    SortedPoints,
+    clusters,
+    conjugates_present,
+    point_orbit,
+)
 from nag.numerics.doubles import MULTIPLE
 from nag.numerics.singular_point import Place, SingularEnd
 from nag.numerics.zero_values import ON, vanishes_at, vanishes_at_point
@@ -41,6 +48,11 @@ from nag.tracking.projective import coinciding_pairs
 NEARLY = 1e-5
 # Decides: Homogenising coordinates of ends at infinity, beside what is proved of them.
 INFINITE = 2e-12
+# Decides: Distance, beside its size, of ends that may have led to one multiple zero, however badly
+# they are known: thousands of times what is estimated of such ends.
+ANYWHERE_NEAR = 1e-3
+# Singular ends from which on it pays to look for symmetries.
+FEW_SINGULAR = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,13 +82,17 @@ class SortedEnds:
 
 @dataclass(frozen=True, eq=False)
 class _Zeros:
-    """End points that are zeros, in the scaled variables, with the indices of their paths."""
+    """End points that are zeros, in the scaled variables, with the indices of their paths.
+
+    ``maps``: symmetries of the equations, which carry zeros to zeros as conjugation does.
+    """
 
     path: np.ndarray
     points: np.ndarray
     accuracy: np.ndarray
     residual: np.ndarray
     regular: np.ndarray
+    maps: tuple[PointMap, ...] = ()
 
     def regular_indices(self) -> np.ndarray:
         """Indices of the regular ends, which are distinct, as the tracker has seen."""
@@ -95,12 +111,29 @@ class _Zeros:
         """The points, to be asked for by where they are."""
         return SortedPoints.of(self.points)
 
-    def conjugate(self, i: int, among: Collection[int]) -> int | None:
-        """The first of some ends, by their indices, that is the conjugate of a singular one."""
+    def count_near(self) -> np.ndarray:
+        """How many ends are anywhere near each singular one, with it, shape ``(P,)``; else 0.
+
+        No isolated zero there is of larger multiplicity, if each is the end of as many paths.
+        """
+        counts = np.zeros(len(self.path), dtype=np.int64)
+        for i in np.flatnonzero(~self.regular).tolist():
+            x = self.points[i]
+            radius = max(ANYWHERE_NEAR, SAFETY * float(self.accuracy[i])) * (1 + np.linalg.norm(x))
+            near = self.sorted_points.near(x, float(radius))
+            counts[i] = np.sum(np.linalg.norm(self.points[near] - x, axis=1) <= radius)
+        return counts
+
+    def find_image(self, i: int, among: Collection[int]) -> int | None:
+        """The first of some ends, by their indices, that symmetries carry a singular one to."""
         if self.regular[i] or not among:
             return None
-        same = self.sorted_points.coincident(self.points[i].conj(), float(self.accuracy[i]))
-        return next((k for k in same.tolist() if k in among), None)
+        for image in point_orbit(self.points[i], self.maps)[1:]:
+            same = self.sorted_points.coincident(image, float(self.accuracy[i]))
+            known = next((k for k in same.tolist() if k in among), None)
+            if known is not None:
+                return known
+        return None
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,6 +167,8 @@ def sort_ends(
     n = problem.system.n
     evaluator = Evaluator.of(problem.equations, n)
     zeros, lost = _select_zeros(problem, begin, paths, evaluator)
+    if np.count_nonzero(~zeros.regular) > FEW_SINGULAR:
+        zeros = replace(zeros, maps=problem.symmetry_maps)
     rough = problem.on_one_side(lost)
     roughly = "is a zero" if rough == 1 else "are zeros"
     ends = f"{count_text(rough, 'end point')} {roughly} of the equations only roughly"
@@ -147,15 +182,16 @@ def sort_ends(
     isolated: list[IsolatedZero] = []
     groups = [*zeros.regular_indices()[:, None], *zeros.groups()] if each else zeros.groups()
     limits = np.array([path in paths.branches for path in zeros.path.tolist()], dtype=bool)
+    whole = begin.complete and not problem.squared
+    most = zeros.count_near() if whole and not problem.added else np.zeros_like(zeros.path)
     singular = EndJudgements(
         problem.equations,
-        *(zeros.points, zeros.accuracy, limits, zeros.path),
+        *(zeros.points, zeros.accuracy, limits, zeros.path, most),
         int(rng.integers(2**62)),
     )
     if blocks.in_blocks() and not finite:
         _judge_in_blocks(problem, zeros, singular, groups)
     judge = partial(_judge_end, problem, begin, zeros, paths, evaluator, singular)
-    whole = begin.complete and not problem.squared
     for group in groups:
         best, found = _judge_group(judge, zeros, group, whole, sets)
         multiplicity = sum(zero.multiplicity for zero in found.isolated)
@@ -259,7 +295,7 @@ def _judge_in_blocks(
     singular: EndJudgements,
     groups: Sequence[np.ndarray],
 ) -> None:
-    """Judge the best ends of groups, but those whose conjugates lie on components."""
+    """Judge the best ends of groups, but those that symmetries carry to ends on components."""
     best = [_best_of(zeros, group) for group in groups]
     if problem.added:
         best = [i for i in best if problem.may_be_excluded(zeros.points[i])]
@@ -269,7 +305,7 @@ def _judge_in_blocks(
     first: dict[int, None] = {}
     later: list[tuple[int, int]] = []
     for i in best:
-        known = zeros.conjugate(i, first)
+        known = zeros.find_image(i, first)
         if known is None:
             first[i] = None
         else:
@@ -367,11 +403,11 @@ def _judge_group(
     Args:
         judge: where an end lies.
         whole: whether as many paths lead to a zero as its multiplicity is.
-        sets: ends that lie on components, and whether these are excluded. The conjugates of
-            these do so as well, as the equations are real.
+        sets: ends that lie on components, and whether these are excluded. So do those that
+            symmetries carry them to.
     """
     best = _best_of(zeros, group)
-    known = zeros.conjugate(best, sets)
+    known = zeros.find_image(best, sets)
     if known is not None:
         return best, _EndPlace(Place.ON_COMPONENT, excluded=sets[known])
     found = judge(best)

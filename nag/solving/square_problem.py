@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from math import prod
 
 import numpy as np
@@ -13,8 +13,10 @@ import numpy as np
 from nag.algebra.combinations import of_lowest_degrees
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.symmetry import SignedPermutation, find_symmetries
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.coincidence import PointMap
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.numerics.precise_point import PrecisePoint, precise_zero
 from nag.numerics.zero_values import (
@@ -94,6 +96,17 @@ class SquareProblem:
         """
         target = Target(system.n, tuple(dict(f.terms) for f in system.polynomials))
         return cls(system, system.polynomials, system.nonzero, target, 0, False)
+
+    @cached_property
+    def symmetry_maps(self) -> tuple[PointMap, ...]:
+        """What symmetries of the system do in the scaled variables; none where it was cut."""
+        if self.added:
+            return ()
+
+        def carry(g: SignedPermutation, y: np.ndarray) -> np.ndarray:
+            return self.target.scaled_points(g.of_point(self.target.original(y)))
+
+        return tuple(partial(carry, g) for g in find_symmetries(self.system))
 
     def solves(self, x: np.ndarray) -> bool | None:
         """Whether all equations vanish at the square system's exact zero near ``x``.
