@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+import nag
+from nag.algebra.symmetry import SignedPermutation
 from nag.numerics import coincidence
-from nag.numerics.coincidence import SortedPoints, coincident, neighbours, radii_of_balls
+from nag.numerics.coincidence import (
+    SortedPoints,
+    coincident,
+    neighbours,
+    point_orbit,
+    radii_of_balls,
+)
 from nag.numerics.singular_point import Place
 from nag.solving import path_ends
+from nag.solving.square_problem import SquareProblem
 
 
 def points_in_clusters(rng: np.random.Generator, count: int) -> np.ndarray:
@@ -89,3 +102,43 @@ def test_a_singular_end_is_compared_with_few_others_however_many_there_are(
     path_ends._judge_in_blocks(Problem(), ends, judgements, groups)
     assert judgements.asked == [list(range(half)), list(range(half, 2 * half))]
     assert compared < 10 * half
+
+
+@given(st.permutations(range(4)), st.lists(st.sampled_from([1, -1]), min_size=4, max_size=4))
+def test_an_orbit_is_carried_into_itself_and_no_point_is_in_it_twice(sources, signs) -> None:
+    g = SignedPermutation(tuple(sources), tuple(signs))
+    x = np.array([1 + 2j, -3, 0.5j, 7 - 1j])
+    images = point_orbit(x, [g.of_point])
+    assert (images[0] == x).all()
+    known = {tuple(z) for z in images.tolist()}
+    assert len(known) == len(images)
+    assert {tuple(z) for z in images.conj().tolist()} == known
+    assert {tuple(z) for z in g.of_point(images).tolist()} == known
+
+
+def test_what_symmetries_carry_to_a_judged_end_on_a_set_is_not_judged_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    judged = 0
+
+    def count(*ends: Any) -> Any:
+        nonlocal judged
+        judged += 1
+        return judge(*ends)
+
+    judge = path_ends._judge_end
+    monkeypatch.setattr(path_ends, "_judge_end", count)
+    # Turning x, y, z keeps each equation; the set is the three axes and other curves.
+    equations = [
+        "x^2*y^2 + y^2*z^2 + z^2*x^2",
+        "x^2*y + y^2*z + z^2*x",
+        "x*y^2 + y*z^2 + z*x^2",
+    ]
+    with_maps, here = nag.solve(equations, start="total"), judged
+    monkeypatch.setattr(SquareProblem, "symmetry_maps", ())
+    judged = 0
+    without = nag.solve(equations, start="total")
+    assert 0 < here < judged
+    assert with_maps.complete and without.complete
+    assert len(with_maps) == len(without) == 0
+    assert len(with_maps.on_components) == len(without.on_components) > 0

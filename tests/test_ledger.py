@@ -109,7 +109,9 @@ def test_singular_ends_are_found_again_and_each_is_judged_by_itself(
     judged = []
     judge = end_judgements.analyse
     monkeypatch.setattr(
-        end_judgements, "analyse", lambda *given, **how: judged.append(given) or judge(*given, **how)
+        end_judgements,
+        "analyse",
+        lambda *given, **how: judged.append(given) or judge(*given, **how),
     )
     # Two pairs of double zeros that are each other's conjugates, at which paths end.
     equations = [

@@ -64,6 +64,27 @@ def test_a_point_on_a_component_is_not_isolated(name: str, error: float) -> None
     assert end.multiplicity == 0
 
 
+@pytest.mark.parametrize("name", sorted(set(ISOLATED) - LARGE))
+def test_no_isolated_zero_has_a_larger_corank_than_its_multiplicity_allows(name: str) -> None:
+    zero = ISOLATED[name]
+    if len(zero.polynomials) == len(zero.point):
+        rng = np.random.default_rng(3)
+        given = zero.polynomials, zero.beside(1e-8, rng), 1e-8, rng
+        end = analyse(*given, most=zero.multiplicity)
+        assert (end.place, end.multiplicity) == (Place.ISOLATED, zero.multiplicity), end.reason
+
+
+def test_a_point_that_fewer_zeros_lie_at_than_its_corank_allows_is_on_a_component() -> None:
+    """Three lines in a plane, of which the origin is an embedded point: corank 2."""
+    system = polynomials("x y", "x*y*(x - y)", "x^2*y^2")
+    ends = [
+        analyse(system, np.zeros(2), 1e-10, np.random.default_rng(0), most=most)
+        for most in (3, 4, None)
+    ]
+    assert [end.place for end in ends] == [Place.ON_COMPONENT] * 3
+    assert ["corank 2" in end.reason for end in ends] == [True, False, False]
+
+
 @pytest.mark.parametrize("name", sorted(ON_COMPONENTS))
 def test_changes_of_coordinates_isolate_no_point(name: str) -> None:
     changed = ON_COMPONENTS[name].changed(np.random.default_rng(5))
