@@ -1333,9 +1333,8 @@ def free_parameters(given: Any, free: Any) -> tuple[PolynomialSystem, int]:
         nag.NagError: if there are none of these names, or coefficients are complex.
     """
     from nag.algebra.system import PolynomialSystem
-    from nag.algebra.tokens import nearest, quote
+    from nag.algebra.tokens import list_names, nearest, quote
     from nag.files.cases import as_unknowns, freed_system
-    from nag.solving.family_members import list_names
 
     names = list_names(free)
     if len({*names}) < len(names) or not names:
@@ -1446,6 +1445,7 @@ def eliminate(
     >>> [str(f) for f in found.equations]
     ['y^3 - z^2']
     """
+    from nag.algebra.tokens import list_names
     from nag.interpolation.image_ideal import eliminate_component
 
     if degree is not None:
@@ -1454,7 +1454,7 @@ def eliminate(
         raise NagError("point: component names one already; give one of the two")
     given = asked_of_component(given, component, formulation)
     chosen = choose_component(given, component, point, run)
-    names = _listed_names(onto)
+    names = None if onto is None else list_names(onto)
     places = None if names is None else place_variables(names, chosen.cloud.ambient.system)
     return eliminate_component(chosen.cloud, chosen.alike, places, degree, polynomial, run.tell)
 
@@ -1724,7 +1724,8 @@ def solve_family(
     >>> sorted(circles.real(0).round(9).tolist())
     [[-1.0, -1.0], [1.0, 1.0]]
     """
-    from nag.solving.family_members import list_names, solve_family_members
+    from nag.algebra.tokens import list_names
+    from nag.solving.family_members import solve_family_members
 
     if values is None:
         raise NagError(
@@ -1794,8 +1795,9 @@ def _family_in(
     Raises:
         nag.NagError: if it is not said which are the parameters, or they are none.
     """
+    from nag.algebra.tokens import list_names
     from nag.mechanism.problem import problem_of
-    from nag.solving.family_members import family_of, list_names
+    from nag.solving.family_members import family_of
 
     if is_a(given, "nag.files.cases", "Case"):
         member = given.family
@@ -1866,6 +1868,7 @@ def plot(
     >>> picture.complete
     True
     """
+    from nag.algebra.tokens import list_names
     from nag.files.written_file import check_target
     from nag.pictures.plot import (
         check_kind,
@@ -1875,7 +1878,8 @@ def plot(
         variables_onto,
     )
 
-    onto, joints = _listed_names(onto), _listed_names(joints)
+    onto = None if onto is None else tuple(list_names(onto))
+    joints = None if joints is None else _listed_joints(joints)
     asked = {"onto": onto, "joints": joints, "point": point}
     asked |= {"graph": graph, "mechanism": mechanism, "tree": tree}
     kind, target = choose_picture(asked), os.fspath(path)
@@ -1901,13 +1905,11 @@ def plot(
     return plot_components(found, kind, onto, title, target, run, chosen)
 
 
-def _listed_names(names: Any) -> tuple[str, ...] | None:
-    """Names, or sympy's symbols, one by one or in a text with commas or blanks between."""
-    if names is None:
-        return None
-    if isinstance(names, str):
-        names = names.split(",") if "," in names else names.split()
-    listed = names if isinstance(names, Iterable) else [names]
+def _listed_joints(joints: Any) -> tuple[str, ...]:
+    """Joints' names, which may have blanks in them, one by one or in a text with commas between."""
+    if isinstance(joints, str):
+        joints = joints.split(",") if "," in joints else joints.split()
+    listed = joints if isinstance(joints, Iterable) else [joints]
     return tuple(filter(None, (str(name).strip() for name in listed)))
 
 

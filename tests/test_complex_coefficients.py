@@ -712,3 +712,25 @@ def test_an_image_that_is_not_its_own_conjugate_says_so_at_the_prompt() -> None:
     found = nag.eliminate(nag.decompose("x^2 + y^2"), "x,y")
     assert found.self_conjugate is False and not found.defines
     assert "1 equation of it and its conjugate together" in repr(found)
+
+
+def test_what_is_handed_out_are_the_values_of_the_variables_in_their_order() -> None:
+    roots = nag.solve(["x^2 = I", "y = 2*x"], imaginary="I")
+    assert roots[0].to_numpy().tolist() == roots.to_numpy()[0].tolist() == [*roots[0].point[:2]]
+    assert roots[:1].to_numpy().shape == (1, 2)
+    assert [*roots[0].to_sympy()] == [*sympy.symbols("x y")]
+    assert [*roots[0].to_sympy("u, v")] == [*sympy.symbols("u v")]
+    assert roots[1:].to_dataframe().columns[:2].tolist() == ["x", "y"]
+    real = nag.solve(["x^2 = 2", "y = 2*x"])[0]
+    assert repr(roots[0]).count(", ") == repr(real).count(", ")
+
+
+def test_too_few_coordinates_are_counted_without_the_imaginary_unit() -> None:
+    circle = nag.system("x^2 + y^2 = I", imaginary="I")
+    for point in ((1,), {"x": 1}, {"x": 1, "z": 2}, (1, 2, 3, 4)):
+        for ask in (nag.local, nag.member):
+            with pytest.raises(nag.NagError) as error:
+                ask(circle, point)
+            assert "I" not in str(error.value)
+    with pytest.raises(nag.NagError, match=r"1 coordinate is given; there are 2 variables: x, y$"):
+        nag.local(circle, (1,))

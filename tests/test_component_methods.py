@@ -92,7 +92,7 @@ def test_projections_go_to_variables_by_index_or_name() -> None:
 @pytest.mark.parametrize(
     ("ask", "message"),
     [
-        (lambda c: c.contains([1]), "point: 1 coordinates are given; there are 2 variables: x, y"),
+        (lambda c: c.contains([1]), "point: 1 coordinate is given; there are 2 variables: x, y"),
         (lambda c: c.contains({"x": 1}), "point: no value for 'y'"),
         (lambda c: c.contains({"x": 1, "z": 1}), "point: 'z' is no variable"),
         (lambda c: c.contains("x"), "point: 'x' is given; give 2 numbers"),

@@ -220,7 +220,9 @@ def test_nor_after_a_pickle_or_a_copy(name: str) -> None:
 def test_tables_of_solutions_are_put_together() -> None:
     first, last = solved()[:1], solved()[1:]
     assert first + last == solved().solutions
-    with pytest.raises(nag.NagError, match="the tables do not go together"):
+    with pytest.raises(
+        nag.NagError, match="the solutions do not go together: they are in x, y, and in x"
+    ):
         first + nag.solve("x^2 - 2")[:1]
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import sympy
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -207,3 +208,23 @@ def test_one_end_point_lies_on_a_set_and_several_do() -> None:
     assert one.endswith("1 end point lies on it and is no isolated solution")
     (two,) = nag.solve(["(x^2 + t)*(x - 3*t)", "y - x"]).notes
     assert "end points lie on it and are no" in two
+
+
+@pytest.mark.parametrize("ask", [nag.system, nag.solve, nag.decompose, nag.problem])
+@pytest.mark.parametrize("how", [{}, {"variables": ""}])
+def test_no_equations_in_no_variables_are_refused(ask: Any, how: Any) -> None:
+    with pytest.raises(nag.NagError, match=r"^equations: none are given; give texts"):
+        ask([], **how)
+    assert nag.decompose([], "x y").dimension == 2
+
+
+def test_names_are_given_in_the_same_ways_everywhere() -> None:
+    found = nag.decompose(["z = x^2", "y = x^3"])
+    ways = ["y, z", "y z", ["y", "z"], sympy.symbols("y z")]
+    assert len({str(nag.eliminate(found, names).equations) for names in ways}) == 1
+    assert {found[0].project(names).degree for names in ways} == {3}
+    assert found[0].project(sympy.Symbol("y")).degree == found[0].project("y").degree == 1
+    assert nag.system("x*y*z", groups=["x, y", "z"]).groups == ((0, 1), (2,))
+    indexed = nag.system("x[1,2] - y", "x[1,2], y")
+    assert indexed.variables == ("x[1,2]", "y")
+    assert nag.eliminate(indexed, "x[1,2], y").texts() == ["x[1,2] - y"]

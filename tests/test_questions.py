@@ -206,6 +206,12 @@ def test_results_are_frames_of_pandas() -> None:
     frame.loc[:, "x"] = 0
     assert frame["x"].tolist() == [0, 0]
     assert abs(complex_.points[:, 0]).tolist() == pytest.approx([1, 1])
+    circle = nag.decompose("x^2 + y^2 = 1")
+    for answer in (circle[0], nag.sample(circle), complex_):
+        frame, parted = answer.to_dataframe(), answer.to_dataframe(parts=True)
+        assert {str(parted[name].dtype) for name in parted} <= {"float64", "int64", "bool"}
+        assert [*parted.columns][:2] == ["x.real", "x.imag"]
+        assert (parted["x.real"] + 1j * parted["x.imag"]).tolist() == frame["x"].tolist()
     gaussian = nag.solve(nag.system(["x - I"], imaginary="I")).to_dataframe()
     assert list(gaussian.columns)[:2] == ["x", "multiplicity"] and gaussian["x"].tolist() == [1j]
     found = nag.decompose(CIRCLE_AND_LINE).to_dataframe()
@@ -229,7 +235,7 @@ def test_components_solutions_and_circuits_alone_are_arrays_frames_and_values() 
         solved = nag.solve([equations, "x - y"], imaginary=unit)
         for names in ("x, y", solved.system.own_variables):
             assert solved[0].to_sympy(names) == solved.to_sympy()[0]
-    with pytest.raises(nag.NagError, match="variables: 1 are given for 3 coordinates"):
+    with pytest.raises(nag.NagError, match="variables: 1 is given for 2 coordinates"):
         solved[0].to_sympy(["x"])
     moves = nag.motion(CASES / "planar" / "four-bar.toml", samples=12)
     frame = moves[0].to_dataframe()

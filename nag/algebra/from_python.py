@@ -29,6 +29,7 @@ from nag.algebra.tokens import (
     ExpressionError,
     imaginary_text,
     is_name,
+    list_names,
     names_in,
     natural_order,
     nearest,
@@ -156,6 +157,8 @@ def system(
     if imaginary is None and variables is not None:
         imaginary = "I"
     names = _names(variables, occurring, values, imaginary)
+    if not given and not names:
+        raise NagError("equations: none are given; give texts like 'x^2 + y^2 = 1' in a list")
     unit = imaginary if imaginary not in (*names, *values) else None
     is_complex = any(isinstance(value, ComplexNumber) for value in values.values()) or any(
         _is_complex(f, unit) for f, _ in occurring
@@ -247,10 +250,7 @@ def _names(
         found = {name for names in listed for name in names}
         names = tuple(sorted(found - values.keys() - {imaginary}, key=natural_order))
     else:
-        given = re.split(r"[\s,]+", variables.strip()) if isinstance(variables, str) else variables
-        if not isinstance(given, Iterable):
-            given = [given]
-        names = tuple(str(name) for name in given)
+        names = tuple(list_names(variables))
     for i, name in enumerate(names):
         if not is_name(name):
             raise ExpressionError(
@@ -328,7 +328,7 @@ class _Reader:
 
 
 def _group(group: Iterable[Any], names: tuple[str, ...], place: str) -> tuple[int, ...]:
-    if isinstance(group, str) or not isinstance(group, Iterable):
+    if not isinstance(group, Iterable) and not is_sympy(group):
         group = [group]
     return variable_indices(group, names, place)
 
@@ -341,8 +341,8 @@ def variable_indices(
     Raises:
         ExpressionError: if one is unknown.
     """
-    if isinstance(chosen, str):
-        chosen = [chosen]
+    if isinstance(chosen, str) or is_sympy(chosen):
+        chosen = list_names(chosen)
     if not isinstance(chosen, Iterable):
         raise ExpressionError(
             f"{place}: {value_text(chosen)} is given; give a list of variables, by name or index"
@@ -381,10 +381,10 @@ def coordinates(
     """
     if is_a(point, "nag.solving.solutions", "Solution"):
         point = point.point
-    n, is_text = len(variables), isinstance(point, str)
     units = ("I", *variables[-1:]) if imaginary else ("I",)
-    if imaginary and hasattr(point, "__len__") and len(point) == n - 1 and not is_text:
-        n, variables = n - 1, variables[:-1]
+    if imaginary and not _names_the_unit(point, variables):
+        variables = variables[:-1]
+    n = len(variables)
     if isinstance(point, Mapping):
         places = variable_indices(point, variables, "point")
         missing = [name for i, name in enumerate(variables) if i not in places]
@@ -399,12 +399,18 @@ def coordinates(
             f"point: {value_text(point)} is given; give {n} numbers, or a dict of them by name"
         )
     if len(values) != n:
-        raise NagError(
-            f"point: {len(values)} coordinates are given; there are {n} variables: "
-            f"{', '.join(variables)}"
-        )
+        are = "coordinate is" if len(values) == 1 else "coordinates are"
+        have = "is 1 variable" if n == 1 else f"are {n} variables"
+        raise NagError(f"point: {len(values)} {are} given; there {have}: {', '.join(variables)}")
     given = [_coordinate(value, f"point[{i}]", units) for i, value in enumerate(values)]
     return (*given, 1j) if imaginary and units[-1] not in variables else tuple(given)
+
+
+def _names_the_unit(point: Any, variables: Sequence[str]) -> bool:
+    """Whether a point has a coordinate for the imaginary unit, the last variable."""
+    if isinstance(point, Mapping):
+        return variables[-1] in map(str, point)
+    return hasattr(point, "__len__") and len(point) == len(variables)
 
 
 def _coordinate(value: Any, place: str, units: Sequence[str]) -> Number | complex:

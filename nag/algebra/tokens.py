@@ -6,7 +6,7 @@ import difflib
 import re
 import unicodedata
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from nag.errors import EquationError
 
@@ -32,6 +32,8 @@ _TOKEN = re.compile(
 _SPACE = re.compile(r"\s*")
 _NAME = re.compile(_WORD)
 _PARTS = re.compile(r"\d+|\D+")
+# What stands between names of a list, and in no brackets.
+_BETWEEN = re.compile(r"[\s,]+(?![^\[{]*[\]}])")
 
 
 # Signs of typesetting, and what is written for them.
@@ -100,6 +102,19 @@ def names_in(text: str) -> frozenset[str]:
 def is_name(text: str) -> bool:
     """Whether ``text`` can name a variable or a parameter."""
     return len(text) <= 100 and _NAME.fullmatch(text) is not None and text not in RESERVED
+
+
+def list_names(names: Any) -> list[str]:
+    """Names that are given one by one, or in a text with commas or blanks between.
+
+    Names may be sympy's symbols as well, and commas in brackets stand between indices.
+
+    >>> list_names("x, y z[1,2]"), list_names(["x", "y"])
+    (['x', 'y', 'z[1,2]'], ['x', 'y'])
+    """
+    if isinstance(names, str):
+        return [name for name in _BETWEEN.split(names) if name]
+    return [str(name) for name in (names if isinstance(names, Iterable) else [names])]
 
 
 def natural_order(name: str) -> list[tuple[int, int, str]]:

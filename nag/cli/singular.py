@@ -91,10 +91,10 @@ def _components_text(whole: Decomposition) -> str:
 
 def _for_parameters(options: argparse.Namespace) -> CommandAnswer:
     """For which parameters there are singular points: they are solved for as well."""
+    from nag.algebra.tokens import list_names
     from nag.decomposition.singular_members import singular_parameters
     from nag.errors import InputError, NagError
     from nag.questions import free_parameters
-    from nag.solving.family_members import list_names
     from nag.witness.shown import paths_text
 
     if is_export(options.case) or options.component is not None:

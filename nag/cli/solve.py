@@ -83,14 +83,12 @@ def _columns(result: SolveResult, as_table: bool) -> dict[str, Any]:
     import numpy as np
 
     from nag.solving.solutions import NUMBERS
+    from nag.text.table import split_parts
 
     table, names = result.table, result.system.variables
     numbers = {name: getattr(table, name) for name in NUMBERS}
     if not as_table:
         return {"points": table.points, **numbers, "variables": np.array(names, dtype=str)}
-    parts = {
-        f"{name}.{part}": getattr(table.points[:, i], part)
-        for i, name in enumerate(names)
-        for part in ("real", "imag")
-    }
-    return parts | numbers
+    # As in frames, without the imaginary unit.
+    own = result.system.own_variables
+    return split_parts(dict(zip(own, table.to_numpy().T, strict=True))) | numbers

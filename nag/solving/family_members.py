@@ -9,7 +9,7 @@ so, without its family.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Generator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -22,6 +22,7 @@ from nag.algebra.family import Family
 from nag.algebra.from_python import exact_complex, system
 from nag.algebra.imaginary_unit import append_unit
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import list_names
 from nag.errors import NagError, StartError
 from nag.numerics.coincidence import radii_of_balls
 from nag.numerics.read_only import (
@@ -140,11 +141,13 @@ class FamilySolutions(Several[ComplexArray]):
         rows += [("note", note) for note in self.start.notes]
         return lines_of(title, rows)
 
-    def to_dataframe(self, real: bool = False) -> pandas.DataFrame:
+    def to_dataframe(self, real: bool = False, *, parts: bool = False) -> pandas.DataFrame:
         """A row for each solution: its member, from 0, parameters, coordinates, and whether real.
 
         Args:
             real: only the real ones, their coordinates as floats.
+            parts: two columns of floats for each complex one, ``x.real`` and ``x.imag``, which can
+                be written to any file of tables.
 
         Raises:
             nag.NagError: if pandas is not installed.
@@ -159,7 +162,7 @@ class FamilySolutions(Several[ComplexArray]):
         columns |= dict(zip(self.variables, (points.real if real else points).T, strict=True))
         columns["real"] = are_real[members, places]
         columns["error"] = self.errors[members, places]
-        return data_frame(columns)
+        return data_frame(columns, parts)
 
     def document(self) -> dict[str, Any]:
         """The numbers of solutions of each member as a JSON object, the solutions left out."""
@@ -271,15 +274,6 @@ def family_of(
         unknowns = list(system("0", variables).variables)
     made = system(equations, [*unknowns, *names], imaginary=imaginary)
     return Family.of_system(made, len(names))
-
-
-def list_names(parameters: Any) -> list[str]:
-    """Names that are given one by one, or as a text with commas or blanks between."""
-    if isinstance(parameters, str):
-        return parameters.replace(",", " ").split()
-    if not isinstance(parameters, Iterable):
-        parameters = [parameters]
-    return [str(name) for name in parameters]
 
 
 def check_values(family: Family, values: Any) -> np.ndarray:

@@ -95,7 +95,7 @@ def coordinate_text(z: complex, solution: Solution) -> str:
 
 
 def _point_text(solution: Solution) -> str:
-    return f"({', '.join(coordinate_text(z, solution) for z in solution.point)})"
+    return f"({', '.join(coordinate_text(z, solution) for z in solution.to_numpy())})"
 
 
 def solution_line(solution: Solution) -> str:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.to_sympy import to_sympy_point
+from nag.algebra.tokens import list_names
 from nag.errors import NagError
 from nag.numerics.array_table import RecordTable
 from nag.numerics.read_only import (
@@ -60,6 +61,9 @@ class Solution(FixedArrays):
         precision: decimal digits of the arithmetic that was needed.
         radii: errors of the coordinates, absolute, shape ``(n,)``; None where only ``accuracy`` is
             known, as from an export. Solutions are equal whatever these are.
+        variables: names of the coordinates, without the imaginary unit, whose coordinate comes last
+            where coefficients are complex; none of a solution that was found by itself. They are
+            not compared.
     """
 
     point: ComplexArray
@@ -70,6 +74,7 @@ class Solution(FixedArrays):
     condition: float
     precision: int
     radii: RealArray | None = field(default=None, compare=False)
+    variables: tuple[str, ...] = field(default=(), compare=False)
 
     __eq__ = equal_values
 
@@ -79,27 +84,28 @@ class Solution(FixedArrays):
             object.__setattr__(self, "radii", fixed_array(self.radii))
 
     def to_numpy(self) -> ComplexArray:
-        """The point, to be written to; as it is, with the imaginary unit if there is one."""
-        return self.point.copy()
+        """The values of the variables, in their order, complex, to be written to.
 
-    def to_sympy(self, variables: Sequence[Any]) -> dict[sympy.Symbol, sympy.Expr]:
+        As in frames, without the imaginary unit.
+        """
+        return self.point[: len(self.variables) or None].copy()
+
+    def to_sympy(self, variables: Any = None) -> dict[sympy.Symbol, sympy.Expr]:
         """The point as sympy has it: values, floats, by symbols.
 
         Args:
-            variables: their names, or sympy's symbols, in order, as ``result.system.variables``;
-                without the imaginary unit where coefficients are complex.
+            variables: other names for them, or sympy's symbols, in order; without the imaginary
+                unit where coefficients are complex.
 
         Raises:
             nag.NagError: if sympy is not installed, or there are not as many coordinates.
         """
-        if isinstance(variables, str):
-            variables = variables.replace(",", " ").split()
-        names = [str(name) for name in variables]
+        names = self.variables if variables is None else list_names(variables)
         unit = len(self.point) - len(names)
         if unit not in (0, 1) or (unit and self.point[-1] != 1j):
             raise NagError(
-                f"variables: {len(names)} are given for {len(self.point)} coordinates; give "
-                "those of the result's system"
+                f"variables: {len(names)} {'is' if len(names) == 1 else 'are'} given for "
+                f"{len(self.to_numpy())} coordinates; give those of the result's system"
             )
         return to_sympy_point(names, self.point[: len(names)])
 
@@ -133,6 +139,7 @@ class Solutions(RecordTable[Solution]):
     Attributes:
         points: complex, shape ``(k, n)``.
         radii: those that are known, by index.
+        variables: names of the coordinates, as of a `Solution`.
     """
 
     points: ComplexArray
@@ -143,6 +150,7 @@ class Solutions(RecordTable[Solution]):
     condition: RealArray
     precision: IntegerArray
     radii: Mapping[int, RealArray]
+    variables: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("points", *NUMBERS):
@@ -153,20 +161,82 @@ class Solutions(RecordTable[Solution]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         columns = {name: getattr(self, name) for name in NUMBERS}
-        return _solutions, (self.points, columns, dict(self.radii))
+        return _solutions, (self.points, columns, dict(self.radii), self.variables)
+
+    def _columns(self) -> Iterator[tuple[str, Any]]:
+        return (each for each in super()._columns() if each[0] != "variables")
+
+    def __add__(self, other: Self) -> Self:
+        """Some solutions, and others in the same variables below them."""
+        if isinstance(other, Solutions) and other.variables != self.variables:
+            one, two = (", ".join(each.variables) or "no names" for each in (self, other))
+            raise NagError(f"the solutions do not go together: they are in {one}, and in {two}")
+        return super().__add__(other)
 
     @classmethod
-    def of(cls, solutions: Sequence[Solution], n: int) -> Solutions:
-        """Solutions one by one, in ``n`` variables."""
+    def of(
+        cls, solutions: Sequence[Solution], n: int, variables: tuple[str, ...] = ()
+    ) -> Solutions:
+        """Solutions one by one, in ``n`` coordinates, those of the variables first."""
         if isinstance(solutions, Solutions):
-            return solutions
+            same = solutions.variables == variables
+            return solutions if same else replace(solutions, variables=variables)
         numbers = {
             name: np.array([getattr(s, name) for s in solutions], dtype=dtype)
             for name, dtype in NUMBERS.items()
         }
         radii = {i: s.radii for i, s in enumerate(solutions) if s.radii is not None}
         points = np.array([s.point for s in solutions], dtype=complex).reshape(len(solutions), n)
-        return cls(points=points, radii=radii, **numbers)
+        return cls(points=points, radii=radii, variables=variables, **numbers)
+
+    @overload
+    def to_numpy(self, real: Literal[False] = False) -> ComplexArray: ...
+
+    @overload
+    def to_numpy(self, real: Literal[True]) -> RealArray: ...
+
+    @overload
+    def to_numpy(self, real: bool) -> ComplexArray | RealArray: ...
+
+    def to_numpy(self, real: bool = False) -> ComplexArray | RealArray:
+        """The values of the variables, complex, shape ``(k, n)``, to be written to.
+
+        As in frames, without the imaginary unit, which is the last variable of a system with
+        complex coefficients.
+
+        Args:
+            real: only of the real ones, as floats.
+        """
+        points = self.points[:, : len(self.variables) or None]
+        return points[self.real].real.copy() if real else points.copy()
+
+    def to_dataframe(self, real: bool = False, *, parts: bool = False) -> pandas.DataFrame:
+        """A row for each solution: its coordinates, complex, and what is known of it.
+
+        Args:
+            real: only the real ones, their coordinates as floats.
+            parts: two columns of floats for each coordinate, ``x.real`` and ``x.imag``, which can
+                be written to any file of tables.
+
+        Raises:
+            nag.NagError: if pandas is not installed, or it is not known what the variables are
+                called.
+        """
+        if not self.variables and self.points.shape[1]:
+            raise NagError("to_dataframe: the solutions know no names of variables")
+        table = self.select_rows(self.real) if real else self
+        columns: dict[str, Any] = dict(zip(self.variables, self.to_numpy(real=real).T, strict=True))
+        for name in ("multiplicity", "real", "residual", "accuracy", "condition"):
+            columns[name] = getattr(table, name)
+        return data_frame(columns, parts)
+
+    def to_sympy(self) -> list[dict[sympy.Symbol, sympy.Expr]]:
+        """The solutions as sympy has them: values, floats, by symbols.
+
+        Raises:
+            nag.NagError: if sympy is not installed.
+        """
+        return [each.to_sympy() for each in self]
 
     def __repr__(self) -> str:
         from nag.solving.shown import solutions_line
@@ -188,14 +258,18 @@ class Solutions(RecordTable[Solution]):
             float(self.condition[i]),
             int(self.precision[i]),
             self.radii.get(i),
+            self.variables,
         )
 
 
 def _solutions(
-    points: np.ndarray, columns: Mapping[str, np.ndarray], radii: Mapping[int, np.ndarray]
+    points: np.ndarray,
+    columns: Mapping[str, np.ndarray],
+    radii: Mapping[int, np.ndarray],
+    variables: tuple[str, ...],
 ) -> Solutions:
     """What pickles and copies are made of again."""
-    return Solutions(points=points, radii=radii, **columns)
+    return Solutions(points=points, radii=radii, variables=variables, **columns)
 
 
 @dataclass(frozen=True, eq=False)
@@ -331,7 +405,8 @@ class SolveResult(Several[Solution]):
 
     def __post_init__(self) -> None:
         for name in ("solutions", "excluded_solutions"):
-            table = Solutions.of(getattr(self, name), self.system.n)
+            known = getattr(self, name)
+            table = Solutions.of(known, self.system.n, self.system.own_variables)
             object.__setattr__(self, name, table)
         for name in ("on_components", "undecided", "on_excluded", "on_doubtful"):
             points = getattr(self, name)
@@ -395,7 +470,7 @@ class SolveResult(Several[Solution]):
     @property
     def table(self) -> Solutions:
         """The isolated solutions as arrays."""
-        return Solutions.of(self.solutions, self.system.n)
+        return Solutions.of(self.solutions, self.system.n, self.system.own_variables)
 
     @property
     def real(self) -> tuple[Solution, ...]:
@@ -449,25 +524,20 @@ class SolveResult(Several[Solution]):
         Args:
             real: only the real ones, as floats.
         """
-        points = self.points[:, : len(self.system.own_variables)]
-        return points[self.table.real].real.copy() if real else points.copy()
+        return self.table.to_numpy(real=real)
 
-    def to_dataframe(self, real: bool = False) -> pandas.DataFrame:
+    def to_dataframe(self, real: bool = False, *, parts: bool = False) -> pandas.DataFrame:
         """A row for each isolated solution: its coordinates, complex, and what is known of it.
 
         Args:
             real: only the real ones, their coordinates as floats.
+            parts: two columns of floats for each coordinate, ``x.real`` and ``x.imag``, which can
+                be written to any file of tables.
 
         Raises:
             nag.NagError: if pandas is not installed.
         """
-        table = self.table.select_rows(self.table.real) if real else self.table
-        names = self.system.own_variables
-        points = table.points.real if real else table.points
-        columns: dict[str, Any] = {name: points[:, i] for i, name in enumerate(names)}
-        for name in ("multiplicity", "real", "residual", "accuracy", "condition"):
-            columns[name] = getattr(table, name)
-        return data_frame(columns)
+        return self.table.to_dataframe(real=real, parts=parts)
 
     def to_sympy(self) -> list[dict[sympy.Symbol, sympy.Expr]]:
         """The isolated solutions as sympy has them: values, floats, by symbols.
@@ -475,8 +545,7 @@ class SolveResult(Several[Solution]):
         Raises:
             nag.NagError: if sympy is not installed.
         """
-        names = self.system.own_variables
-        return [to_sympy_point(names, x) for x in self.to_numpy()]
+        return self.table.to_sympy()
 
     def rows(self, most: int | None = None, columns: int | None = None) -> list[list[str]]:
         """Headings, and a row for each solution, the real ones first.

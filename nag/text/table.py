@@ -167,8 +167,22 @@ def html_table(caption: str, rows: Sequence[Sequence[str]], note: str = "") -> s
     return f"{table}<p>{html.escape(printable(note))}</p>" if note else table
 
 
-def data_frame(columns: Mapping[str, Sequence[Any]]) -> Any:
+def split_parts(columns: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns of floats where there were complex ones: ``x.real`` and ``x.imag`` of ``x``."""
+    split: dict[str, Any] = {}
+    for name, column in columns.items():
+        if getattr(getattr(column, "dtype", None), "kind", "") == "c":
+            split |= {f"{name}.{part}": getattr(column, part) for part in ("real", "imag")}
+        else:
+            split[name] = column
+    return split
+
+
+def data_frame(columns: Mapping[str, Sequence[Any]], parts: bool = False) -> Any:
     """A ``pandas.DataFrame`` of these columns.
+
+    Args:
+        parts: whether complex ones are split, see `split_parts`.
 
     Raises:
         nag.NagError: if pandas is not installed.
@@ -177,4 +191,4 @@ def data_frame(columns: Mapping[str, Sequence[Any]]) -> Any:
         import pandas
     except ImportError:
         raise NagError("to_dataframe: pandas is not installed; pip install pandas") from None
-    return pandas.DataFrame(dict(columns))
+    return pandas.DataFrame(split_parts(columns) if parts else dict(columns))

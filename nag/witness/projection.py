@@ -128,7 +128,8 @@ def project(
     Args:
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
-        coordinates: the variables to project to, by index or name, at least one, each once.
+        coordinates: the variables to project to, at least one, each once: names, sympy's symbols,
+            a text of names, or indices.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
@@ -147,7 +148,7 @@ def project(
     (1, 3, 1)
     """
     check_component(system, component)
-    chosen = variable_indices(coordinates, system.variables, "coordinates")
+    chosen = variable_indices(coordinates, system.own_variables, "coordinates")
     if not chosen or len(set(chosen)) < len(chosen):
         raise NagError(
             f"coordinates: {list(chosen)} are given; give at least one variable, each once"

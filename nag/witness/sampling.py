@@ -87,14 +87,18 @@ class Samples(Several[ComplexArray]):
         points = self.points[:, : len(self.variables)]
         return points.real.copy() if self.real else points.copy()
 
-    def to_dataframe(self) -> pandas.DataFrame:
+    def to_dataframe(self, *, parts: bool = False) -> pandas.DataFrame:
         """A row for each point: its coordinates, as `to_numpy` has them, by their names.
+
+        Args:
+            parts: two columns of floats for each complex coordinate, ``x.real`` and ``x.imag``,
+                which can be written to any file of tables.
 
         Raises:
             nag.NagError: if pandas is not installed.
         """
         columns = self.to_numpy().T
-        return data_frame(dict(zip(self.variables, columns, strict=True)))
+        return data_frame(dict(zip(self.variables, columns, strict=True)), parts)
 
     def to_sympy(self) -> list[dict[sympy.Symbol, sympy.Expr]]:
         """The points as sympy has them: values, floats, by symbols.

@@ -254,15 +254,19 @@ class WitnessSet(FixedArrays):
         """
         return self.points[:, : len(self._known_system().own_variables)].copy()
 
-    def to_dataframe(self) -> pandas.DataFrame:
+    def to_dataframe(self, *, parts: bool = False) -> pandas.DataFrame:
         """A row for each witness point: its coordinates, and its error relative to its size.
+
+        Args:
+            parts: two columns of floats for each coordinate, ``x.real`` and ``x.imag``, which can
+                be written to any file of tables.
 
         Raises:
             nag.NagError: if pandas is not installed, or the component does not know its equations.
         """
         names = self._known_system().own_variables
         columns: dict[str, Any] = dict(zip(names, self.to_numpy().T, strict=True))
-        return data_frame(columns | {"error": self.errors})
+        return data_frame(columns | {"error": self.errors}, parts)
 
     def to_sympy(self) -> list[dict[sympy.Symbol, sympy.Expr]]:
         """The witness points as sympy has them: values, floats, by symbols.
@@ -451,7 +455,7 @@ class WitnessSet(FixedArrays):
     @takes_run
     def project(
         self,
-        coordinates: Sequence[int | str],
+        coordinates: Any,
         *,
         run: Run = DEFAULT_RUN,
     ) -> Projection:
@@ -460,7 +464,8 @@ class WitnessSet(FixedArrays):
         Pseudo-witness sets (Hauenstein & Sommese 2010).
 
         Args:
-            coordinates: the variables to project to, by index or name, at least one.
+            coordinates: the variables to project to, at least one: names, sympy's symbols, a text
+                of names as for `nag.eliminate`, or indices.
 
         Raises:
             nag.witness.projection.ProjectionError: if it could not be determined.
@@ -468,7 +473,7 @@ class WitnessSet(FixedArrays):
 
         >>> import nag
         >>> twisted = nag.decompose(["y - x^2", "z - x^3"]).components[0]
-        >>> image = twisted.project(["y", "z"])
+        >>> image = twisted.project("y, z")
         >>> image.dimension, image.degree, image.fibre_degree
         (1, 3, 1)
         """
