@@ -123,7 +123,7 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'nag' has no attribute {name!r}")
     value = getattr(import_module(_HOME[name]), name)
     if name in _TAKING_FILES:
-        value = import_module("nag.questions").takes_files(value)
+        value = import_module("nag.questions").takes_mechanisms(value)
     globals()[name] = value
     return value
 

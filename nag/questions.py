@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 
 from nag.algebra.given import (
+    ANSWERS,
     check_choice,
     check_declared,
     check_type,
@@ -91,10 +92,9 @@ DESCRIPTIONS = (
     ("nag.mechanism.problem", "Problem"),
     ("nag.algebra.system", "PolynomialSystem"),
 )
-# What has exports, which are read back.
+# What has exports, which are read back: answers, with the equations that they answer, and others.
 EXPORTED = (
-    ("nag.witness.witness", "Decomposition"),
-    ("nag.solving.solutions", "SolveResult"),
+    *ANSWERS,
     ("nag.witness.sampling", "Samples"),
     ("nag.decomposition.singular_points", "SingularLocus"),
     ("nag.decomposition.singular_members", "SingularParameters"),
@@ -366,13 +366,13 @@ def names_file(given: Any) -> bool:
 
 def takes_files(
     function: Callable[..., Answer],
-    exports: Sequence[tuple[str, str]] = (),
+    exports: Sequence[tuple[str, str]] = ANSWERS,
     convert: Callable[[Any], Any] | None = None,
 ) -> Callable[..., Answer]:
     """The same function, whose first argument may be a file, with the keywords of `read` for it.
 
     Args:
-        exports: those of `EXPORTED` that it takes; a file of others is refused by its name.
+        exports: those that it takes; a file of others is refused by its name.
         convert: what is to be done with what was read.
     """
     own = signature(function)
@@ -419,24 +419,21 @@ def takes_files(
 
 def takes_components(function: Callable[..., Answer]) -> Callable[..., Answer]:
     """`takes_files` of a function of components: those that a file has are tested first."""
-    return takes_files(function, EXPORTED[:1], _test_traces)
+    return takes_files(function, convert=_test_traces)
 
 
-def takes_results(function: Callable[..., Answer]) -> Callable[..., Answer]:
-    """`takes_files` of a function of components or solutions."""
-    return takes_files(function, EXPORTED[:2])
+def takes_mechanisms(function: Callable[..., Answer]) -> Callable[..., Answer]:
+    """`takes_files` of a function of mechanisms, or of a case's parameters: no export has these."""
+    return takes_files(function, exports=())
 
 
-# Of what has exports: what it is called, and what goes on from it.
-USES = {
-    "Decomposition": (
-        "components",
-        "nag.member, nag.sample, nag.singular and others go on from",
-    ),
-    "SolveResult": ("solutions", "nag.certify goes on from"),
-    "Samples": ("samples", ""),
-    "SingularLocus": ("singular points", ""),
-    "SingularParameters": ("singular parameters", ""),
+# What is called in words that has exports.
+CALLED = {
+    "Decomposition": "components",
+    "SolveResult": "solutions",
+    "Samples": "samples",
+    "SingularLocus": "singular points",
+    "SingularParameters": "singular parameters",
 }
 
 
@@ -444,19 +441,20 @@ def _refuse_export(file: str, found: Any, taken: Sequence[tuple[str, str]]) -> N
     """Refuse what a file holds if it is an export of something else than is taken.
 
     Raises:
-        nag.InputError: which says what it is, and what reads it.
+        nag.InputError: which says what it is, and what to give.
     """
     others = any(is_a(found, *kind) for kind in EXPORTED if kind not in taken)
     if not others and not isinstance(found, dict):
         return
     if isinstance(found, dict):
-        what, use = f"what a command wrote ({found['format']})", ""
+        what = f"what a command wrote ({found['format']})"
     else:
-        what, use = USES[type(found).__name__]
-        what = f"an export of {what}"
-    uses = " and ".join(filter(None, ["nag.read reads", use]))
-    wanted = ["a case", *(USES[name][0] for _, name in taken)]
-    raise InputError(f"{file}: is {what}, which {uses}; give {join_words(wanted, 'or')}")
+        what = f"an export of {CALLED[type(found).__name__]}"
+    if not taken:
+        said = "which has no mechanism and no parameters; give the case that it is of"
+        raise InputError(f"{file}: is {what}, {said}")
+    wanted = ["a case", *(f"an export of {CALLED[name]}" for _, name in taken)]
+    raise InputError(f"{file}: is {what}, which has no equations; give {join_words(wanted, 'or')}")
 
 
 def _test_traces(read: Any) -> Any:
@@ -605,7 +603,7 @@ def _decompose_by(
     return discover(asked.system, starts=count, symmetries=symmetries, run=run)
 
 
-@takes_files
+@takes_mechanisms
 @takes_run
 def sweep_parameter(
     given: Any,
@@ -667,7 +665,7 @@ def sweep_parameter(
     return Sweep(parameter, tuple(sweep(system_at, exact, run=run)))
 
 
-@takes_files
+@takes_mechanisms
 @takes_run
 def decompose_modes(
     mechanism: Any,
@@ -707,7 +705,7 @@ def decompose_modes(
     return decompose_modes(made, formulation, chosen, run=run)
 
 
-@takes_files
+@takes_mechanisms
 @takes_run
 def write_report(
     given: Any,
@@ -870,7 +868,7 @@ def _point(
     return coordinates(point, system.variables, system.imaginary)
 
 
-@takes_files
+@takes_mechanisms
 def gruebler_kutzbach(mechanism: Any) -> int:
     """Freedoms of all moving bodies minus the conditions of all joints.
 
@@ -1022,11 +1020,6 @@ def _find_in(
         if check is not None:
             check(found.system, {})
         return found, {}, ""
-    if is_a(given, "nag.solving.solutions", "SolveResult"):
-        raise NagError(
-            "given: solutions are given, and components are asked about; give the equations, or "
-            "what nag.decompose returns"
-        )
     from nag.mechanism.problem import in_real_coordinates, problem_of
 
     asked = problem_of(given, formulation=formulation)
@@ -2015,7 +2008,7 @@ class Certified:
         return "\n".join(label_lines(self.rows))
 
 
-@takes_results
+@takes_files
 @takes_run
 def certify(
     given: Any, paths: bool = False, *, formulation: str = "auto", run: Run = DEFAULT_RUN

@@ -250,20 +250,64 @@ def test_an_export_where_a_case_is_wanted_is_told_what_it_is(tmp_path: Path, cap
     nag.write(nag.decompose("x*y"), components)
     nag.write(nag.solve("x^2 - 1"), solutions)
     nag.write(nag.sample("x*y", count=1), samples)
-    for call in (nag.mobility, nag.motion, nag.modes, nag.decompose, nag.solve, nag.model):
-        with pytest.raises(nag.InputError, match=r"is an export of components, which nag\.read"):
+    for call in (nag.mobility, nag.motion, nag.modes, nag.decompose_modes, nag.gruebler_kutzbach):
+        with pytest.raises(nag.InputError, match="is an export of components, which has no mech"):
             call(components)
-    with pytest.raises(nag.InputError, match=r"solutions, which nag\.read reads and nag\.certify"):
-        nag.member(solutions, (0, 0))
-    with pytest.raises(nag.InputError, match="give a case, components or solutions"):
-        nag.certify(samples)
+    for ask in (nag.certify, nag.decompose, nag.member):
+        with pytest.raises(nag.InputError, match="samples, which has no equations; give a case, "):
+            ask(samples)
     assert nag.member(components, (0, 1)).on
     assert nag.certify(solutions)
     assert main(["mobility", components]) == 2
     assert "is an export (nag-decomposition), and no case" in capsys.readouterr().err
+    assert main(["decompose", samples]) == 2
+    said = "has no equations; give a case, or an export of components or solutions\n"
+    assert capsys.readouterr().err == f"nag: {samples}: {said}"
     # Longer than any case may be.
     Path(components).write_text(Path(components).read_text() + " " * 3_000_000)
     assert main(["member", components, "--at", "x = 0, y = 1"]) == 0
+
+
+def test_an_export_stands_for_the_equations_that_it_answers(tmp_path: Path, capsys) -> None:
+    equations = ["x^2 + y^2 - 2", "x*(x - y)"]
+    answers = nag.decompose(equations), nag.solve(equations)
+    files = [str(tmp_path / name) for name in ("components.json", "solutions.json")]
+    for found, file in zip(answers, files, strict=True):
+        nag.write(found, file)
+        for given in (found, file):
+            assert nag.decompose(given) == answers[0] and nag.solve(given) == answers[1]
+            assert nag.model(given).system == nag.problem(given).system == found.system
+            assert nag.local(given, (1, 1)).multiplicity == 1
+            assert nag.member(given, (1, 1)).on and len(nag.singular(given)) == 0
+            with pytest.raises(nag.NagError, match="what is given has its own, leave it out"):
+                nag.solve(given, imaginary="I")
+        with pytest.raises(nag.InputError, match="is an export; set is for cases, leave it out"):
+            nag.solve(file, set={"x": 1})
+        for words in (["solve"], ["decompose"], ["model"], ["member", "--at", "x = 1, y = 1"]):
+            assert main([words[0], file, *words[1:], "--quiet"]) == 0
+        assert main(["local", file, "--at", "x = 1, y = 1", "--quiet"]) == 0
+        assert main(["solve", file, "--set", "x=1"]) == 2
+        assert capsys.readouterr().err == f"nag: {file}: is an export; --set is for cases\n"
+
+
+def test_unknowns_of_what_an_export_answers_become_parameters(tmp_path: Path, capsys) -> None:
+    file, values = str(tmp_path / "found.json"), tmp_path / "values.csv"
+    nag.write(nag.decompose("x^2 = y"), file)
+    values.write_text("y\n1\n4\n")
+    assert nag.solve_family(file, "y", [[1], [4]]).counts.tolist() == [2, 2]
+    assert nag.singular(file, free="y").texts() == ["y = 0"]
+    assert main(["family", file, "--values", str(values), "--quiet"]) == 0
+    assert main(["singular", file, "--free", "y", "--quiet"]) == 0
+
+
+def test_an_export_has_the_symmetries_that_carry_its_components_into_each_other(
+    tmp_path: Path,
+) -> None:
+    file = str(tmp_path / "bennett.json")
+    found = nag.decompose("cases/bennett.toml", formulation="E")
+    nag.write(found, file)
+    again = nag.decompose(file)
+    assert [c.orbit for c in again.components] == [c.orbit for c in found.components]
 
 
 @pytest.mark.parametrize("text", ["a*x^2 - 1\n", "variables x, a\na*x^2 - 1", "imaginary I\na*x-1"])

@@ -40,7 +40,7 @@ from nag.errors import NagError
 __all__ = ["exact_number", "exact_vector", "system"]
 
 # What iterates, as sequences of equations do, and holds none: results.
-ANSWERS = ("nag.numerics.read_only", "Several")
+RESULTS = ("nag.numerics.read_only", "Several")
 # What stands between equations of a list; commas in brackets stand between indices.
 _SEVERAL = re.compile(r"[,;]\s*\S")
 _IN_BRACKETS = re.compile(r"[\[{(][^\[{(\]})]*[\]})]")
@@ -219,7 +219,7 @@ def _list_equations(equations: Any, place: str) -> list[Any]:
         return list(equations)
     if matrix:
         return list(equations)
-    answer = is_a(equations, *ANSWERS)
+    answer = is_a(equations, *RESULTS)
     if answer and hasattr(equations, "system"):
         raise ExpressionError(
             f"{place}: a {type(equations).__name__} is given, which is an answer; "

@@ -23,6 +23,11 @@ DECLARED: Mapping[str, tuple[Any, str]] = {
     "bool": (bool, _TRUTH),
     "str | os.PathLike[str]": (str | PathLike, "the name of a file"),
 }
+# Answers that have the equations which they answer: where these classes are.
+ANSWERS = (
+    ("nag.witness.witness", "Decomposition"),
+    ("nag.solving.solutions", "SolveResult"),
+)
 SETTINGS = ("fast", "default", "careful")
 # More of anything that is counted does not fit into memory.
 LARGEST = 10**9

@@ -250,11 +250,14 @@ def _joint_values(text: str | None) -> dict[str, str] | None:
     return values
 
 
-def refuse_reading(options: argparse.Namespace) -> None:
+def refuse_reading(options: argparse.Namespace, refused: Sequence[str] | None = None) -> None:
     """Refuse what is said of how a case is read, where an export is given.
 
+    Args:
+        refused: the options that are; all of them by default.
+
     Raises:
-        UsageError: if anything is.
+        UsageError: if any is given.
     """
     given = {
         "--formulation": getattr(options, "formulation", None) is not None,
@@ -264,7 +267,7 @@ def refuse_reading(options: argparse.Namespace) -> None:
         "--at": getattr(options, "stance", None) is not None,
     }
     for option, is_given in given.items():
-        if is_given:
+        if is_given and (refused is None or option in refused):
             raise UsageError(f"{options.case}: is an export; {option} is for cases")
 
 
@@ -417,8 +420,17 @@ def read_case_file(
         raise UsageError(unreadable(path, error)) from None
 
 
-def read_given_case(options: argparse.Namespace) -> Case:
-    """The case that the options of `add_reading` give."""
+def read_given_case(options: argparse.Namespace, *, exports: bool = False) -> Case:
+    """The case that the options of `add_reading` give.
+
+    Args:
+        exports: whether an export stands for the equations that it answers.
+    """
+    if exports and is_json(options.case):
+        from nag.files.export_case import case_of_export
+
+        refuse_reading(options, ("--set", "--format", "--hold", "--at"))
+        return case_of_export(options.case)
     return read_case_file(
         options.case,
         options.set,
@@ -428,9 +440,35 @@ def read_given_case(options: argparse.Namespace) -> Case:
     )
 
 
-def read_problem(arguments: argparse.Namespace) -> tuple[Case, Problem]:
-    """The case, and the problem that it describes in the formulation that is asked for."""
-    case = read_given_case(arguments)
+def is_json(path: str) -> bool:
+    """Whether a file is JSON, by its first character; case files cannot begin like that."""
+    return _head_of(path)[:1] == b"{"
+
+
+def has_components(path: str) -> bool:
+    """Whether a file is an export, and none of solutions, by how it begins."""
+    from nag.files.case_table import format_of_export
+
+    head = _head_of(path)
+    return head[:1] == b"{" and format_of_export(head) != "nag-solutions"
+
+
+def _head_of(path: str) -> bytes:
+    """How a file begins; empty if it cannot be read."""
+    try:
+        with open(path, "rb") as file:
+            return file.read(256).lstrip()
+    except (OSError, ValueError):
+        return b""
+
+
+def read_problem(arguments: argparse.Namespace, *, exports: bool = True) -> tuple[Case, Problem]:
+    """The case, and the problem that it describes in the formulation that is asked for.
+
+    Args:
+        exports: whether an export stands for the equations that it answers.
+    """
+    case = read_given_case(arguments, exports=exports)
     tell = getattr(arguments, "progress", None)
     if tell is not None:
         tell("choosing the model", 0, 0)

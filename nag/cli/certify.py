@@ -8,9 +8,8 @@ import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_quiet, add_sharing
+from nag.cli.arguments import UsageError, add_quiet, add_sharing, is_json
 from nag.cli.running import CommandAnswer
-from nag.cli.witness_input import is_export
 
 if TYPE_CHECKING:
     from nag.numerics.claims import Claim
@@ -46,7 +45,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     from nag.questions import certify_result
     from nag.text.table import sheet
 
-    if os.path.isfile(options.export) and not is_export(options.export):
+    if os.path.isfile(options.export) and not is_json(options.export):
         raise UsageError(
             f"{options.export}: is no export; nag certify proves what `nag solve --json FILE` or "
             "`nag decompose --json FILE` wrote, and --certify of these proves it at once"

@@ -26,7 +26,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise UsageError("give either a case file or --all, and not both")
     if options.all and options.set:
         raise UsageError("--set: is for a case file")
-    case = None if options.all else read_given_case(options)
+    case = None if options.all else read_given_case(options, exports=True)
     from nag.check.statement import summary
     from nag.questions import check_statements
     from nag.text.table import label_lines

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from nag.cli.arguments import (
     UsageError,
     error_in_file,
+    has_components,
     problem_of_case,
     read_given_case,
     whole,
@@ -19,7 +20,6 @@ from nag.cli.witness_input import (
     asked_point,
     component_of,
     doubt_rows,
-    is_export,
     numbered_row,
     read_components,
 )
@@ -119,7 +119,7 @@ def _begin(options: argparse.Namespace) -> Begun:
     from nag.report.model import body_rows
 
     run, number = chosen_run(options), options.component
-    if is_export(options.case):
+    if has_components(options.case):
         if options.at is not None:
             raise UsageError("--at: is for cases; of an export name a --component")
         read = read_components(options)
@@ -146,7 +146,7 @@ def _asked_in(
     """The case, its problem, and the point of ``--at``: the name of one, or coordinates."""
     from nag.questions import ambient_variables, formulation_of_component
 
-    case = read_given_case(options)
+    case = read_given_case(options, exports=True)
     asked = options.formulation or "auto"
     problem = problem_of_case(case, formulation_of_component(case, options.component, asked))
     points = {point.name: point.at for point in problem.points}

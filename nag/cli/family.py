@@ -94,7 +94,7 @@ def _family_by_columns(options: argparse.Namespace, case: Case) -> Family:
 
 def run(options: argparse.Namespace) -> CommandAnswer:
     """All isolated solutions of many members."""
-    case = read_given_case(options)
+    case = read_given_case(options, exports=True)
     from nag.errors import StartError
     from nag.files.member_values import read_member_values
     from nag.solving.family_members import check_values, solve_members

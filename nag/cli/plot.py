@@ -11,6 +11,7 @@ from nag.cli.arguments import (
     add_formulation,
     add_reading,
     add_tracking,
+    is_json,
     parse_circuit,
     problem_of_case,
     read_given_case,
@@ -21,7 +22,6 @@ from nag.cli.witness_input import (
     add_component,
     component_of,
     doubt_rows,
-    is_export,
     read_components,
 )
 from nag.errors import ComponentError, InputError, NagError
@@ -155,7 +155,7 @@ def _of_components(options: argparse.Namespace, kind: str) -> CommandAnswer:
 def _of_mechanism(options: argparse.Namespace, kind: str) -> CommandAnswer:
     from nag.pictures.plot import plot_mechanism
 
-    if is_export(options.case):
+    if is_json(options.case):
         raise UsageError(f"{options.case}: is an export; --{kind} is for cases of mechanisms")
     case = read_given_case(options)
     picture = plot_mechanism(

@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> CommandAnswer:
     """All that is found of a mechanism, in one page."""
-    case, problem = read_problem(options)
+    case, problem = read_problem(options, exports=False)
     if problem.model is None:
         raise UsageError(f"{options.case}: is a polynomial system; reports are of mechanisms")
     from nag.files.export import Origin

@@ -10,11 +10,11 @@ from nag.cli.arguments import (
     add_json,
     add_quiet,
     add_reading,
+    is_json,
     read_given_case,
     refuse_reading,
 )
 from nag.cli.running import CommandAnswer, document_head, name_case
-from nag.cli.witness_input import is_export
 
 if TYPE_CHECKING:
     from nag.decomposition.singular_members import SingularParameters
@@ -123,7 +123,7 @@ def _describe(
     what a command wrote.
     """
     path = options.case
-    if not is_export(path):
+    if not is_json(path):
         case = read_given_case(options)
         return name_case(case), case.kind, *_describe_case(case)
     refuse_reading(options)

@@ -19,7 +19,6 @@ from nag.cli.witness_input import (
     add_input,
     component_of,
     doubt_rows,
-    is_export,
     read_components,
     with_tested_traces,
 )
@@ -97,13 +96,13 @@ def _for_parameters(options: argparse.Namespace) -> CommandAnswer:
     from nag.questions import free_parameters
     from nag.witness.shown import paths_text
 
-    if is_export(options.case) or options.component is not None:
-        raise UsageError("--free: needs a case file, and no --component")
+    if options.component is not None:
+        raise UsageError("--free: is of equations, not of components; leave --component out")
     names = list_names(options.free)
     for name, _ in options.set:
         if name in names:
             raise UsageError(f"--set {name}: is an unknown by --free; give it no value")
-    case = read_given_case(options)
+    case = read_given_case(options, exports=True)
     try:
         system, count = free_parameters(case, names)
     except InputError:

@@ -72,7 +72,7 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
         raise UsageError(f"--sweep: {asked.name} is set by --set as well; leave one of them out")
 
     arguments.set = [*settings, (asked.name, asked.values[0])]
-    case, first = read_problem(arguments)
+    case, first = read_problem(arguments, exports=False)
 
     from nag.decomposition.sweep import Sweep
     from nag.questions import sweep_parameter

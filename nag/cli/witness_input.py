@@ -16,6 +16,7 @@ from nag.cli.arguments import (
     add_formulation,
     add_reading,
     add_running,
+    has_components,
     read_problem,
     refuse_reading,
 )
@@ -84,19 +85,10 @@ def add_component(parser: argparse.ArgumentParser, text: str, default: int | Non
     )
 
 
-def is_export(path: str) -> bool:
-    """Whether a file is JSON, by its first character; case files cannot begin like that."""
-    try:
-        with Path(path).open("rb") as file:
-            return file.read(256).lstrip()[:1] == b"{"
-    except (OSError, ValueError):
-        return False
-
-
 def read_components(
     options: argparse.Namespace, check: Check | None = None, real: bool = False
 ) -> ReadComponents:
-    """The decomposition to work with; a case is decomposed now.
+    """The decomposition to work with; a case is decomposed, or what an export of solutions answers.
 
     Args:
         check: called with the system and the named points before a case is decomposed.
@@ -108,7 +100,7 @@ def read_components(
     """
     from nag.witness.frame import expand_orbits
 
-    if is_export(options.case):
+    if has_components(options.case):
         from nag.files.export import read_export
 
         refuse_reading(options)

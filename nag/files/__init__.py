@@ -4,7 +4,7 @@ Read in this order, top-down: `cases` on `case_table` (TOML in), with a file for
 (`mechanism_case`, `framework_case`, `dh_case`, `linkage_case`, `robot_case`) and `case_family`;
 `case_writing` (the same written); the package `formats` (systems in the files of other programs,
 read and written), and `robots` (URDF and MJCF); `member_values` (parameters of a family's members);
-`export`, `solutions_export`, `points_export` (samples, singular points) and `certificate_export` on
-`json_values` and `json_schema` (what is read fits its schema); `written_file` (checked first,
-replaced in one step).
+`export_case` (the equations that an export answers) on `export` and `solutions_export`;
+`points_export` (samples, singular points) and `certificate_export`; all these on `json_values` and
+`json_schema` (what is read fits its schema); `written_file` (checked first, replaced in one step).
 """

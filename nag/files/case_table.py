@@ -225,12 +225,18 @@ _EXPORT = re.compile(rb"\s*\{\s*\"format\"\s*:\s*\"([a-z-]{1,40})\"")
 MOST_OF_A_HEAD = 200
 
 
+def format_of_export(content: bytes) -> str:
+    """The format of an export that begins so; empty if it does not say it there."""
+    known = _EXPORT.match(content)
+    return known[1].decode() if known else ""
+
+
 def export_text_of(content: bytes) -> str:
     """What to say of a file that begins so where a case is wanted; empty if it is no JSON."""
     if not content.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
         return ""
-    known = _EXPORT.match(content)
-    what = f"an export ({known[1].decode()})" if known else "JSON, as exports are"
+    known = format_of_export(content)
+    what = f"an export ({known})" if known else "JSON, as exports are"
     return f"is {what}, and no case; `nag show` says what it holds; give the case file"
 
 

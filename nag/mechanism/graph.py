@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from nag.algebra.from_python import exact_vector
-from nag.algebra.given import check_listed, check_type, is_a, value_text
+from nag.algebra.given import ANSWERS, check_listed, check_type, is_a, value_text
 from nag.algebra.number import Number, brief_number_text, is_zero
 from nag.algebra.tokens import nearest, quote
 from nag.errors import MechanismError
@@ -448,7 +448,9 @@ def _first_repeated(names: Iterable[str]) -> str | None:
 
 
 def is_equations(given: Any) -> bool:
-    """Whether equations are given, by themselves, in a case or as a system."""
+    """Whether equations are given, by themselves, in a case, as a system or with an answer."""
+    if any(is_a(given, *kind) for kind in ANSWERS):
+        return True
     if is_a(given, "nag.files.cases", "Case"):
         return bool(given.kind == "system")
     texts = isinstance(given, str) or is_a(given, "nag.algebra.system", "PolynomialSystem")

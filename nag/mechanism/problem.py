@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.from_python import system as system_of_equations
-from nag.algebra.given import check_listed, is_a
+from nag.algebra.given import ANSWERS, check_listed, is_a
 from nag.algebra.number import Number, number_text
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import NamedPoint, PolynomialSystem
@@ -202,7 +202,8 @@ def problem_of(
     """The problem that a mechanism, a model, parts, a case, a system or equations describe.
 
     Args:
-        given: any of these, or a problem, which is taken as it is.
+        given: any of these; or a problem, which is taken as it is; or what `nag.solve` or
+            `nag.decompose` found, whose equations are meant.
         variables: of equations, their names in order.
         imaginary: of equations, what the imaginary unit is called, as for `nag.system`.
         formulation: of a mechanism as for `nag.model`, or of a table: ``"H"`` or ``"E"``.
@@ -252,6 +253,9 @@ def _describe_problem(given: Any, formulation: str) -> Problem | None:
     if isinstance(given, PolynomialSystem):
         check_formulation(formulation)
         return Problem(given)
+    if any(is_a(given, *kind) for kind in ANSWERS):
+        check_formulation(formulation)
+        return _of_answer(given)
     if is_a(given, "networkx", "Graph"):
         raise NagError(
             "system: a networkx graph is given; make it a mechanism first, "
@@ -270,6 +274,12 @@ def _of_model(made: Model) -> Problem:
     reference = NamedPoint("reference", tuple(made.reference), "the reference configuration")
     points = (reference,) if made.reference or not made.system.n else ()
     return Problem(made.system, tuple(made.symmetries), points, model=made)
+
+
+def _of_answer(found: Decomposition | SolveResult) -> Problem:
+    """The equations that were answered, with the symmetries that carry components into others."""
+    components = getattr(found, "components", ())
+    return Problem(found.system, tuple(dict.fromkeys(g for c in components for g in c.images)))
 
 
 def problem_within_reach(problem: Problem) -> Problem:
