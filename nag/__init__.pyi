@@ -107,8 +107,17 @@ class FileOptions(TypedDict, total=False):
     hold: Sequence[str]
     at: Mapping[str, RealNumber] | None
 
+class EquationOptions(TypedDict, total=False):
+    """How equations are read, as for `problem`."""
+
+    variables: Names | None
+    imaginary: str | None
+
 class Options(RunOptions, FileOptions, total=False):
     """Both."""
+
+class QuestionOptions(Options, EquationOptions, total=False):
+    """All three."""
 
 File: TypeAlias = str | os.PathLike[str]
 # Exact: text as "5/6" or "sqrt(2)", floats as their shortest decimals.
@@ -121,11 +130,11 @@ Names: TypeAlias = str | Iterable[str | SympyExpression]
 Parts: TypeAlias = Framework | Linkage | DHLoop | AssemblyModel
 # A mechanism, or what describes one.
 Moving: TypeAlias = File | Case | Mechanism | Model | Parts | Problem
-# What has equations, or what has components.
-Solvable: TypeAlias = Moving | PolynomialSystem | Equations
+# What has equations, an answer to them too, or what has components.
+Solvable: TypeAlias = Moving | PolynomialSystem | Equations | Decomposition | SolveResult
 # What is written as JSON and read back.
 Exported: TypeAlias = Decomposition | SolveResult | Samples | SingularLocus | SingularParameters
-Decomposed: TypeAlias = Solvable | Decomposition | WitnessSet
+Decomposed: TypeAlias = Solvable | WitnessSet
 # The name of a point, or its coordinates by name or in order.
 Point: TypeAlias = (
     str | Mapping[str, complex | RealNumber] | Sequence[complex | RealNumber] | np.ndarray
@@ -141,11 +150,11 @@ Drives: TypeAlias = tuple[str, float] | Mapping[str, float]
 Poses: TypeAlias = Mapping[str, Sequence[str | SupportsFloat] | np.ndarray]
 
 def certify(
-    given: SolveResult | Decomposed,
+    given: Decomposed,
     paths: bool = False,
     *,
     formulation: Formulation = "auto",
-    **options: Unpack[Options],
+    **options: Unpack[QuestionOptions],
 ) -> Certified: ...
 def decompose(
     system: Solvable,
@@ -180,21 +189,21 @@ def eliminate(
     degree: int | None = None,
     polynomial: bool = False,
     formulation: Formulation = "auto",
-    **options: Unpack[Options],
+    **options: Unpack[QuestionOptions],
 ) -> ImageIdeal: ...
 def find_real_curve(
     given: Decomposed,
     component: int | None = None,
     *,
     formulation: Formulation = "auto",
-    **options: Unpack[Options],
+    **options: Unpack[QuestionOptions],
 ) -> RealCurve: ...
 def find_real_points(
     given: Decomposed,
     component: int | None = None,
     *,
     formulation: Formulation = "auto",
-    **options: Unpack[Options],
+    **options: Unpack[QuestionOptions],
 ) -> RealPieces: ...
 def framework_of_graph(graph: networkx.Graph, dimension: int = 2) -> Framework: ...
 def gruebler_kutzbach(mechanism: Moving, **options: Unpack[FileOptions]) -> int: ...
@@ -204,14 +213,14 @@ def intersect(
     second: int,
     *,
     formulation: Formulation = "auto",
-    **options: Unpack[Options],
+    **options: Unpack[QuestionOptions],
 ) -> Decomposition: ...
 def local(
     given: Solvable,
     point: Point | None = None,
     *,
     formulation: Formulation = "auto",
-    **options: Unpack[Options],
+    **options: Unpack[QuestionOptions],
 ) -> LocalDimension: ...
 def local_dimension(
     system: PolynomialSystem,
@@ -225,7 +234,7 @@ def member(
     point: Point | None = None,
     *,
     formulation: Formulation = "auto",
-    **options: Unpack[Options],
+    **options: Unpack[QuestionOptions],
 ) -> PointMembership: ...
 def mobility(
     mechanism: Moving,
@@ -262,6 +271,9 @@ def model(
     formulation: Formulation = "auto",
     modes: Iterable[tuple[str, int]] = (),
     space: Literal["planar", "spherical", "spatial"] | None = None,
+    *,
+    variables: Names | None = None,
+    imaginary: str | None = None,
     **options: Unpack[FileOptions],
 ) -> Model | AssemblyModel | Problem: ...
 def modes(
@@ -294,7 +306,7 @@ def plot(
     component: int | None = None,
     circuit: Circuits = "reference",
     formulation: Formulation = "auto",
-    **options: Unpack[Options],
+    **options: Unpack[QuestionOptions],
 ) -> Picture: ...
 def problem(
     given: Solvable,
@@ -337,7 +349,7 @@ def sample(
     count: int = 10,
     real: bool = False,
     formulation: Formulation = "auto",
-    **options: Unpack[Options],
+    **options: Unpack[QuestionOptions],
 ) -> Samples: ...
 @overload
 def singular(
@@ -346,11 +358,11 @@ def singular(
     *,
     free: None = None,
     formulation: Formulation = "auto",
-    **options: Unpack[Options],
+    **options: Unpack[QuestionOptions],
 ) -> SingularLocus: ...
 @overload
 def singular(
-    given: File | Case | Problem | Equations, *, free: Names, **options: Unpack[Options]
+    given: File | Case | Problem | Equations, *, free: Names, **options: Unpack[QuestionOptions]
 ) -> SingularParameters: ...
 @overload
 def singular(
@@ -359,7 +371,7 @@ def singular(
     *,
     free: Names | None = None,
     formulation: Formulation = "auto",
-    **options: Unpack[Options],
+    **options: Unpack[QuestionOptions],
 ) -> SingularLocus | SingularParameters: ...
 def solve(
     system: Solvable,
@@ -398,7 +410,7 @@ def system(
     imaginary: str | None = None,
 ) -> PolynomialSystem: ...
 def check_statements(
-    given: Moving | PolynomialSystem | None = None, **options: Unpack[Options]
+    given: Moving | PolynomialSystem | None = None, **options: Unpack[QuestionOptions]
 ) -> CheckedStatements: ...
 def sweep_parameter(
     given: File | Case,

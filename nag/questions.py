@@ -78,6 +78,8 @@ Coordinates = Literal["joint", "euler"]
 
 # Ends of names that files have and equations have not.
 SUFFIXES = (".toml", ".json", ".urdf", ".xml", ".m2", ".sing", ".txt", ".bertini", ".phc")
+# How equations are read: keywords of `problem`, of which each is None by default.
+EQUATION_OPTIONS = {"variables": "Any", "imaginary": "str | None"}
 # How a file is read: keywords of `read`, and their defaults.
 FILE_OPTIONS: Mapping[str, Any] = {"set": None, "format": "auto", "hold": (), "at": None}
 # What a case may describe.
@@ -371,17 +373,22 @@ def takes_files(
 ) -> Callable[..., Answer]:
     """The same function, whose first argument may be a file, with the keywords of `read` for it.
 
+    Who takes equations has keywords of `problem` for these as well.
+
     Args:
-        exports: those that it takes; a file of others is refused by its name.
+        exports: those that it takes; a file of others is refused by its name. Whoever takes none
+            takes no equations either.
         convert: what is to be done with what was read.
     """
     own = signature(function)
     check = check_declared(function)
     first, *others = own.parameters.values()
+    of_equations = [name for name in EQUATION_OPTIONS if exports and name not in own.parameters]
 
     @wraps(function)
     def call(*given: Any, **named: Any) -> Answer:
         how = {name: named.pop(name) for name in FILE_OPTIONS if name in named}
+        read_as = {name: named.pop(name, None) for name in of_equations}
         if given:
             asked, *rest = given
         elif first.name in named or first.default is not Parameter.empty:
@@ -400,21 +407,43 @@ def takes_files(
             opened = convert(opened)
         check((opened, *rest), named)
         try:
+            if any(value is not None for value in read_as.values()):
+                opened = _read_equations(opened, **read_as)
             return function(opened, *rest, **named)
         except EquationError as error:
             if isinstance(asked, str) and opened is asked and _PATH.fullmatch(asked):
                 error.args = (f"{error} (no file of this name; read as an equation)",)
             raise
 
+    only = Parameter.KEYWORD_ONLY
     taken = [
-        Parameter(name, Parameter.KEYWORD_ONLY, default=default)
-        for name, default in FILE_OPTIONS.items()
+        Parameter(name, only, default=None, annotation=EQUATION_OPTIONS[name])
+        for name in of_equations
     ]
+    taken += [signature(read).parameters[name] for name in FILE_OPTIONS]
     run = [p for p in others if p.name == "run"]
     others = [p for p in others if p.name != "run"]
     call.__signature__ = own.replace(parameters=[first, *others, *taken, *run])  # type: ignore[attr-defined]
-    call.__doc__ = _with_file_options(function.__doc__ or "")
+    call.__annotations__ = function.__annotations__ | {p.name: p.annotation for p in taken}
+    said = {
+        "of equations, as for `nag.problem`": of_equations,
+        "how a file is read, as for `nag.read`": FILE_OPTIONS,
+    }
+    call.__doc__ = _with_options(function.__doc__ or "", said)
     return call
+
+
+def _read_equations(given: Any, **read_as: Any) -> Problem:
+    """The problem of equations with the keywords for these.
+
+    Raises:
+        nag.NagError: if something else is given, or they make no sense.
+    """
+    from nag.mechanism.problem import problem_of
+
+    if is_a(given, "nag.witness.witness", "WitnessSet"):
+        given = given._known_system()
+    return problem_of(given, **read_as)
 
 
 def takes_components(function: Callable[..., Answer]) -> Callable[..., Answer]:
@@ -466,9 +495,10 @@ def _test_traces(read: Any) -> Any:
     return check_traces(expand_orbits(read))
 
 
-def _with_file_options(text: str) -> str:
-    """A docstring that says what the keywords of `read` are, below the arguments."""
-    line = f"        {', '.join(FILE_OPTIONS)}: how a file is read, as for `nag.read`.\n"
+def _with_options(text: str, said: Mapping[str, Iterable[str]]) -> str:
+    """A docstring that says below the arguments what further keywords are, if there are any."""
+    lines = {what: ", ".join(names) for what, names in said.items()}
+    line = "".join(f"        {names}: {what}.\n" for what, names in lines.items() if names)
     place = text.find("        run: a `nag.Run`")
     if place < 0:
         place = text.find("\n\n", text.find("    Args:")) + 1

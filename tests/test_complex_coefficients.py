@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -105,7 +106,7 @@ def test_sympys_imaginary_unit_is_read() -> None:
 def test_a_variable_called_like_the_unit_is_asked_about() -> None:
     with pytest.raises(
         nag.EquationError,
-        match=r"if it is, write imaginary='I' in nag\.solve, nag\.decompose, nag\.solve_family",
+        match=r"if it is, give imaginary='I' as well, else list all variables, variables='x y'",
     ):
         nag.system(["x^2 + I"])
     assert nag.system(["x^2 + I"], ["x", "I"]).n == 2
@@ -734,3 +735,26 @@ def test_too_few_coordinates_are_counted_without_the_imaginary_unit() -> None:
             assert "I" not in str(error.value)
     with pytest.raises(nag.NagError, match=r"1 coordinate is given; there are 2 variables: x, y$"):
         nag.local(circle, (1,))
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda *given, **how: nag.local(*given, (0, 1), **how).dimension,
+        lambda *given, **how: nag.member(*given, {"v": 1, "u": 0}, **how).numbers,
+        lambda *given, **how: nag.sample(*given, **how).points.shape,
+        lambda *given, **how: len(nag.singular(*given, **how)),
+        lambda *given, **how: nag.intersect(*given, 1, 1, **how).dimension,
+        lambda *given, **how: len(nag.eliminate(*given, **how).equations),
+        lambda *given, **how: bool(nag.certify(*given, **how)),
+        lambda *given, **how: nag.model(*given, **how).system.variables,
+        lambda *given, **how: nag.find_real_points(*given, **how).points.tolist(),
+    ],
+)
+def test_every_question_of_equations_takes_the_letter_of_the_unit(ask: Any) -> None:
+    """And the variables in an order of one's own, in which a point is given."""
+    equations, system = "v - i*u - 1", nag.system("v - i*u - 1", "u v", imaginary="i")
+    assert ask(equations, variables="u v", imaginary="i") == ask(system)
+    for known in (system, nag.decompose(system)[0]):
+        with pytest.raises(nag.NagError, match=r"^imaginary: is for equations; what is given has"):
+            ask(known, imaginary="i")

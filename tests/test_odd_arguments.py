@@ -203,8 +203,8 @@ ODD: dict[str, list[Callable[[], Any]]] = {
     "equations": [
         lambda: D.intersect_equations(system(), line(), "x"),
         lambda: nag.system(None),
-        lambda: nag.decompose(answer()),
-        lambda: nag.solve(roots()),
+        lambda: nag.system(answer()),
+        lambda: nag.system(roots()),
     ],
     "target": [
         lambda: D.witness_at(system(), line(), None),

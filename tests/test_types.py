@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import inspect
 import os
 import re
 import subprocess
@@ -109,3 +110,12 @@ def test_mypy_finds_no_any_where_a_type_is_known_and_no_error_in_what_pages_show
     assert [line for line in lines if ": error:" in line] == []
     revealed = [line for line in lines if "Revealed type" in line]
     assert len(revealed) > 100 and [line for line in revealed if "Any" in line] == []
+
+
+def test_signatures_say_the_type_of_every_argument() -> None:
+    for name in nag.__all__:
+        value = getattr(nag, name)
+        if inspect.isfunction(value):
+            for each in inspect.signature(value).parameters.values():
+                assert each.annotation is not inspect.Parameter.empty, (name, each.name)
+                assert isinstance(value.__annotations__[each.name], str), (name, each.name)

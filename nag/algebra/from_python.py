@@ -272,8 +272,8 @@ def _list_names(
         names = names_in(equation) if isinstance(equation, str) else frozenset()
         for unit in IMAGINARY_UNITS:
             if unit in names - values.keys() - {imaginary}:
-                mend = f"if it is, write imaginary={unit!r} in nag.solve, nag.decompose, "
-                mend += "nag.solve_family, nag.system or nag.problem, else list all variables"
+                mend = f"if it is, give imaginary={unit!r} as well, else list all variables, "
+                mend += "variables='x y'"
                 raise ExpressionError(f"{place}: {imaginary_text(unit, mend)}")
         return names
     try:
