@@ -1718,8 +1718,9 @@ def solve_family(
             parameters; of anything else names in the equations. By default those of the case's
             ``[family]``, or the names of the columns of ``values``.
         values: those of each member, real or complex: an array, shape ``(M, k)``, in the order of
-            ``parameters``, or columns by their names: a DataFrame or a mapping; or a file of
-            either, CSV or ``.npy``.
+            ``parameters``, of one parameter also a list of numbers or a Series; or columns by
+            their names, each of a parameter: a DataFrame or a mapping; or a file of either, CSV or
+            ``.npy``.
         variables: of equations, names of the unknowns, in order; by default all other names that
             occur.
         imaginary: of equations, what the imaginary unit is called, as for `nag.system`.
@@ -1755,6 +1756,9 @@ def solve_family(
             "values: none are given; give an array, shape (members, parameters), columns by their "
             "names, or a file of either"
         )
+    if _is_series(values):
+        name = values.name if parameters is None else None
+        values = values.to_numpy() if name is None else {str(name): values.to_numpy()}
     named = parameters is None
     names = _names_of_columns(values) if named else list_names(parameters)
     asked = names, named, variables, imaginary, formulation
@@ -1772,6 +1776,11 @@ def solve_family(
     if start == "auto" and solutions is not None and known is None:
         start = "parameter"
     return solve_family_members(family, values, start=start, count=count, known=known, run=run)
+
+
+def _is_series(values: Any) -> bool:
+    """Whether values are one column, as of a data frame, whose index are no names of columns."""
+    return hasattr(values, "keys") and getattr(values, "ndim", 0) == 1
 
 
 def _names_of_columns(values: Any) -> list[str]:
@@ -1797,7 +1806,9 @@ def _values_of_members(
         return read_member_values(values, parameters, own or [0] * len(parameters))
     if own is None or not hasattr(values, "keys") or not len(values.keys()):
         return values
-    known = {str(name): values[name] for name in values.keys()}  # noqa: SIM118
+    from nag.solving.family_members import read_columns
+
+    known = read_columns(values)
     count = len(next(iter(known.values())))
     return {n: [x] * count for n, x in zip(parameters, own, strict=True)} | known
 

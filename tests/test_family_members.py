@@ -159,7 +159,7 @@ def test_parameters_may_be_complex_and_of_very_different_sizes() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"values": [1.0]}, r"values: have shape \(1,\)"),
+        ({"values": 1.0}, r"values: have shape \(\)"),
         ({"values": [[float("nan")]]}, "values: those of member 1 are not all finite"),
         ({"values": "ab"}, "ab: cannot be read"),
         ({"values": ["a", "b"]}, "values: are no numbers"),
@@ -295,7 +295,10 @@ def test_columns_are_matched_by_their_names() -> None:
     ("table", "text"),
     [
         ({"a": [1]}, "values: 0 columns have the name 'r'; give one"),
-        ({"a": [1], "r": [1], "s": [1]}, "values: column 's' is no parameter; they are r, a"),
+        (
+            {"a": [1], "r": [1], "s": [1]},
+            "values: column 's' is no parameter, leave it out; they are r, a",
+        ),
         ({"a": [1, 2], "r": [1]}, "values: the columns have different lengths"),
     ],
 )
@@ -342,3 +345,29 @@ def test_a_bad_table_for_a_system_without_parameters_is_one_line_that_names_it(
     table.write_text(content)
     assert main(["family", str(system), "--values", str(table)]) == 2
     assert f"nag: {table}: {message}" in capsys.readouterr().err
+
+
+def test_values_of_one_parameter_are_any_list_of_numbers(tmp_path: Path) -> None:
+    wanted = nag.solve_family("x^2 = a", "a", [[1], [4]])
+    series = pandas.Series([1, 4], name="a", index=["one", "two"])
+    np.save(tmp_path / "values.npy", np.array([1, 4]))
+    for values in ([1, 4], (1.0, 4.0), np.array([1, 4]), series, tmp_path / "values.npy"):
+        assert nag.solve_family("x^2 = a", "a", values) == wanted
+    # A column has the name of its parameter, unless it is said which that is.
+    assert nag.solve_family("x^2 = a", values=series) == wanted
+    assert nag.solve_family("x^2 = a", "a", series.rename("height")) == wanted
+    with pytest.raises(nag.NagError, match="'height' does not occur"):
+        nag.solve_family("x^2 = a", values=series.rename("height"))
+    with pytest.raises(nag.NagError, match=r"shape \(2,\); give 2 parameters for each member"):
+        nag.solve_family("x^2 = a + b", "a, b", [1, 4])
+    for table in ({"a": 1}, {"a": [[1]]}):
+        with pytest.raises(nag.NagError, match="column 'a' is no list; give a number for each"):
+            nag.solve_family("x^2 = a", "a", table)
+
+
+def test_a_column_of_no_parameter_is_told_wherever_the_table_is(tmp_path: Path) -> None:
+    table, file = {"a": [1, 2], "k": [3, 4]}, tmp_path / "values.csv"
+    file.write_text("a,k\n1,3\n2,4\n")
+    for values in (table, pandas.DataFrame(table), file):
+        with pytest.raises(nag.NagError, match="'k' is no parameter"):
+            nag.solve_family("x^2 = a", "a", values)

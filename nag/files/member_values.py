@@ -29,8 +29,8 @@ def read_member_values(
     """The parameters' values of each member, real or complex, shape ``(M, k)``.
 
     Args:
-        path: a ``.npy`` file with an array of that shape, or a table whose first line names
-            parameters, in any order.
+        path: a ``.npy`` file with an array of that shape, of one parameter also ``(M,)``; or a
+            table whose first line names parameters, in any order.
         parameters: their names.
         given: their values where a table has no column of one.
 
@@ -113,6 +113,8 @@ def _read_array(file: Path, k: int) -> np.ndarray:
         _fail(file, "is no array of NumPy's; save one by numpy.save")
     if not isinstance(array, np.ndarray) or array.dtype.kind not in "fiuc":
         _fail(file, "holds no numbers; save an array of doubles")
+    if array.ndim == 1 and k == 1:
+        array = array[:, None]
     if array.ndim != 2 or array.shape[1] != k:
         _fail(file, f"has shape {array.shape}; of {k} parameters it must be (members, {k})")
     rows = np.flatnonzero(~np.isfinite(array).all(axis=1))

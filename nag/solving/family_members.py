@@ -283,7 +283,7 @@ def check_values(family: Family, values: Any) -> np.ndarray:
         NagError: if they are no finite numbers, or not as many as parameters.
     """
     k = len(family.parameters)
-    if hasattr(values, "keys"):
+    if hasattr(values, "keys") and np.ndim(values) != 1:
         values = _columns_by_name(family.parameters, values)
     try:
         array = np.asarray(values, dtype=np.complex128)
@@ -291,15 +291,30 @@ def check_values(family: Family, values: Any) -> np.ndarray:
         raise NagError("values: are too large; give numbers up to 1e308") from None
     except (TypeError, ValueError):
         raise NagError("values: are no numbers; give an array of shape (members, k)") from None
+    if array.ndim == 1 and k == 1:
+        array = array[:, None]
     if array.ndim != 2 or array.shape[1] != k:
         raise NagError(
-            f"values: have shape {array.shape}; give one of {k} parameters for each member, "
+            f"values: have shape {array.shape}; give {count_text(k, 'parameter')} for each member, "
             f"shape (members, {k})"
         )
     wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
     if len(wrong):
         raise NagError(f"values: those of member {wrong[0] + 1} are not all finite")
     return array
+
+
+def read_columns(table: Any) -> dict[str, np.ndarray]:
+    """The columns of a table by their names.
+
+    Raises:
+        NagError: if one is no list of values.
+    """
+    columns = {str(name): np.asarray(table[name]) for name in table.keys()}  # noqa: SIM118
+    for name, column in columns.items():
+        if column.ndim != 1:
+            raise NagError(f"values: column {name!r} is no list; give a number for each member")
+    return columns
 
 
 def _columns_by_name(parameters: Sequence[str], table: Any) -> np.ndarray:
@@ -315,9 +330,10 @@ def _columns_by_name(parameters: Sequence[str], table: Any) -> np.ndarray:
     for name in names:
         if name not in parameters:
             raise NagError(
-                f"values: column {name!r} is no parameter; they are {', '.join(parameters)}"
+                f"values: column {name!r} is no parameter, leave it out; they are "
+                f"{', '.join(parameters)}"
             )
-    columns = {str(name): np.asarray(table[name]) for name in table.keys()}  # noqa: SIM118
+    columns = read_columns(table)
     if len({column.shape for column in columns.values()}) != 1:
         raise NagError("values: the columns have different lengths")
     return np.stack([columns[name] for name in parameters], axis=-1)
