@@ -132,8 +132,27 @@ Parts: TypeAlias = Framework | Linkage | DHLoop | AssemblyModel
 Moving: TypeAlias = File | Case | Mechanism | Model | Parts | Problem
 # What has equations, an answer to them too, or what has components.
 Solvable: TypeAlias = Moving | PolynomialSystem | Equations | Decomposition | SolveResult
-# What is written as JSON and read back.
-Exported: TypeAlias = Decomposition | SolveResult | Samples | SingularLocus | SingularParameters
+# What is written as JSON; the first are read back.
+Exported: TypeAlias = (
+    Decomposition
+    | SolveResult
+    | Samples
+    | SingularLocus
+    | SingularParameters
+    | MobilityReport
+    | LocalDimension
+    | PointMembership
+    | FamilySolutions
+    | Sweep
+    | OperationModes
+    | ModesAnswer
+    | ImageIdeal
+    | Motion
+    | DrivenMotion
+    | CheckedStatements
+    | Certified
+    | RealCurve
+)
 Decomposed: TypeAlias = Solvable | WitnessSet
 # The name of a point, or its coordinates by name or in order.
 Point: TypeAlias = (
@@ -436,8 +455,6 @@ def write_report(
 ) -> MechanismReport: ...
 def write(
     result: Exported
-    | Motion
-    | DrivenMotion
     | Case
     | Mechanism
     | Model

@@ -213,20 +213,19 @@ def _read_export(path: str | os.PathLike[str]) -> Exported | dict[str, Any]:
 def write(
     result: Any, path: str | os.PathLike[str], *, format: str = "auto", title: str = ""
 ) -> None:
-    """Write something to a file from which `read` gives an equal one.
+    """Write something to a file that `read` reads.
 
-    Components, solutions, samples and singular points are written as ``nag decompose``,
-    ``nag solve``, ``nag sample`` and ``nag singular`` do with ``--json``. Cases, mechanisms, their
+    Answers are written as the commands do with ``--json``, in JSON. `read` gives components,
+    solutions, samples and singular points back; of other answers, whose JSON leaves out what they
+    rest on, the JSON object, and `pickle` keeps them whole. Cases, mechanisms, their
     models, parts and systems are written as cases, in TOML: `read` gives a `nag.Case`, equal to the
     one that was written, or in which ``described`` is what was written. Of a motion a page in which
-    it moves is written, in HTML, which is not read. Other results are kept by `pickle`.
+    it moves is written as well, in HTML, which is not read.
 
     Args:
-        result: what `nag.decompose`, `nag.intersect`, `nag.solve`, `nag.sample` or `nag.singular`
-            returns; or a `nag.Case`, a `nag.Mechanism`, a model, parts, a `nag.Problem`, a
-            `nag.PolynomialSystem`, or equations as `nag.system` takes them; or the name of a file
-            that `nag.read` reads one of them from; or what `nag.motion` or `nag.driven_motion`
-            returns.
+        result: what a question returns; or a `nag.Case`, a `nag.Mechanism`, a model, parts, a
+            `nag.Problem`, a `nag.PolynomialSystem`, or equations as `nag.system` takes them; or the
+            name of a file that `nag.read` reads one of them from.
         path: the file; whatever was there is replaced.
         format: of equations, ``"toml"``, or of another program: ``"bertini"``, ``"phc"``,
             ``"m2"``, ``"singular"``, ``"hc"``, ``"text"``, ``"sympy"`` or ``"latex"``; by default
@@ -237,7 +236,8 @@ def write(
     Raises:
         nag.InputError: if the file cannot be written.
         nag.NagError: if ``result`` is nothing of that kind, the format cannot say it, or the ending
-            is one of files that say something else; an export's is ``.json``, or none.
+            is one of files that say something else; an answer's is ``.json``, or none, and a
+            page's ``.html``.
 
     >>> import nag, tempfile
     >>> circle = nag.decompose("x^2 + y^2 = 1")
@@ -263,28 +263,31 @@ def write(
 
         result = system(result)
     ending = os.path.splitext(path)[1]
-    if any(is_a(result, *kind) for kind in SHOWN_MOVING):
-        if ending != ".html" or format != "auto":
-            raise NagError("path: a motion is written as a page in which it moves; name it .html")
+    from nag.files.answer_export import is_answer
+
+    moves = any(is_a(result, *kind) for kind in SHOWN_MOVING)
+    if moves and ending == ".html" and format == "auto":
         _write_page(result, path, title)
         return
-    if any(is_a(result, *kind) for kind in EXPORTED):
+    if is_answer(result) or any(is_a(result, *kind) for kind in EXPORTED):
         for name, given in (("format", format != "auto"), ("title", bool(title))):
             if given:
                 raise NagError(f"{name}: is for cases and equations; an export has its own")
         if ending not in ("", ".json"):
-            alone = ", or write the equations alone: nag.write(result.system, path)"
+            other = ", or write the equations alone: nag.write(result.system, path)"
+            other = other if any(is_a(result, *kind) for kind in ANSWERS) else ""
+            other = ", or .html, a page in which it moves" if moves else other
             raise NagError(
                 f"path: a file that ends in {ending} holds no export, which is JSON; name it "
-                f".json{alone if hasattr(result, 'system') else ''}"
+                f".json{other}"
             )
         _write_export(result, path)
         return
     if not any(is_a(result, *kind) for kind in DESCRIPTIONS):
         raise NagError(
-            f"result: {value_text(result)} is given; give what nag.decompose, nag.intersect, "
-            "nag.solve, nag.sample or nag.singular returns, a case, a mechanism, a model, parts or "
-            "equations: other results are kept by pickle"
+            f"result: {value_text(result)} is given; give an answer that a command writes as "
+            "JSON, as of nag.decompose or nag.solve, a case, a mechanism, a model, parts or "
+            "equations; others are kept by pickle"
         )
     if format == "auto" and ending in NOT_WRITTEN:
         raise NagError(
@@ -317,20 +320,24 @@ def _write_page(result: Motion | DrivenMotion, path: str | os.PathLike[str], tit
     write_target(path, page(result, title or name, name))  # type: ignore[arg-type]
 
 
-def _write_export(result: Exported, path: str | os.PathLike[str]) -> None:
+def _write_export(result: Any, path: str | os.PathLike[str]) -> None:
     """Write an export of a result."""
     if is_a(result, *EXPORTED[0]):
         from nag.files.export import write_decomposition
 
-        write_decomposition(result, path)  # type: ignore[arg-type]
+        write_decomposition(result, path)
     elif is_a(result, *EXPORTED[1]):
         from nag.files.solutions_export import write_solutions
 
-        write_solutions(result, path)  # type: ignore[arg-type]
-    else:
+        write_solutions(result, path)
+    elif any(is_a(result, *kind) for kind in EXPORTED):
         from nag.files.points_export import write_points
 
-        write_points(result, path)  # type: ignore[arg-type]
+        write_points(result, path)
+    else:
+        from nag.files.answer_export import write_answer
+
+        write_answer(result, path)
 
 
 def _is_equations(given: Any) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import copy
+import json
 import pickle
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
@@ -17,6 +18,8 @@ import numpy as np
 import pytest
 
 import nag
+from nag.cli import main
+from nag.files.json_schema import schema
 from nag.numerics.read_only import equal_entries
 
 BENNETT = "cases/bennett.toml"
@@ -278,3 +281,46 @@ def test_a_component_alone_answers_what_a_decomposition_does() -> None:
     for ask in (nag.find_real_curve, nag.find_real_points):
         with pytest.raises(nag.NagError, match=r"component: which one\? 1 and 2 .*; give the num"):
             ask(found())
+
+
+# Answers of which files have what the commands write, and are not read back as what they are.
+WRITTEN = {
+    "member": "nag-membership",
+    "eliminate": "nag-elimination",
+    "certified components": "nag-certificate",
+    "certified points": "nag-certificate",
+    "family": "nag-family",
+    "local": "nag-local-dimension",
+    "real curve": "nag-real-curve",
+    "mobility": "nag-mobility",
+    "motion": "nag-motion",
+    "motion of a linkage": "nag-motion",
+    "driven motion": "nag-driven-motion",
+    "modes": "nag-operation-modes",
+    "statements": "nag-statements",
+    "sweep": "nag-sweep",
+    "assembly modes": "nag-modes",
+}
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_answers_are_written_as_the_commands_write_them(name: str, tmp_path: Path) -> None:
+    result = RESULTS[name]()
+    nag.write(result, tmp_path / "answer.json")
+    again = nag.read(tmp_path / "answer.json")
+    assert isinstance(again, dict) and again["format"] == WRITTEN[name]
+    assert not set(again) - set(schema(WRITTEN[name])["properties"])
+    below = json.loads(json.dumps(result.document()))
+    if name != "local":
+        assert {key: again[key] for key in below} == below
+    assert main(["show", str(tmp_path / "answer.json")]) == 0
+
+
+def test_what_is_written_is_what_the_command_writes_but_for_the_run(tmp_path: Path) -> None:
+    one, other = tmp_path / "one.json", tmp_path / "other.json"
+    assert main(["mobility", BENNETT, "--json", str(one), "--quiet"]) == 0
+    nag.write(nag.mobility(BENNETT), other)
+    given, again = (json.loads(file.read_text()) for file in (one, other))
+    unknown = {"case", "seed", "settings", "budget", "configuration", "known"}
+    assert given.keys() == again.keys()
+    assert {key for key in given if given[key] != again[key]} <= unknown

@@ -21,7 +21,7 @@ from linkages import CASES
 
 import nag
 from nag.cli import main
-from nag.questions import FILE_OPTIONS
+from nag.questions import EQUATION_OPTIONS, FILE_OPTIONS
 from nag.real.curve import PictureVerdict
 
 CIRCLE_AND_LINE = "(x^2 + y^2 - 1)*(x - y)"
@@ -114,10 +114,17 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
         (lambda: nag.solve_family("x^2 - a", values=[[1]]), "parameters: which are they"),
         (lambda: nag.solve("x^2 - 1", set={"a": 1}), "set: says how a file is read"),
         (lambda: nag.certify(3), "system: something of type int is given"),
-        (lambda: nag.write(nag.local("x*y", (0, 1)), "file"), "LocalDimension is given; give what"),
+        (
+            lambda: nag.write(nag.local("x*y", (0, 1)), "file.txt"),
+            "a file that ends in .txt holds no export, which is JSON; name it .json$",
+        ),
+        (
+            lambda: nag.write(nag.find_real_points("x^2 - 1", 1), "file"),
+            "RealPieces is given; give an answer .* others are kept by pickle",
+        ),
         (
             lambda: nag.write(3, "file"),
-            "3 is given; give what nag.decompose, nag.intersect, nag.solve",
+            "3 is given; give an answer that a command writes as JSON",
         ),
         (
             lambda: nag.eliminate("x - y", onto="z"),
@@ -357,7 +364,9 @@ def _written(node: ast.FunctionDef) -> list[tuple[str, object]]:
     found = [(arg.arg, default) for arg, default in zip(given, defaults, strict=True)]
     options = "" if node.args.kwarg is None else ast.unparse(node.args.kwarg.annotation)  # type: ignore[arg-type]
     files, run = [*FILE_OPTIONS.items()], [("run", nag.Run())]
+    equations = [(name, None) for name in EQUATION_OPTIONS]
     unpacked = {"FileOptions": files, "RunOptions": run, "Options": [*files, *run], "": []}
+    unpacked["QuestionOptions"] = [*equations, *files, *run]
     return [*found, *unpacked[options.removeprefix("Unpack[").removesuffix("]")]]
 
 
@@ -578,8 +587,8 @@ def test_pages_are_written_as_the_commands_write_them(tmp_path) -> None:
     five_bar = nag.Linkage.of(bars, "base")
     nag.write(nag.driven_motion(five_bar, "A", [0.0, 0.5], samples=24), other)
     assert other.read_text().startswith("<!")
-    with pytest.raises(nag.NagError, match=r"name it \.html"):
-        nag.write(nag.motion("cases/bennett.toml"), tmp_path / "motion.json")
+    with pytest.raises(nag.NagError, match=r"name it \.json, or \.html"):
+        nag.write(nag.motion("cases/bennett.toml"), tmp_path / "motion.txt")
 
 
 def test_statements_of_the_papers_are_checked_as_by_the_command(tmp_path) -> None:

@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.solving.family_members import FamilySolutions
 
-FORMAT = "nag-family"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag family``."""
@@ -96,6 +94,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     """All isolated solutions of many members."""
     case = read_given_case(options, exports=True)
     from nag.errors import StartError
+    from nag.files.answer_export import fields_of
     from nag.files.member_values import read_member_values
     from nag.solving.family_members import check_values, solve_members
     from nag.solving.parameter import solve_generic
@@ -116,7 +115,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
 
     def document_of(early: FamilySolutions) -> dict[str, Any]:
         rest = f"{len(values) - len(early)} of {len(values)} members were not reached"
-        fields = _fields(early) | {"notes": [ENDED_EARLY, rest]}
+        fields = fields_of(early) | {"notes": [ENDED_EARLY, rest]}
         return answer_document(options, name_case(case), fields, False)
 
     how = chosen_run(options, document_of)
@@ -154,15 +153,10 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         rows.append(("written", "nowhere: --points FILE writes all solutions"))
     rows += [("note", note) for note in solved.notes]
     complete = bool(found.complete.all())
-    fields = _fields(found)
+    fields = fields_of(found)
     if options.points is not None:
         fields["arrays"] = os.path.basename(options.points)
     return answer_of(options, name_case(case), [rows], [], fields, complete)
-
-
-def _fields(found: FamilySolutions) -> dict[str, Any]:
-    """What the document says of the members."""
-    return {"format": FORMAT, "notes": list(found.start.notes), **found.document()}
 
 
 def _missing(complete: bool) -> str:

@@ -21,8 +21,6 @@ from nag.cli.witness_input import (
 if TYPE_CHECKING:
     from nag.witness.membership import PointMembership
 
-FORMAT = "nag-membership"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag member`` has besides those of every command that runs a case."""
@@ -33,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """Which components a point lies on."""
     from nag.algebra.system import values_text
+    from nag.files.answer_export import fields_of
     from nag.text.table import align
     from nag.witness.membership import locate_point
 
@@ -45,7 +44,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     variables = system.own_variables
     point = chosen_point(options, system, found.points)
     located = locate_point(found.decomposition, point, run=chosen_run(options))
-    fields = {"format": FORMAT, "variables": list(system.variables), **located.document()}
+    fields = fields_of(located)
     top = [
         ("point", values_text(variables, point[: len(variables)])),
         ("equations", _equations_text(located)),

@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from nag.mechanism.problem import Problem
     from nag.tracking.run import Run
 
-FORMAT = "nag-mobility"
 # Labels are as wide as the widest from the first line on.
 WIDTH = len("components")
 
@@ -155,14 +154,12 @@ def _fields(
 ) -> dict[str, Any]:
     """What the document says, but for what the case knows and other equations say."""
     from nag.algebra.number import number_text
+    from nag.files.answer_export import fields_of
 
     return {
-        "format": FORMAT,
+        **fields_of(report),
         "budget": options.budget if _is_limited(options, report) else None,
         "configuration": [number_text(x) for x in at or ()],
-        **report.document(),
-        "known": None,
-        "check": None,
     }
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
@@ -28,7 +27,6 @@ from nag.mechanism import MODES_BUDGET
 if TYPE_CHECKING:
     from nag.mechanism.modes_report import OperationModes
 
-FORMAT = "nag-operation-modes"
 # Of the labels: what is printed first is aligned with what comes later.
 WIDTH = len("transition")
 
@@ -58,6 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """The operation modes of a parallel robot."""
     from nag.errors import MechanismError
+    from nag.files.answer_export import fields_of
     from nag.interpolation.vanishing import InterpolationError
     from nag.mechanism import PLATFORM_ALONE
     from nag.mechanism.operation_modes import modes_in_steps
@@ -69,7 +68,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         raise only_assembled(case, "nag modes")
 
     def document_of(early: OperationModes) -> dict[str, Any]:
-        return answer_document(options, name_case(case), _fields(early), False)
+        return answer_document(options, name_case(case), fields_of(early), False)
 
     how = chosen_run(options, document_of)
     given = case.mechanism, options.platform
@@ -88,26 +87,5 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     if agreement is not None:
         tail.append(("known", agreement_text(agreement)))
     tail.append(("paths", paths_text(decomposition.paths)))
-    fields, complete = _fields(found), found.complete
+    fields, complete = fields_of(found), found.complete
     return answer_of(options, name_case(case), blocks, tail, fields, complete, width=WIDTH)
-
-
-def _fields(found: OperationModes) -> dict[str, Any]:
-    """What the document says of the modes, their witness sets with it."""
-    from nag.text.json_text import pairs
-
-    system = found.decomposition.system
-    points = [
-        {
-            "slice": {"A": pairs(mode.component.slice.A), "b": pairs(mode.component.slice.b)},
-            "points": pairs(mode.component.points),
-        }
-        for mode in found.modes
-    ]
-    return {
-        "format": FORMAT,
-        **found.document(),
-        "paths": asdict(found.decomposition.paths),
-        "system": {"variables": list(system.variables), "polynomials": system.text()},
-        "witness": points,
-    }

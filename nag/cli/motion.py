@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from nag.kinematics.motion import Motion
     from nag.mechanism.problem import Problem
 
-FORMAT, DRIVEN_FORMAT = "nag-motion", "nag-driven-motion"
 MOST_SAMPLES = 100_000
 
 
@@ -187,6 +186,7 @@ def _run_once(
     options: argparse.Namespace, case: Case, problem: Problem, held: dict[str, Any]
 ) -> CommandAnswer:
     """The motions as they are, or with joints or bodies held."""
+    from nag.files import answer_export
     from nag.kinematics.joint_values import joint_coordinates
     from nag.kinematics.motion import motion
     from nag.kinematics.shown import assembly_rows, drive_text, motion_rows
@@ -196,10 +196,9 @@ def _run_once(
 
     def fields_of(found: Motion) -> dict[str, Any]:
         return {
-            "format": FORMAT,
+            **answer_export.fields_of(found),
             "formulation": problem.formulation,
             "samples": options.samples,
-            **found.document(),
         }
 
     asked = options.circuit or ("reference" if not held["drive"] else "all")
@@ -238,6 +237,7 @@ def _run_through(
     held: dict[str, Any],
 ) -> CommandAnswer:
     """What is left of a motion with a joint at one value after another."""
+    from nag.files import answer_export
     from nag.kinematics.driven_motion import driven_motion
     from nag.kinematics.shown import (
         continuation_rows,
@@ -256,10 +256,9 @@ def _run_through(
 
     def fields_of(found: DrivenMotion) -> dict[str, Any]:
         return {
-            "format": DRIVEN_FORMAT,
+            **answer_export.fields_of(found),
             "formulation": problem.formulation,
             "samples": options.samples,
-            **found.document(),
         }
 
     found = driven_motion(problem, *drive, **held, run=chosen_run(options, document_of))

@@ -15,7 +15,6 @@ from nag.cli.running import CommandAnswer, answer_document, chosen_run, name_cas
 if TYPE_CHECKING:
     from nag.decomposition.sweep import Swept
 
-FORMAT = "nag-sweep"
 MOST_VALUES = 1000
 _NUMBER = re.compile(r"[+-]?[0-9]{1,15}(\.[0-9]{1,15}|/[0-9]{1,15})?")
 
@@ -75,15 +74,15 @@ def run(arguments: argparse.Namespace) -> CommandAnswer:
     case, first = read_problem(arguments, exports=False)
 
     from nag.decomposition.sweep import Sweep
+    from nag.files.answer_export import fields_of
     from nag.questions import sweep_parameter
     from nag.text.table import align, sheet
     from nag.tracking.run import ENDED_EARLY
 
     def document_of(values: Sequence[Swept], ended: bool = True) -> dict[str, Any]:
         fields = {
-            "format": FORMAT,
+            **fields_of(Sweep(asked.name, tuple(values))),
             "notes": [ENDED_EARLY] if ended else [],
-            **Sweep(asked.name, tuple(values)).document(),
             "count": len(asked.values),
         }
         complete = not ended and all(each.decomposition.complete for each in values)

@@ -101,13 +101,14 @@ class ModesAnswer(Several[ClassAnswer]):
 
         return mode_rows(self)
 
-    def document(self, title: str, file: str) -> dict[str, Any]:
+    def document(self, title: str | None = None, file: str = "") -> dict[str, Any]:
         """The answer as a JSON object: for each class the decomposition of one of its modes.
 
         Args:
-            title, file: of the case.
+            title, file: of the case, where that is known.
         """
-        case = {"title": title, "file": file, "kind": "mechanism"}
+        named = {"title": title, "file": file, "kind": "mechanism"}
+        case = None if title is None else {key: str(text) for key, text in named.items()}
         return {
             "format": "nag-modes",
             "version": 1,

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import log10
 from typing import Any
 
@@ -61,6 +61,7 @@ class LocalDimension:
         digits: real and imaginary parts of the point as decimals, all digits that are certain, at
             most 100; empty if it is not decided.
         imaginary: whether the last coordinate is the imaginary unit's, as of the system.
+        names: what the coordinates are called, that of the unit last; they are not compared.
     """
 
     point: ComplexArray
@@ -74,6 +75,7 @@ class LocalDimension:
     reason: str
     digits: tuple[tuple[str, str], ...] = ()
     imaginary: bool = False
+    names: tuple[str, ...] = field(default=(), compare=False)
 
     __eq__ = equal_values
 
@@ -218,9 +220,9 @@ def local_dimension(
     if 0 < elimination.system.n < system.n:
         found = reduced_bounds(elimination, list(point), error, rng)
         if found is not None:
-            return replace(found, imaginary=system.imaginary)
+            return replace(found, imaginary=system.imaginary, names=system.variables)
     found = bounds(system.polynomials, list(point), error, rng)
-    return replace(found, imaginary=system.imaginary)
+    return replace(found, imaginary=system.imaginary, names=system.variables)
 
 
 def local_dimension_near(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -61,6 +61,7 @@ class PointMembership(Several[WitnessSet]):
         residual: largest relative residual of the equations there.
         components: all of them, none for a whole orbit.
         answers: one for each.
+        variables: names of the coordinates, that of an imaginary unit last; they are not compared.
     """
 
     point: tuple[Number | complex, ...]
@@ -68,6 +69,7 @@ class PointMembership(Several[WitnessSet]):
     residual: float
     components: tuple[WitnessSet, ...]
     answers: tuple[Membership, ...]
+    variables: tuple[str, ...] = field(default=(), compare=False)
 
     __eq__ = equal_values
 
@@ -450,7 +452,9 @@ def locate_point(
             exact=known if exact else (),
             run=run,
         )
-    return PointMembership(tuple(point), exact, residual, components, answers)
+    return PointMembership(
+        tuple(point), exact, residual, components, answers, variables=system.variables
+    )
 
 
 def _meet_near(
