@@ -1665,7 +1665,7 @@ def _number_through(found: Decomposition, at: Sequence[Number | complex], run: R
 def list_alike(found: Decomposition, number: int) -> dict[int, WitnessSet]:
     """Components of one's dimension, degree and multiplicity, by their numbers, that one first."""
 
-    def kind(c: WitnessSet) -> tuple[int, int, int]:
+    def kind(c: WitnessSet) -> tuple[int, int, int | None]:
         return c.dimension, c.degree, c.multiplicity
 
     chosen = found.components[number - 1]

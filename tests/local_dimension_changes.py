@@ -41,7 +41,7 @@ def right(point: Known, found: LocalDimension) -> bool:
     """Whether an answer is true: the bounds hold the dimension, and what is decided agrees."""
     if found.tangent_dimension is None:
         return True
-    agree = not found.decided or found.multiplicity == point.multiplicity
+    agree = not found.decided or (found.multiplicity or 0) == point.multiplicity
     return (
         found.tangent_dimension == point.tangent
         and found.lower <= point.dimension <= found.upper

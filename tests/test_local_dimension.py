@@ -27,7 +27,7 @@ SLOW = LARGE | {n for n in MECHANISMS if n.startswith(("Bricard", "Sarrus", "Wun
 
 
 def as_known(found: nag.LocalDimension) -> tuple[int | None, int | None, int]:
-    return found.tangent_dimension, found.dimension, found.multiplicity
+    return found.tangent_dimension, found.dimension, found.multiplicity or 0
 
 
 @pytest.mark.parametrize("name", sorted(set(ALL) - LARGE))

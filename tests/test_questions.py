@@ -639,3 +639,23 @@ def test_a_word_is_the_name_of_a_file_and_no_equation(ask: Callable[[str], objec
     with pytest.raises(nag.NagError, match="'system' is no file that is there"):
         ask("system")
     assert len(nag.solve(["system"])) == len(nag.solve("x")) == 1
+
+
+def test_a_multiplicity_that_is_not_known_is_none_and_a_question_mark(tmp_path: Path) -> None:
+    """Where two components meet as sets, how often a point counts is not asked."""
+    met, file = nag.intersect("(x^2 + y^2 - 1)*(x - 1)", 1, 2), tmp_path / "met.json"
+    nag.write(met, file)
+    for found in (met, nag.read(file)):
+        assert [c.multiplicity for c in found] == [None] and not found[0].is_multiple
+        assert found.to_dataframe()["multiplicity"].isna().all()
+        assert found.rows()[1][3] == "?" and "multiplicity not known" in str(found)
+    assert nag.read(file) == met
+    # Files say 0, as they always did.
+    assert json.loads(file.read_text())["components"][0]["multiplicity"] == 0
+    assert nag.certify(met).found == met
+    assert nag.member(met, (1, 0)).rows()[1][3] == "?"
+    assert not nag.singular(met, 1).complete and len(nag.sample(met, count=1)) == 1
+    nag.plot(met, tmp_path / "tree.svg", tree=True)
+    assert nag.local("x^2 - y^3", (0, 0)).multiplicity is None
+    assert nag.local(["x^2", "y"], (0, 0)).multiplicity == 2
+    assert nag.mobility("cases/bennett.toml").multiplicity is None

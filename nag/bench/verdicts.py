@@ -88,7 +88,7 @@ def compute_answer(
         return Answer(method, found, result.complete, f"{result.paths} {'; '.join(result.notes)}")
     answer = decompose(system, seed=seed, settings=settings, symmetries=symmetries)
     for c in answer.components:
-        found[c.dimension, c.degree, c.multiplicity] += c.orbit
+        found[c.dimension, c.degree, c.multiplicity or 0] += c.orbit
     notes = [*answer.notes, *sorted({c.note for c in answer.components if c.note})]
     return Answer(method, found, answer.complete, f"{answer.paths} {'; '.join(notes)}")
 

@@ -269,7 +269,7 @@ def _bare_point(x: np.ndarray, accuracy: float, common: Reduction) -> WitnessSet
     return WitnessSet(
         slice=common.frame.slice(np.zeros((0, 1 + len(x)))),
         points=point,
-        multiplicity=0,
+        multiplicity=None,
         status=Status.UNDECIDED if note else Status.IRREDUCIBLE,
         residual=residual,
         radii=even_radii(point, common.frame.error(x[None], accuracy)),

@@ -161,7 +161,9 @@ def count_points(answer: Decomposition, task: Task) -> Decomposition:
         return answer
     # At points that are regular the scheme of the system is simple, whatever is asked for.
     scheme = task.scheme or all(c.corank == 0 for c in answer.components)
-    zeros = sum((c.multiplicity if scheme else 1) * c.degree * c.orbit for c in answer.components)
+    zeros = sum(
+        ((c.multiplicity or 0) if scheme else 1) * c.degree * c.orbit for c in answer.components
+    )
     count = task.facts.count_zeros(zeros, not answer.complete)
     verdict = judge_number(zeros, count)
     if (

@@ -279,7 +279,7 @@ def _ideal(whole: PolynomialSystem) -> Ideal | None:
 def _agree(ideal: Ideal, components: Sequence[WitnessSet]) -> bool:
     """Whether components of the largest dimension have the ideal's dimension and degree."""
     dimension = max((c.dimension for c in components), default=-1)
-    degrees = [c.degree * c.multiplicity for c in components if c.dimension == dimension]
+    degrees = [c.degree * (c.multiplicity or 0) for c in components if c.dimension == dimension]
     return (dimension, sum(degrees)) == (ideal.dimension, ideal.degree)
 
 

@@ -72,7 +72,7 @@ class SingularSet(Several[ComplexArray]):
     dimension: int
     degree: int
     points: ComplexArray
-    multiplicities: Mapping[int, int]
+    multiplicities: Mapping[int, int | None]
     local: LocalDimension
     cone: TangentCone | None
     imaginary: bool = False
@@ -102,7 +102,7 @@ class SingularSet(Several[ComplexArray]):
     @property
     def essential(self) -> tuple[int, ...]:
         """Indices of the components that are singular there themselves."""
-        return tuple(i for i, m in self.multiplicities.items() if m > 1)
+        return tuple(i for i, m in self.multiplicities.items() if (m or 0) > 1)
 
     @property
     def intersection(self) -> bool:
@@ -132,7 +132,7 @@ class SingularSet(Several[ComplexArray]):
             "essential": [i + 1 for i in self.essential],
             "intersection": self.intersection,
             "multiplicities": [
-                {"component": i + 1, "multiplicity": m} for i, m in self.multiplicities.items()
+                {"component": i + 1, "multiplicity": m or 0} for i, m in self.multiplicities.items()
             ],
             "points": pairs(self.points),
             "local": {**self.local.document(), "point": pairs(self.local.point)},
@@ -248,7 +248,7 @@ class _SingularSearch:
     def on_component(self, i: int) -> None:
         """Points of a component where the rank of its own equations drops."""
         (system, component), name = self.with_equations[i], f"component {i + 1}"
-        if component.dimension == 0 and component.multiplicity > 1:
+        if component.dimension == 0 and component.is_multiple:
             self.examined.append(i)
             each = component.points[:, None]
             self.candidates += [SetOfPoints(0, 1, x, component.accuracy, (i,)) for x in each]
@@ -488,7 +488,7 @@ def _judge_candidate(
             return None
         if coincident(x[None], local.point, error).any():
             x, error = local.point, ROUNDED
-    multiplicities = {}
+    multiplicities: dict[int, int | None] = {}
     for i, component in enumerate(whole.components):
         if _outside_hull(search.with_equations[i][0], x, error):
             continue
@@ -507,7 +507,7 @@ def _judge_candidate(
             search.notes.append(f"the multiplicity of component {i + 1} at a point is not known")
         elif m:
             multiplicities[i] = m
-    if len(multiplicities) < 2 and max(multiplicities.values(), default=1) == 1:
+    if len(multiplicities) < 2 and {*multiplicities.values()} <= {1}:
         return None
     cone = None
     points = found.points

@@ -31,7 +31,7 @@ from nag.numerics.zero_values import ON
 from nag.solving.parameter_line import parameter_line
 from nag.text.json_text import lay_out
 from nag.text.progress import REMARK, stage_text
-from nag.text.table import align, count_text, data_frame, named_line
+from nag.text.table import align, count_text, data_frame, known_or_nan, named_line
 from nag.tracking import blocks
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -89,7 +89,7 @@ class Swept:
             "complete": answer.complete,
             "notes": list(answer.notes),
             "components": [
-                {"dimension": c.dimension, "degree": c.degree, "multiplicity": c.multiplicity}
+                {"dimension": c.dimension, "degree": c.degree, "multiplicity": c.multiplicity or 0}
                 for c in answer.components
             ],
         }
@@ -145,7 +145,7 @@ class Sweep(Several[Swept]):
                 self.parameter: [float(each.value) for each, _ in found],
                 "dimension": [c.dimension for _, c in found],
                 "degree": [c.degree for _, c in found],
-                "multiplicity": [c.multiplicity for _, c in found],
+                "multiplicity": known_or_nan([c.multiplicity for _, c in found]),
             }
         )
 

@@ -110,7 +110,7 @@ def _set(table: dict[str, Any], names: list[str], unit: str, place: str) -> Sing
         degree=table["degree"],
         points=complex_matrix(table["points"], len(names), f"{place}.points"),
         multiplicities={
-            one["component"] - 1: one["multiplicity"] for one in table["multiplicities"]
+            one["component"] - 1: one["multiplicity"] or None for one in table["multiplicities"]
         },
         local=_local(table["local"], len(names), bool(unit), f"{place}.local"),
         cone=None if cone is None else _cone(cone, names, f"{place}.tangent_cone"),

@@ -440,7 +440,7 @@ class Motion(Several[Circuit]):
                 for c in joint_coordinates(scene)
             ],
             "components": [
-                {"dimension": c.dimension, "degree": c.degree, "multiplicity": c.multiplicity}
+                {"dimension": c.dimension, "degree": c.degree, "multiplicity": c.multiplicity or 0}
                 for c in self.components
             ],
             "drive": None if self.drive is None else asdict(self.drive),
@@ -861,7 +861,7 @@ def _real_curve(component: WitnessSet, several: bool, run: Run, holding: bool = 
             advice = "nag mobility says how the mechanism moves at one of them"
             reason = (
                 "the component is not reduced: all its configurations are singular (multiplicity "
-                f"{component.multiplicity}), and such a motion is not followed; "
+                f"{component.multiplicity or 'not known'}), and such a motion is not followed; "
                 f"{'hold other values' if holding else advice}"
             )
         if not several:

@@ -89,7 +89,7 @@ def _one_of_each_pair(
     return chosen
 
 
-def _kind(component: WitnessSet) -> tuple[int, int, int]:
+def _kind(component: WitnessSet) -> tuple[int, int, int | None]:
     return component.dimension, component.degree, component.multiplicity
 
 

@@ -57,7 +57,7 @@ def count_ways(elements: Sequence[Element], run: Run) -> int | None:
     if not charts.n:
         return 1
     found = decompose(charts.system(closure.polynomials(charts)), run=run)
-    if not found.complete or any(c.dimension or c.multiplicity > 1 for c in found.components):
+    if not found.complete or any(c.dimension or c.is_multiple for c in found.components):
         return None
     return sum(c.degree for c in found.components)
 

@@ -95,8 +95,8 @@ class MobilityReport:
         lower, upper: bounds of the local dimension, the true mobility.
         components: dimension and degree of each component through the configuration, a degree of
             None where it is not known; None if they were not looked for or are not known.
-        multiplicities: of each of the components in the model's equations, 0 where it is not known;
-            empty where they were not looked for.
+        multiplicities: of each of the components in the model's equations, None where it is not
+            known; empty where they were not looked for.
         open: why the components are not known; empty if they are.
         local: the local dimension in the model, and what it rests on; None without loops.
         curves: the curves through the configuration, where they were asked for, or are known
@@ -156,7 +156,7 @@ class MobilityReport:
     near: NearMotion | None = None
     hint: str = ""
     unreal: int = 0
-    multiplicities: tuple[int, ...] = ()
+    multiplicities: tuple[int | None, ...] = ()
     real: tuple[bool | None, ...] = ()
     along: tuple[BodyFreedoms, ...] = ()
     inexact: str = ""
@@ -169,11 +169,11 @@ class MobilityReport:
         return self.lower if self.lower == self.upper else None
 
     @property
-    def multiplicity(self) -> int:
-        """Of an isolated configuration in the model's equations; else 0."""
+    def multiplicity(self) -> int | None:
+        """Of an isolated configuration in the model's equations; else None."""
         if self.general is not None:
-            return self.general.multiplicity if self.general.dimension == 0 else 0
-        return self.local.multiplicity if self.local is not None else 0
+            return self.general.multiplicity if self.general.dimension == 0 else None
+        return None if self.local is None else self.local.multiplicity
 
     @property
     def is_blocked(self) -> bool:
@@ -183,7 +183,7 @@ class MobilityReport:
     @property
     def never_reduced(self) -> bool:
         """Whether every configuration near this one is known to be singular in the equations."""
-        if bool(self.multiplicities) and min(self.multiplicities) > 1:
+        if self.multiplicities and all((m or 0) > 1 for m in self.multiplicities):
             return True
         # What moves is told of configurations that are smooth, or as singular as all near by.
         singular = self.local is not None and self.local.decided and not self.local.smooth
@@ -308,7 +308,7 @@ class MobilityReport:
         if self.local_dimension is None:
             return f"{text}{self.lower} to {self.upper}"
         text += str(self.local_dimension)
-        return f"{text}, multiplicity {self.multiplicity}" if self.multiplicity > 1 else text
+        return f"{text}, multiplicity {self.multiplicity}" if (self.multiplicity or 0) > 1 else text
 
     @property
     def sentence(self) -> str:
@@ -397,7 +397,8 @@ class MobilityReport:
             "local_dimension": self.local_dimension,
             "lower": self.lower,
             "upper": self.upper,
-            "multiplicity": self.multiplicity,
+            # In documents 0 stands for none.
+            "multiplicity": self.multiplicity or 0,
             "overconstrained": self.overconstrained,
             "blocked": self.is_blocked,
             "unreal": self.unreal,
@@ -406,7 +407,7 @@ class MobilityReport:
             "components": None
             if components is None
             else [
-                {"dimension": d, "degree": degree, "multiplicity": m or None, "real": real}
+                {"dimension": d, "degree": degree, "multiplicity": m, "real": real}
                 for (d, degree), m, real in zip_longest(
                     components, self.multiplicities[: len(components)], self.real
                 )
@@ -458,7 +459,7 @@ def _components_text(report: MobilityReport) -> str:
     known, real = report.multiplicities or (1,) * count, report.real or (None,) * count
     kinds = [
         f"dimension {d}, degree {degree}"
-        + (f", multiplicity {m}" if m > 1 else "")
+        + (f", multiplicity {m}" if (m or 0) > 1 else "")
         + (", complex" if own is False else "")
         for (d, degree), m, own in zip(report.components, known, real, strict=True)
     ]

@@ -17,7 +17,7 @@ from nag.mechanism.mode_classes import ModeClass, mode_classes
 from nag.mechanism.model import Model, ModelError, model, with_loops
 from nag.mechanism.problem import problem_of
 from nag.numerics.read_only import Several, equal_values
-from nag.text.table import align, count_text, data_frame, named_line
+from nag.text.table import align, count_text, data_frame, known_or_nan, named_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.witness import Decomposition
@@ -86,7 +86,7 @@ class ModesAnswer(Several[ClassAnswer]):
                 "modes": [len(answer.modes.members) for _, answer, _ in found],
                 "dimension": [c.dimension for _, _, c in found],
                 "degree": [c.degree for _, _, c in found],
-                "multiplicity": [c.multiplicity for _, _, c in found],
+                "multiplicity": known_or_nan([c.multiplicity for _, _, c in found]),
             }
         )
 

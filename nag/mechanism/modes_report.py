@@ -96,8 +96,8 @@ class OperationMode(FixedArrays):
     __eq__ = equal_values
 
     @property
-    def multiplicity(self) -> int:
-        """In the scheme of the legs' equations; 0 where it is not known."""
+    def multiplicity(self) -> int | None:
+        """In the scheme of the legs' equations; None where it is not known."""
         return self.component.multiplicity
 
     @property
@@ -145,7 +145,8 @@ class OperationMode(FixedArrays):
         return {
             "dimension": self.dimension,
             "degree": self.degree,
-            "multiplicity": self.multiplicity,
+            # In documents 0 stands for what is not known.
+            "multiplicity": self.multiplicity or 0,
             "reality": str(self.reality),
             "conjugate": None if self.conjugate is None else self.conjugate + 1,
             "through_reference": self.through_reference,
@@ -405,7 +406,7 @@ class OperationModes(Several[OperationMode]):
             )
             found.append(("limits", f"{text}give a general one"))
         for i, mode in enumerate(self.modes, 1):
-            if mode.multiplicity > 1:
+            if mode.component.is_multiple:
                 found.append(("multiple", f"mode {i}: {self._multiplicity_text(mode)}"))
         for each in self.spurious:
             text = f"a component of dimension {each.dimension}, degree {each.degree} of the "

@@ -297,7 +297,7 @@ def describe_modes(
         at = through and through[k]
         mode = _describe(model, component, mirrored[k], k, at, model.length, run)
         singular: tuple[int, ...] = ()
-        if mode.multiplicity > 1:
+        if mode.component.is_multiple:
             pairs = enumerate(model.legs)
             singular = tuple(i for i, leg in pairs if leg.is_singular_at(reach.pose))
         mode = replace(mode, residuals=reach.residuals, limits=reach.limits, singular_legs=singular)

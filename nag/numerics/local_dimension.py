@@ -52,7 +52,7 @@ class LocalDimension:
         point: the sharpened point, rounded, shape ``(n,)``.
         tangent_dimension: corank of the Jacobian there; None where the point is not decided.
         lower, upper: bounds of the local dimension.
-        multiplicity: dimension of the local ring at an isolated point, else 0.
+        multiplicity: dimension of the local ring at an isolated point, else None.
         hyperplanes: number of random hyperplanes through the point that the matrices were made on.
         coranks: coranks of the Macaulay matrices of degree 0, 1, .. on them; they end where the
             dual space does, or where it was given up. Empty where none were needed.
@@ -68,7 +68,7 @@ class LocalDimension:
     tangent_dimension: int | None
     lower: int
     upper: int
-    multiplicity: int
+    multiplicity: int | None
     hyperplanes: int
     coranks: tuple[int, ...]
     arithmetic: str
@@ -81,6 +81,7 @@ class LocalDimension:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "point", fixed_array(self.point))
+        object.__setattr__(self, "multiplicity", self.multiplicity or None)
 
     def to_numpy(self) -> ComplexArray:
         """The point, complex, to be written to, without the imaginary unit: shape ``(n,)``."""
@@ -103,7 +104,8 @@ class LocalDimension:
             "lower": self.lower,
             "upper": self.upper,
             "isolated": self.isolated,
-            "multiplicity": self.multiplicity,
+            # In documents 0 stands for none.
+            "multiplicity": self.multiplicity or 0,
             "hyperplanes": self.hyperplanes,
             "coranks": list(self.coranks),
             "arithmetic": self.arithmetic,

@@ -350,7 +350,7 @@ def facts(motion: Motion) -> list[list[str]]:
         name = "component" if len(motion.components) == 1 else f"component {i + 1}"
         on = sum(c.component == i for c in motion.circuits)
         text = f"dimension {component.dimension}, degree {component.degree}"
-        if component.multiplicity > 1:
+        if component.is_multiple:
             text += f", multiplicity {component.multiplicity}"
         rows.append([name, f"{text}; {circuits_text(motion, on)}"])
     if motion.idle:

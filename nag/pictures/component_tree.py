@@ -27,7 +27,7 @@ def draw_component_tree(answer: Decomposition, title: str, path: str) -> None:
     rows: dict[int, list[str]] = {}
     plain: Counter[tuple[int, int, int]] = Counter()
     for kind, count in kinds(answer.components).items():
-        plain[kind.dimension, kind.degree, kind.multiplicity] += count
+        plain[kind.dimension, kind.degree, kind.multiplicity or 0] += count
     for (dimension, degree, multiplicity), count in sorted(plain.items()):
         text = f"{count} of degree {degree}" if count > 1 else f"degree {degree}"
         if multiplicity != 1:

@@ -178,6 +178,11 @@ def split_parts(columns: Mapping[str, Any]) -> dict[str, Any]:
     return split
 
 
+def known_or_nan(counts: Sequence[int | None]) -> list[float]:
+    """A column of counts, those that are not known, None or 0, as NaN."""
+    return [count or math.nan for count in counts]
+
+
 def data_frame(columns: Mapping[str, Sequence[Any]], parts: bool = False) -> Any:
     """A ``pandas.DataFrame`` of these columns.
 

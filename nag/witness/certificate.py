@@ -148,7 +148,7 @@ class DecompositionCertificate:
         return tuple(
             i
             for i, c in enumerate(self.components)
-            if c.component.multiplicity > 1 and Proof.SIMPLE in c.points.proofs
+            if c.component.is_multiple and Proof.SIMPLE in c.points.proofs
         )
 
     @property

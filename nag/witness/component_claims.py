@@ -88,8 +88,8 @@ def _claims_of(system: PolynomialSystem, certificate: ComponentCertificate, k: i
         "points": ("that its points are zeros on the slice", zeros),
         "dimension": (f"that its dimension is {d}, by its points", zeros),
         "multiplicity": (
-            f"that its multiplicity is {m}",
-            multiplicity_standings(points, [component.multiplicity] * component.degree),
+            f"that its multiplicity is {m or 'not known'}",
+            multiplicity_standings(points, [m or 0] * component.degree),
         ),
         "radii": ("that its points are no further from zeros than these", errors),
         "accuracy": ("that this is the largest error of its points", errors),

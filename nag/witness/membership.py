@@ -129,7 +129,7 @@ class PointMembership(Several[WitnessSet]):
         rows = [["component", "dimension", "degree", "multiplicity", "point"]]
         for i, (c, answer) in enumerate(zip(self.components, self.answers, strict=True), 1):
             said = {Membership.MEMBER: "on it", Membership.FOREIGN: "not on it"}.get(answer, "?")
-            multiplicity = str(c.multiplicity) if c.multiplicity else "?"
+            multiplicity = str(c.multiplicity or "?")
             rows.append([str(i), str(c.dimension), str(c.degree), multiplicity, said])
         return rows if self.components else []
 

@@ -39,7 +39,7 @@ def multiply_components(first: WitnessSet, second: WitnessSet) -> WitnessSet:
     return WitnessSet(
         slice=Slice(A, np.concatenate([c.slice.b for c in both])),
         points=np.hstack([first.points[i], second.points[j]]),
-        multiplicity=first.multiplicity * second.multiplicity,
+        multiplicity=(first.multiplicity or 0) * (second.multiplicity or 0),
         status=Status.IRREDUCIBLE if irreducible else Status.UNDECIDED,
         residual=max(c.residual for c in both),
         radii=np.hstack([first.radii[i], second.radii[j]]),

@@ -43,14 +43,14 @@ class ComponentKind:
 
     dimension: int
     degree: int
-    multiplicity: int
+    multiplicity: int | None
     multidegree: tuple[int, ...] | None = None
 
     def text(self, count: int) -> str:
         """``count`` of them in words: "9 components of dimension 2, degree 4"."""
         plural = "" if count == 1 else "s"
         text = f"{count} component{plural} of dimension {self.dimension}, degree {self.degree}"
-        if self.multiplicity == 0:
+        if not self.multiplicity:
             return f"{text}, multiplicity not known"
         return text if self.multiplicity == 1 else f"{text}, multiplicity {self.multiplicity}"
 
@@ -83,7 +83,7 @@ def kinds_text(counts: Counter[ComponentKind]) -> str:
     plain: Counter[ComponentKind] = Counter()
     for each, count in counts.items():
         plain[ComponentKind(each.dimension, each.degree, each.multiplicity)] += count
-    order = sorted(plain, key=lambda k: (-k.dimension, k.degree, k.multiplicity))
+    order = sorted(plain, key=lambda k: (-k.dimension, k.degree, k.multiplicity or 0))
     return "; ".join(each.text(plain[each]) for each in order) or "no component"
 
 
@@ -165,7 +165,7 @@ def _row(group: Sequence[WitnessSet]) -> dict[str, str]:
         "dimension": str(first.dimension),
         "degree": str(first.degree),
         "multidegree": multidegree_text(first.multidegree),
-        "multiplicity": str(first.multiplicity) if first.multiplicity else "?",
+        "multiplicity": str(first.multiplicity or "?"),
         "count": str(sum(c.orbit for c in group)),
         "status": str(first.status),
         "residual": magnitude(float(np.max([c.residual for c in group]))),

@@ -24,7 +24,7 @@ from nag.numerics.read_only import (
     fixed_array,
 )
 from nag.text.json_text import pairs, real_or_null
-from nag.text.table import data_frame, one_line
+from nag.text.table import data_frame, known_or_nan, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ class WitnessSet(FixedArrays):
     Attributes:
         slice: the slice.
         points: complex, shape ``(degree, n)``.
-        multiplicity: multiplicity of the component in the scheme that the equations define; 0
+        multiplicity: multiplicity of the component in the scheme that the equations define; None
             where it is not known.
         status: `IRREDUCIBLE` where the trace test and the final checks passed.
         residual: largest relative residual of the original equations at the points.
@@ -138,7 +138,7 @@ class WitnessSet(FixedArrays):
 
     slice: Slice
     points: ComplexArray
-    multiplicity: int
+    multiplicity: int | None
     status: Status
     residual: float
     radii: RealArray
@@ -155,6 +155,8 @@ class WitnessSet(FixedArrays):
 
     def __post_init__(self) -> None:
         check_type(self.slice, Slice, "slice", "a nag.Slice")
+        # Nothing has none of it: 0 is said where it was looked for and not found.
+        object.__setattr__(self, "multiplicity", self.multiplicity or None)
         points = fixed_array(self.points, complex)
         object.__setattr__(self, "points", points)
         radii, digits = fixed_array(self.radii, float), fixed_array(self.digits, int)
@@ -178,6 +180,11 @@ class WitnessSet(FixedArrays):
     @property
     def degree(self) -> int:
         return len(self.points)
+
+    @property
+    def is_multiple(self) -> bool:
+        """Whether its multiplicity is known to be more than 1."""
+        return (self.multiplicity or 0) > 1
 
     @property
     def errors(self) -> RealArray:
@@ -216,7 +223,8 @@ class WitnessSet(FixedArrays):
             "number": number,
             "dimension": self.dimension,
             "degree": self.degree,
-            "multiplicity": self.multiplicity,
+            # In documents 0 stands for what is not known.
+            "multiplicity": self.multiplicity or 0,
             "status": str(self.status),
         }
 
@@ -229,7 +237,7 @@ class WitnessSet(FixedArrays):
         if self.multidegree is not None:
             document["multidegree"] = self.multidegree.tolist()
         return document | {
-            "multiplicity": self.multiplicity,
+            "multiplicity": self.multiplicity or 0,
             "status": str(self.status),
             "note": self.note,
             "orbit": orbit,
@@ -568,14 +576,15 @@ class Decomposition(Several[WitnessSet]):
     def to_dataframe(self) -> pandas.DataFrame:
         """A row for each component: number, dimension, degree, multiplicity, status, orbit.
 
-        ``orbit`` is the size of the one that it is of.
+        A multiplicity that is not known is NaN. ``orbit`` is the size of the one that it is of.
 
         Raises:
             nag.NagError: if pandas is not installed.
         """
         facts = [c.facts(k) | {"orbit": c.orbit} for k, c in enumerate(self._firsts, 1)]
         names = ("number", "dimension", "degree", "multiplicity", "status", "orbit")
-        return data_frame({name: [row[name] for row in facts] for name in names})
+        columns = {name: [row[name] for row in facts] for name in names}
+        return data_frame(columns | {"multiplicity": known_or_nan(columns["multiplicity"])})
 
     @property
     def dimension(self) -> int:

@@ -37,7 +37,7 @@ def ask_method(method: str, problem: KnownProblem, seed: int, settings: str) -> 
 def _components(whole: Decomposition) -> Components:
     found: Components = Counter()
     for c in whole.components:
-        found[c.dimension, c.degree, c.multiplicity] += c.orbit
+        found[c.dimension, c.degree, c.multiplicity or 0] += c.orbit
     return found
 
 
@@ -53,7 +53,7 @@ def _singular(problem: KnownProblem, whole: Decomposition, seed: int, settings: 
 
 
 def _singular_text(one: SingularSet) -> str:
-    local, multiplicities = one.local, sorted(one.multiplicities.values())
+    local, multiplicities = one.local, sorted(m or 0 for m in one.multiplicities.values())
     text = SINGULAR.format(local.dimension, local.tangent_dimension, *multiplicities)
     if one.dimension or len(multiplicities) > 1:
         text += f", {one.dimension} {multiplicities}"
