@@ -324,3 +324,12 @@ def test_what_is_written_is_what_the_command_writes_but_for_the_run(tmp_path: Pa
     unknown = {"case", "seed", "settings", "budget", "configuration", "known"}
     assert given.keys() == again.keys()
     assert {key for key in given if given[key] != again[key]} <= unknown
+
+
+def test_every_answer_says_whether_it_is_complete() -> None:
+    parts = {"component", "circuit", "solution", "solutions", "singular set", "case", "model"}
+    parts |= {"problem", "system", "framework", "linkage", "table", "model of a linkage"}
+    for name in RESULTS.keys() - parts - {"mechanism"}:
+        complete: Any = RESULTS[name]().complete
+        assert complete is True or complete.all() or name == "real points", name
+    assert RESULTS["sweep"]()[0].complete and len(repr(RESULTS["sweep"]()[0])) < 80

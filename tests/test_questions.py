@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas
 import pytest
 import sympy
 from linkages import CASES
@@ -659,3 +660,60 @@ def test_a_multiplicity_that_is_not_known_is_none_and_a_question_mark(tmp_path: 
     assert nag.local("x^2 - y^3", (0, 0)).multiplicity is None
     assert nag.local(["x^2", "y"], (0, 0)).multiplicity == 2
     assert nag.mobility("cases/bennett.toml").multiplicity is None
+
+
+def test_points_are_told_by_the_names_that_they_have() -> None:
+    """A row of a table and a solution have their variables in an order of their own."""
+    line = nag.decompose("x + 2*y - 1", "x y")
+    found = nag.solve(["x + 2*y = 1", "x = 3"], "y x")[0]
+    assert found.variables == ("y", "x")
+    given = [
+        pandas.Series({"y": 0.0, "x": 1.0}),
+        pandas.Series([1.0, 0.0]),
+        found,
+        found.to_sympy(),
+    ]
+    for point in given:
+        assert nag.member(line, point) and line[0].contains(point)
+        assert nag.local("x + 2*y - 1", point).dimension == 1
+    with pytest.raises(nag.NagError, match="point: a table is given; give one point"):
+        nag.member(line, pandas.DataFrame({"x": [1.0], "y": [0.0]}))
+
+
+def test_equations_are_a_column_of_a_table_and_no_table() -> None:
+    table = pandas.DataFrame({"e": ["x^2 - 1", "x - y"]})
+    assert nag.solve(table["e"]) == nag.solve(["x^2 - 1", "x - y"])
+    with pytest.raises(nag.NagError, match="something of type DataFrame is given; give texts"):
+        nag.solve(table)
+
+
+def test_a_variable_that_is_called_like_a_column_has_its_own() -> None:
+    roots = nag.solve(["real^2 - 1", "error - real"]).to_dataframe()
+    assert roots["real"].tolist() == [1, -1] and roots["real_"].tolist() == [True, True]
+    component = nag.decompose("error - x")[0].to_dataframe()
+    assert component["error"].tolist() == component["x"].tolist() and "error_" in component
+    family = nag.solve_family("member^2 - real", "real", [4.0]).to_dataframe()
+    assert family["real"].tolist() == [4, 4] and family["member"].abs().tolist() == [2, 2]
+    assert [*family.columns] == ["member_", "real", "member", "real_", "error"]
+    assert [*nag.find_real_curve("edge^2 + x^2 - 1").to_dataframe()] == ["edge_", "edge", "x"]
+
+
+def test_solutions_are_chosen_by_arrays_as_well() -> None:
+    roots = nag.solve(["x^3 - x", "y - x"])
+    assert roots[[0, 2]] == roots[np.array([True, False, True])] == [roots[0], roots[2]]
+    assert len(roots[[]]) == 0 and roots[np.int64(1)] == roots[1]
+    with pytest.raises(IndexError, match="index 3 of 3, counted from 0"):
+        roots[3]
+    with pytest.raises(TypeError, match="'x' is no index; give a whole number"):
+        roots["x"]
+
+
+def test_what_is_found_knows_its_variables() -> None:
+    circle = nag.decompose("x^2 + y^2 = i", imaginary="i")
+    answers = (circle, circle[0], nag.solve(["x^2 = i", "y = x"], imaginary="i"))
+    answers += (
+        nag.sample(circle),
+        nag.singular("x*y"),
+        nag.solve_family("x*y = a", "a, y", [[1, 2]]),
+    )
+    assert [each.variables for each in answers] == [("x", "y")] * 5 + [("x",)]

@@ -225,7 +225,9 @@ def _list_equations(equations: Any, place: str) -> list[Any]:
             f"{place}: a {type(equations).__name__} is given, which is an answer; "
             "its equations are its `system`"
         )
-    none = isinstance(equations, Mapping | bytes | bytearray)
+    # What iterates over names: a dict, a table of pandas, but not one of its columns.
+    names = hasattr(equations, "keys") and getattr(equations, "ndim", 0) != 1
+    none = isinstance(equations, bytes | bytearray) or names
     if answer or none or not isinstance(equations, Iterable):
         raise ExpressionError(
             f"{place}: something of type {type(equations).__name__} is given; give texts like "
@@ -371,16 +373,16 @@ def coordinates(
     """A point's coordinates: exact numbers where they are real, others in doubles.
 
     Args:
-        point: a number for each variable, in their order, or a mapping from names to numbers; or a
-            solution that was found, which is known to doubles. Floats of all kinds, sympy's too,
+        point: a number for each variable, in their order, or a mapping from names to numbers, or a
+            series of pandas' with names; or a solution that was found, which is known to doubles.
+            Floats of all kinds, sympy's too,
             are doubles: where they are asked to be exact they are their shortest decimals.
         imaginary: whether the last variable is the imaginary unit, which need not be given.
 
     Raises:
         ValueError: if there are more or fewer than variables, or one is no finite number.
     """
-    if is_a(point, "nag.solving.solutions", "Solution"):
-        point = point.point
+    point = _values_by_name(point, variables[: len(variables) - imaginary])
     units = ("I", *variables[-1:]) if imaginary else ("I",)
     if imaginary and not _names_the_unit(point, variables):
         variables = variables[:-1]
@@ -404,6 +406,26 @@ def coordinates(
         raise NagError(f"point: {len(values)} {are} given; there {have}: {', '.join(variables)}")
     given = [_coordinate(value, f"point[{i}]", units) for i, value in enumerate(values)]
     return (*given, 1j) if imaginary and units[-1] not in variables else tuple(given)
+
+
+def _values_by_name(point: Any, variables: Sequence[str]) -> Any:
+    """A point by names of its variables, where it has them: a solution, or a series of pandas.
+
+    Raises:
+        NagError: if it is a table.
+    """
+    if getattr(point, "ndim", 1) > 1:
+        raise NagError("point: a table is given; give one point, as a row of it")
+    if is_a(point, "nag.solving.solutions", "Solution"):
+        same = len(point.variables) == len(variables) and {*point.variables} == {*variables}
+        if not same or point.variables == tuple(variables):
+            return point.point
+        return dict(zip(point.variables, point.to_numpy(), strict=True))
+    if hasattr(point, "keys") and not isinstance(point, Mapping):
+        # The index of a series may be numbers, which are no names.
+        names = list(point.keys())
+        return dict(point) if all(isinstance(name, str) for name in names) else list(point)
+    return point
 
 
 def _names_the_unit(point: Any, variables: Sequence[str]) -> bool:

@@ -31,7 +31,7 @@ from nag.numerics.zero_values import ON
 from nag.solving.parameter_line import parameter_line
 from nag.text.json_text import lay_out
 from nag.text.progress import REMARK, stage_text
-from nag.text.table import align, count_text, data_frame, known_or_nan, named_line
+from nag.text.table import align, count_text, data_frame, known_or_nan, named_apart, named_line
 from nag.tracking import blocks
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -67,6 +67,15 @@ class Swept:
     reason: str = ""
 
     __eq__ = equal_values
+
+    def __repr__(self) -> str:
+        number, _, _, answer = self.row()
+        return f"Swept({number}: {answer})"
+
+    @property
+    def complete(self) -> bool:
+        """Whether the components are all that there are, as far as they are looked for."""
+        return self.decomposition.complete
 
     def row(self) -> list[str]:
         """The value, how its components were found, paths, and the components."""
@@ -140,13 +149,16 @@ class Sweep(Several[Swept]):
             nag.NagError: if pandas is not installed.
         """
         found = [(each, c) for each in self.members for c in each.decomposition]
+        own = {self.parameter: [float(each.value) for each, _ in found]}
         return data_frame(
-            {
-                self.parameter: [float(each.value) for each, _ in found],
-                "dimension": [c.dimension for _, c in found],
-                "degree": [c.degree for _, c in found],
-                "multiplicity": known_or_nan([c.multiplicity for _, c in found]),
-            }
+            named_apart(
+                own,
+                {
+                    "dimension": [c.dimension for _, c in found],
+                    "degree": [c.degree for _, c in found],
+                    "multiplicity": known_or_nan([c.multiplicity for _, c in found]),
+                },
+            )
         )
 
     def __repr__(self) -> str:

@@ -100,7 +100,7 @@ def fields_of(result: Any) -> Fields:
 
 def answer_document(result: Any) -> dict[str, Any]:
     """The document of an answer whose case, seed and settings are not known."""
-    complete: Any = result.decided if hasattr(result, "decided") else result.complete
+    complete: Any = result.complete
     whole = complete if isinstance(complete, bool) else bool(complete.all())
     fields = fields_of(result)
     head = {"format": fields["format"], "version": 1, "case": None, "seed": None, "settings": None}

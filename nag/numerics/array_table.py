@@ -156,12 +156,20 @@ class RecordTable(ArrayTable, Sequence[Record]):
     def __getitem__(self, index: int) -> Record: ...
 
     @overload
-    def __getitem__(self, index: slice) -> Self: ...
+    def __getitem__(self, index: slice | list[int] | np.ndarray) -> Self: ...
 
-    def __getitem__(self, index: int | slice) -> Record | Self:
+    def __getitem__(self, index: int | slice | list[int] | np.ndarray) -> Record | Self:
         if isinstance(index, slice):
             return self.select_rows(index)  # type: ignore[arg-type]
-        return self.record(range(len(self))[index])
+        if isinstance(index, list | np.ndarray) and np.ndim(index):
+            return self.select_rows(np.asarray(index, dtype=None if len(index) else int))
+        try:
+            return self.record(range(len(self))[index])
+        except IndexError:
+            raise IndexError(f"index {index} of {len(self)}, counted from 0") from None
+        except TypeError:
+            said = f"{index!r} is no index; give a whole number, a slice, or an array of either"
+            raise TypeError(said) from None
 
     def __iter__(self) -> Iterator[Record]:
         return map(self.record, range(len(self)))

@@ -119,6 +119,11 @@ class LocalDimension:
         return self.lower == self.upper
 
     @property
+    def complete(self) -> bool:
+        """The same as `decided`."""
+        return self.decided
+
+    @property
     def dimension(self) -> int | None:
         """The local dimension; None if it is not decided."""
         return self.lower if self.decided else None

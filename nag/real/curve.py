@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nag.numerics.read_only import RealArray, Several, equal_values, fixed_array
-from nag.text.table import data_frame, one_line
+from nag.text.table import data_frame, named_apart, one_line
 
 if TYPE_CHECKING:
     import networkx
@@ -191,8 +191,9 @@ class RealCurve(Several[RealPiece]):
         numbers = [np.full(len(edge.points), k) for k, edge in enumerate(self.edges)]
         points = [edge.points for edge in self.edges]
         whole = np.vstack([*points, np.zeros((0, len(self.variables)))])
-        columns = {"edge": np.concatenate([*numbers, np.zeros(0, dtype=int)])}
-        return data_frame(columns | dict(zip(self.variables, whole.T, strict=True)))
+        own = dict(zip(self.variables, whole.T, strict=True))
+        (name,) = set(named_apart(own, {"edge": 0})) - set(own)
+        return data_frame({name: np.concatenate([*numbers, np.zeros(0, dtype=int)])} | own)
 
     @property
     def complete(self) -> bool:

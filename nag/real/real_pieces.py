@@ -100,6 +100,11 @@ class RealPieces(Several[RealArray]):
         """The points."""
         return self.points
 
+    @property
+    def complete(self) -> bool:
+        """Whether it is known that there are none, or one is here of each connected piece."""
+        return self.reality is Reality.NONE or (self.reality is Reality.FOUND and self.each_piece)
+
     def to_numpy(self) -> RealArray:
         """The points, shape ``(k, n)``, to be written to."""
         return self.points.copy()

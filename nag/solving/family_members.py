@@ -48,7 +48,7 @@ from nag.solving.parameter import (
 )
 from nag.solving.solve import solve
 from nag.solving.start.family_monodromy import random_values
-from nag.text.table import count_text, data_frame, lines_of, one_line
+from nag.text.table import count_text, data_frame, lines_of, named_apart, one_line
 from nag.tracking import blocks
 from nag.tracking.paths import PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, TellFound, takes_run
@@ -157,12 +157,12 @@ class FamilySolutions(Several[ComplexArray]):
         points = self.points[members, places]
         # Values that are all real are floats, as they were given.
         values = self.values if self.values.imag.any() else self.values.real
-        columns: dict[str, Any] = {"member": members}
-        columns |= dict(zip(self.parameters, values[members].T, strict=True))
-        columns |= dict(zip(self.variables, (points.real if real else points).T, strict=True))
-        columns["real"] = are_real[members, places]
-        columns["error"] = self.errors[members, places]
-        return data_frame(columns, parts)
+        own = dict(zip(self.parameters, values[members].T, strict=True))
+        own |= dict(zip(self.variables, (points.real if real else points).T, strict=True))
+        facts = {"real": are_real[members, places], "error": self.errors[members, places]}
+        columns = named_apart(own, {"member": members} | facts)
+        first = next(name for name in columns if name not in own)
+        return data_frame({first: members} | columns, parts)
 
     def document(self) -> dict[str, Any]:
         """The numbers of solutions of each member as a JSON object, the solutions left out."""

@@ -26,7 +26,7 @@ from nag.numerics.read_only import (
     handed_over,
 )
 from nag.text.json_text import Objects, pairs, real_or_null
-from nag.text.table import count_text, data_frame, one_line
+from nag.text.table import count_text, data_frame, named_apart, one_line
 from nag.tracking.run import Run
 
 if TYPE_CHECKING:
@@ -225,9 +225,9 @@ class Solutions(RecordTable[Solution]):
         if not self.variables and self.points.shape[1]:
             raise NagError("to_dataframe: the solutions know no names of variables")
         table = self.select_rows(self.real) if real else self
-        columns: dict[str, Any] = dict(zip(self.variables, self.to_numpy(real=real).T, strict=True))
-        for name in ("multiplicity", "real", "residual", "accuracy", "condition"):
-            columns[name] = getattr(table, name)
+        own = dict(zip(self.variables, self.to_numpy(real=real).T, strict=True))
+        names = ("multiplicity", "real", "residual", "accuracy", "condition")
+        columns = named_apart(own, {name: getattr(table, name) for name in names})
         return data_frame(columns, parts)
 
     def to_sympy(self) -> list[dict[sympy.Symbol, sympy.Expr]]:
@@ -461,6 +461,11 @@ class SolveResult(Several[Solution]):
             on_excluded=larger.excluded,
             on_doubtful=larger.doubtful,
         )
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Names of the variables, without the imaginary unit."""
+        return self.system.own_variables
 
     @property
     def points(self) -> ComplexArray:

@@ -178,6 +178,20 @@ def split_parts(columns: Mapping[str, Any]) -> dict[str, Any]:
     return split
 
 
+def named_apart(own: Mapping[str, Any], beside: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns of variables, and others beside them, with ``_`` behind names that are variables.
+
+    >>> named_apart({"real": 1, "x": 2}, {"real": 3, "error": 4})
+    {'real': 1, 'x': 2, 'real_': 3, 'error': 4}
+    """
+    columns = dict(own)
+    for name, column in beside.items():
+        while name in columns:
+            name += "_"
+        columns[name] = column
+    return columns
+
+
 def known_or_nan(counts: Sequence[int | None]) -> list[float]:
     """A column of counts, those that are not known, None or 0, as NaN."""
     return [count or math.nan for count in counts]

@@ -24,7 +24,7 @@ from nag.numerics.read_only import (
     fixed_array,
 )
 from nag.text.json_text import pairs, real_or_null
-from nag.text.table import data_frame, known_or_nan, one_line
+from nag.text.table import data_frame, known_or_nan, named_apart, one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
@@ -182,6 +182,15 @@ class WitnessSet(FixedArrays):
         return len(self.points)
 
     @property
+    def variables(self) -> tuple[str, ...]:
+        """Names of the variables, without the imaginary unit.
+
+        Raises:
+            nag.NagError: if the component does not know its equations.
+        """
+        return self._known_system().own_variables
+
+    @property
     def is_multiple(self) -> bool:
         """Whether its multiplicity is known to be more than 1."""
         return (self.multiplicity or 0) > 1
@@ -274,7 +283,7 @@ class WitnessSet(FixedArrays):
         """
         names = self._known_system().own_variables
         columns: dict[str, Any] = dict(zip(names, self.to_numpy().T, strict=True))
-        return data_frame(columns | {"error": self.errors}, parts)
+        return data_frame(named_apart(columns, {"error": self.errors}), parts)
 
     def to_sympy(self) -> list[dict[sympy.Symbol, sympy.Expr]]:
         """The witness points as sympy has them: values, floats, by symbols.
@@ -585,6 +594,11 @@ class Decomposition(Several[WitnessSet]):
         names = ("number", "dimension", "degree", "multiplicity", "status", "orbit")
         columns = {name: [row[name] for row in facts] for name in names}
         return data_frame(columns | {"multiplicity": known_or_nan(columns["multiplicity"])})
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Names of the variables, without the imaginary unit."""
+        return self.system.own_variables
 
     @property
     def dimension(self) -> int:
