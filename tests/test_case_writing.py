@@ -150,7 +150,7 @@ def test_an_ending_names_another_program(ending: str, tmp_path: Path) -> None:
         (lambda: nag.Framework.of(["1a", "b"], [("1a", "b")], [1]), {}, "'1a' cannot name a point"),
         (lambda: nag.decompose("x"), {"format": "m2"}, "format: is for cases and equations"),
         (lambda: nag.system("x"), {"format": "word"}, "format: 'word' is unknown"),
-        (lambda: 3, {}, "result: 3 is given; give what"),
+        (lambda: 3, {}, "result: 3 is given; give an answer"),
     ],
 )
 def test_what_cannot_be_said_is_refused(given: Any, how: Any, message: str, tmp_path: Path) -> None:

@@ -149,14 +149,28 @@ def _setting(text: str) -> tuple[str, str]:
 
 
 def add_case(
-    parser: argparse.ArgumentParser, at: str = "", format_option: str = "--format"
+    parser: argparse.ArgumentParser,
+    at: str = "",
+    format_option: str = "--format",
+    *,
+    exports: bool = False,
 ) -> None:
-    """The case file, how it is read as of `add_reading`, and the formulation of its model."""
+    """The case file, how it is read as of `add_reading`, and the formulation of its model.
+
+    Args:
+        at, format_option: as of `add_reading`.
+        exports: whether an export stands for the equations that it answers, as of `read_problem`.
+    """
+    answered = (
+        "; or, for the equations that it answers, an export of `nag decompose` or `nag solve`"
+    )
     parser.add_argument(
         "case",
         metavar="CASE",
         help="case file (TOML); or a system in a file of Bertini, PHCpack, Macaulay2, Singular or "
-        "HomotopyContinuation.jl, or of one polynomial a line; or a robot in URDF or MJCF",
+        "HomotopyContinuation.jl, or of one polynomial a line; or a robot in URDF or MJCF"
+        + answered
+        * exports,
     )
     add_formulation(parser)
     add_reading(parser, at, format_option)

@@ -35,7 +35,7 @@ def _starts(text: str) -> int:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag decompose``."""
-    add_case(parser)
+    add_case(parser, exports=True)
     add_running(parser)
     add_certify(parser)
     parser.add_argument(

@@ -21,7 +21,7 @@ FORMAT = "nag-local-dimension"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag local`` has besides those of every command that runs a case."""
-    add_case(parser, POINT_AT)
+    add_case(parser, POINT_AT, exports=True)
     add_running(parser)
     add_point(parser, " (default: all points)")
     parser.add_argument(

@@ -19,7 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag model``."""
     from nag.files.formats import WRITTEN
 
-    add_case(parser, format_option="--from")
+    add_case(parser, format_option="--from", exports=True)
     add_json(parser)
     add_quiet(parser)
     parser.add_argument(

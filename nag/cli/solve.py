@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag solve``."""
-    add_case(parser)
+    add_case(parser, exports=True)
     add_running(parser)
     add_certify(parser)
     parser.add_argument(

@@ -164,7 +164,7 @@ class RecordTable(ArrayTable, Sequence[Record]):
         if isinstance(index, list | np.ndarray) and np.ndim(index):
             return self.select_rows(np.asarray(index, dtype=None if len(index) else int))
         try:
-            return self.record(range(len(self))[index])
+            return self.record(range(len(self))[index])  # type: ignore[index]
         except IndexError:
             raise IndexError(f"index {index} of {len(self)}, counted from 0") from None
         except TypeError:
