@@ -601,7 +601,7 @@ def test_a_missing_component_of_the_largest_dimension_is_seen(kind: str) -> None
 def test_where_it_was_not_looked_at_whether_components_are_missing_it_says_so() -> None:
     whole = decompose(nag.system(["(x^2 + I*y)*(x - 1)", "(x^2 + I*y)*(y - 2*I)"], "x y"))
     curve = replace(whole, components=whole.components[:1])
-    row = ("complete", "not looked at: there may be more components than these")
+    row = ("complete", "not looked at here: there may be more components than these")
     assert row in certify_decomposition(curve).rows(1.0)
 
 

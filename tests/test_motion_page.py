@@ -245,7 +245,9 @@ def test_crossings_of_a_driven_motion_name_the_circuits_at_their_value() -> None
         driven = nag.driven_motion(five_bar(*lengths), "A", values, samples=24)
         data = data_of(driven_page(driven, "five-bar", "five-bar"))
         texts = [c["text"] for each in data["circuits"] for c in each["crossings"]]
-        assert texts and all(re.fullmatch(rf"{words}( [12])? at .* %", text) for text in texts)
+        assert texts and all(
+            re.fullmatch(rf"{words}( [12])? at .* % of its length", text) for text in texts
+        )
 
 
 def test_frames_beyond_the_largest_sample_are_the_largest_number_there_is() -> None:

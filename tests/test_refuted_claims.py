@@ -17,7 +17,7 @@ from nag.cli import main
 from nag.decomposition.decompose import decompose
 from nag.files.export import write_decomposition
 from nag.files.json_schema import schema
-from nag.numerics.claims import Standing
+from nag.numerics.claims import Standing, claims_rows
 from nag.solving.certificate import certify_solutions
 from nag.solving.solve import solve
 from nag.witness.certificate import DecompositionCertificate, certify_decomposition
@@ -281,3 +281,10 @@ def test_lines_about_completeness_do_not_contradict_each_other(tmp_path: Path, c
     printed = certified_lines(left_out, tmp_path, capsys)
     assert "4 simple zeros are proved, among them solutions that are said to be excluded" in printed
     assert "complete: that there are no more isolated solutions: excluded solution 1\n" in printed
+
+
+def test_records_of_the_run_are_told_apart_from_statements_that_are_not_proved() -> None:
+    claims = certify_solutions(solve(LINE_AND_CIRCLE)).claims
+    rows = dict(claims_rows(claims))
+    assert rows["unproved"].endswith(": on_components, on_excluded, on_doubtful, undecided")
+    assert "seed" in rows["records"] and "of each of solutions: residual" in rows["records"]

@@ -1033,7 +1033,7 @@ def _sample(
 ) -> _FoundCircuit:
     walk, unbounded = _within_reach(curve, walk)
     path = sample_path(curve, walk, 2 * samples + 1)
-    values = values_along(path)
+    values = values_along(path, on_reference)
     # Euler parameters may run twice through all configurations, with other signs.
     half = path.poses.at(slice(0, samples + 1)), path.poses.at(slice(samples, None))
     centres, size = curve.scene.centres, curve.scene.size

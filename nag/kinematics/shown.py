@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
@@ -73,33 +74,48 @@ def crossing_text(motion: Motion, circuit: Circuit, crossing: Crossing) -> str:
     if unnamed > 0:
         texts.append(count_text(unnamed, "other component"))
     where = f"crosses {join_words(texts)}" if texts else "singular"
-    return f"{where} at {share:.1f} %"
+    return f"{where} at {share:.1f} % of its length"
 
 
 def circuit_rows(motion: Motion, circuit: Circuit) -> list[str]:
     """The table of a circuit: a line for each joint, and where another one is at dead points.
 
-    Empty where no joint has an angle or slide, as of bars in space.
+    What the motion passes more than once is written once, with how often. Empty where no joint has
+    an angle or slide, as of bars in space.
     """
     values = circuit.values
     if not values.coordinates:
         return []
-    rows = [["joint", "moves", "stands still at"]]
+    rows = [["joint", "moves", "turns back at (another joint then)"]]
     moving = [k for k, c in enumerate(values.coordinates) if c.in_loop and not values.still[k]]
     for i, each in enumerate(values.coordinates):
         own = [p for p in values.turning if p.coordinate == each.name]
         driver = next((k for k in moving if k != i), None)
-        texts = []
-        for p in own[:MOST_POINTS]:
-            text = value_text(each, p.value)
-            if driver is not None:
-                other = values.coordinates[driver]
-                text += f" ({other.name} {value_text(other, p.others[driver])})"
-            texts.append(text)
-        if len(own) > MOST_POINTS:
-            texts.append(f"and {len(own) - MOST_POINTS} more")
+        passed = Counter(_dead_point_text(values, p, each, driver) for p in own)
+        texts = [
+            text if times == 1 else f"{text} {'twice' if times == 2 else f'{times} times'}"
+            for text, times in list(passed.items())[:MOST_POINTS]
+        ]
+        if len(passed) > MOST_POINTS:
+            texts.append(f"and {len(passed) - MOST_POINTS} more")
         rows.append([each.name, range_text(motion, values, i), ", ".join(texts)])
     return align(rows, left=(0, 1, 2))
+
+
+def _dead_point_text(
+    values: Values, point: TurningPoint, own: Coordinate, driver: int | None
+) -> str:
+    """Where a joint turns back, and where another one is then, of an angle within a turn."""
+    text = value_text(own, point.value)
+    if driver is None:
+        return text
+    other = values.coordinates[driver]
+    value = point.others[driver]
+    if other.kind == "angle":
+        # Half a turn back, to the digits that are written, is half a turn forth.
+        value = np.pi - (np.pi - value) % (2 * np.pi)
+        value = np.pi if value < np.radians(-179.995) else value
+    return f"{text} ({other.name} {value_text(other, value)})"
 
 
 def circuit_text(motion: Motion, circuit: Circuit) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -66,8 +66,13 @@ class Values(FixedArrays):
         return self.coordinates[index].kind == "angle" and bool(high - low >= 2 * np.pi - STILL)
 
 
-def values_along(path: Path) -> Values:
-    """Angles and slides along a path, and where they are extreme."""
+def values_along(path: Path, from_reference: bool = False) -> Values:
+    """Angles and slides along a path, and where they are extreme.
+
+    Args:
+        from_reference: whether angles count from a configuration on it. Else the middle of what an
+            angle takes that does not turn on is between half a turn back and half a turn forth.
+    """
     scene = path.curve.scene
     coordinates = joint_coordinates(scene)
     values = unwrap_angles(coordinates, joint_values(scene, path.poses))
@@ -84,7 +89,36 @@ def values_along(path: Path) -> Values:
     for i, each in enumerate(coordinates):
         own = [p.value for p in turning if p.coordinate == each.name]
         ranges[i] = min([ranges[i, 0], *own]), max([ranges[i, 1], *own])
-    return Values(coordinates, values, tuple(turning), ranges, whole, still)
+    found = Values(coordinates, values, tuple(turning), ranges, whole, still)
+    return found if from_reference else _centre(found, angles & (whole == 0))
+
+
+def _centre(found: Values, columns: np.ndarray) -> Values:
+    """The same with angles by whole turns less or more, so that the middle of each is within one.
+
+    Args:
+        columns: which coordinates are angles that may be shifted.
+    """
+    # A middle at half a turn, to rounding, is at half a turn forth.
+    turns = np.round(found.ranges.mean(axis=1) / (2 * np.pi) - STILL)
+    shift = np.where(columns, 2 * np.pi * turns, 0.0)
+    if not shift.any():
+        return found
+    by_name = {each.name: by for each, by in zip(found.coordinates, shift.tolist(), strict=True)}
+    turning = tuple(
+        replace(
+            p,
+            value=p.value - by_name[p.coordinate],
+            others=tuple((np.array(p.others) - shift).tolist()),
+        )
+        for p in found.turning
+    )
+    return replace(
+        found,
+        values=found.values - shift,
+        ranges=found.ranges - shift[:, None],
+        turning=turning,
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,8 +32,7 @@ class Standing(StrEnum):
     UNSEEN = "not looked at"
 
 
-# Fields of one line, and what stands before statements that are not true, or not known to be.
-FIELDS_IN_A_LINE = 6
+# What stands before statements that are not true, or not known to be.
 LABELS = {Standing.REFUTED: "refuted", Standing.DOUBTED: "doubt", Standing.OPEN: "open"}
 # The head of the document of a certificate.
 CERTIFICATE = {"format": "nag-certificate", "version": 1}
@@ -52,12 +51,14 @@ class Claim:
         text: what is said, in words.
         standing: what is known of it.
         subject: the entries of lists that it is about, numbered from 1; empty for the whole file.
+        record: whether it says what was asked, or how that was worked out: no proof is about it.
     """
 
     field: str
     text: str
     standing: Standing
     subject: str = ""
+    record: bool = False
 
     def __str__(self) -> str:
         """Whose statement it is, what it says, and the field where it stands."""
@@ -163,6 +164,11 @@ def claims_not_looked_at(fields: Iterable[str], text: str, subject: str = "") ->
     return [Claim(field, text, Standing.UNSEEN, subject) for field in fields]
 
 
+def records(fields: Iterable[str], text: str, subject: str = "") -> list[Claim]:
+    """What a file tells of the question and of the run, with what that is."""
+    return [Claim(field, text, Standing.UNSEEN, subject, record=True) for field in fields]
+
+
 def nothing_against(claims: Iterable[Claim]) -> bool:
     """Whether no statement is refuted, doubted, or left open."""
     return all(claim.standing in GOOD for claim in claims)
@@ -177,10 +183,27 @@ def claims_rows(claims: Iterable[Claim]) -> list[tuple[str, str]]:
         for c in claims
         if c.standing is standing
     ]
-    for standing, label in ((Standing.EVIDENCE, "evidence"), (Standing.UNSEEN, "unseen")):
-        fields = list(dict.fromkeys(c.field for c in claims if c.standing is standing))
-        for first in range(0, len(fields), FIELDS_IN_A_LINE):
-            text = ", ".join(fields[first : first + FIELDS_IN_A_LINE])
-            what = "by evidence only: " if standing is Standing.EVIDENCE else "not looked at: "
-            rows.append(("" if first else label, text if first else what + text))
+    kinds = (
+        ("evidence", "by evidence only: ", Standing.EVIDENCE, False),
+        ("unproved", "neither proved nor refuted here: ", Standing.UNSEEN, False),
+        ("records", "what was asked and how it was worked out: ", Standing.UNSEEN, True),
+    )
+    for label, what, standing, record in kinds:
+        fields = [c.field for c in claims if c.standing is standing and c.record is record]
+        if fields:
+            rows.append((label, what + _fields_text(fields)))
     return [(label, printable(text)) for label, text in rows]
+
+
+def _fields_text(fields: Iterable[str]) -> str:
+    """Fields, each once, those of entries of a list together.
+
+    >>> _fields_text(["a[].x", "b", "a[].y", "a[].x"])
+    'b; of each of a: x, y'
+    """
+    lists: dict[str, list[str]] = {}
+    for field in dict.fromkeys(fields):
+        of, _, name = field.rpartition("[].")
+        lists.setdefault(of, []).append(name)
+    alone = [", ".join(lists.pop(""))] if "" in lists else []
+    return "; ".join([*alone, *(f"of each of {of}: {', '.join(own)}" for of, own in lists.items())])

@@ -25,6 +25,7 @@ from nag.numerics.claims import (
     claims_not_looked_at,
     claims_of_each,
     name_entries,
+    records,
 )
 from nag.numerics.krawczyk import find_overlaps, tell_real_zeros
 from nag.numerics.point_claims import (
@@ -57,12 +58,12 @@ def claims_of_solutions(certificate: SolutionsCertificate) -> tuple[Claim, ...]:
     )
     claims += [*_pairs(certificate), *_exclusions(certificate), *_ends(result)]
     claims.append(_completeness(certificate))
-    claims += claims_not_looked_at(["system"], "that these are the equations of the case")
-    claims += claims_not_looked_at(OF_THE_RUN, "how the solutions were found")
+    claims += records(["system"], "that these are the equations of the case")
+    claims += records(OF_THE_RUN, "how the solutions were found")
     for key in LISTS:
         if getattr(result, key):
             fields = [f"{key}[].{name}" for name in OF_ARITHMETIC]
-            claims += claims_not_looked_at(fields, "what doubles made of the points")
+            claims += records(fields, "what doubles made of the points")
     return tuple(claims)
 
 

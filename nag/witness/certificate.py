@@ -169,7 +169,7 @@ class DecompositionCertificate:
             text = f"proved: the degrees of all components add up to {self.most} at most"
             rows.append(("complete", text))
         elif any(c.field == "complete" and c.standing is Standing.UNSEEN for c in self.claims):
-            rows.append(("complete", "not looked at: there may be more components than these"))
+            rows.append(("complete", "not looked at here: there may be more components than these"))
         rows.append(cost_row(groups, seconds))
         return rows
 

@@ -21,6 +21,7 @@ from nag.numerics.claims import (
     claims_of_each,
     combine_standings,
     name_entries,
+    records,
 )
 from nag.numerics.point_claims import (
     corank_standings,
@@ -72,8 +73,8 @@ def claims_of_components(certificate: DecompositionCertificate) -> tuple[Claim, 
     claims.append(_completeness(certificate))
     text = "whether they follow from the system: no proof rests on them"
     claims += claims_not_looked_at(["equations"], text)
-    claims += claims_not_looked_at(["system"], "that these are the equations of the case")
-    claims += claims_not_looked_at(OF_THE_RUN, "how the components were found")
+    claims += records(["system"], "that these are the equations of the case")
+    claims += records(OF_THE_RUN, "how the components were found")
     return tuple(claims)
 
 
@@ -118,7 +119,7 @@ def _claims_of(system: PolynomialSystem, certificate: ComponentCertificate, k: i
         text = "its degrees in groups of variables"
         claims += claims_not_looked_at(["components[].multidegree"], text, name)
     fields = [f"components[].{field}" for field in (*OF_ARITHMETIC, "note")]
-    return [*claims, *claims_not_looked_at(fields, "what doubles made of its points", name)]
+    return [*claims, *records(fields, "what doubles made of its points", name)]
 
 
 def _irreducibility(certificate: ComponentCertificate, name: str) -> list[Claim]:
