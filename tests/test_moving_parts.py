@@ -208,7 +208,7 @@ def test_a_rod_turns_about_itself_besides_what_its_ends_do() -> None:
         "spherical motion about the point (4, 3, 0)"
     }
     assert "rod2: along each of 3 motions 3 freedoms" in report.sentence
-    assert "6 freedoms, 4 of them by rods that turn about themselves" in report.sentence
+    assert "6 freedoms, 4 of them by rods that turn idly about themselves" in report.sentence
 
 
 def crank(name: str, bodies: tuple[str, str], point: tuple) -> Joint:

@@ -329,8 +329,16 @@ class MobilityReport:
         return [
             *self._final_rows(),
             ("components", _components_text(self)),
+            *self._degree_rows(),
             *(("curve", str(curve)) for curve in self.curves),
         ]
+
+    def _degree_rows(self) -> list[tuple[str, str]]:
+        """To what the degrees belong; nothing where none is told, or it is said with them."""
+        told = any(dimension and degree for dimension, degree in self.components or ())
+        if not self.formulation or self.rests_on == ALL_POSES:
+            return []
+        return [("degree", degree_text(self.formulation))] if told or self.least_degree else []
 
     def early_rows(self) -> list[tuple[str, str]]:
         """Those of these lines that no component is needed for, what was asked first.
@@ -422,6 +430,19 @@ class MobilityReport:
             "curves": [curve.document() for curve in self.curves],
             "local": None if self.local is None else self.local.document(),
         }
+
+
+def degree_text(formulation: str) -> str:
+    """To what a degree belongs, which differs between formulations for the same motion.
+
+    Args:
+        formulation: in words, "formulation H", or of which parts the coordinates are.
+    """
+    return f"belongs to the coordinates, here those {_of(formulation)}; in others it may be another"
+
+
+def _of(formulation: str) -> str:
+    return formulation if formulation.startswith("of ") else f"of {formulation}"
 
 
 def is_so_far(rows: Sequence[tuple[str, str]]) -> bool:

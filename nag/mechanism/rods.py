@@ -140,10 +140,10 @@ class RodModel:
     def left_out(self) -> list[tuple[int, str]]:
         """The same by kind of rod: how many freedoms and, in words, whose they are."""
         by_kind = (
-            (len(self.rods), "rods that turn about themselves"),
+            (len(self.rods), "rods that turn idly about themselves"),
             (
                 TURNS_ABOUT_A_POINT * len(self.zero_rods),
-                "rods of length zero that turn about their points",
+                "rods of length zero that turn idly about their points",
             ),
         )
         return [(freedoms, whose) for freedoms, whose in by_kind if freedoms]

@@ -12,10 +12,11 @@ from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
 from nag.mechanism import PLATFORM_ALONE
+from nag.mechanism.mobility_report import degree_text
 from nag.report.agreement import agreement_text, compare
 from nag.report.assemblies import assembly_rows
 from nag.report.model import body_rows, eliminated_lines, formulation_lines, model_rows
-from nag.text.table import Row, printable, sheet
+from nag.text.table import Row, count_text, printable, sheet
 from nag.witness.frame import expand_orbits
 from nag.witness.shown import component_table, kinds, kinds_text, paths_text, remarks, title_line
 from nag.witness.witness import Decomposition, Status
@@ -45,12 +46,11 @@ def _method_rows(decomposition: Decomposition) -> list[tuple[str, str]]:
 def _mobility_rows(
     decomposition: Decomposition, problem: Problem, points: Sequence[Through]
 ) -> list[tuple[str, str]]:
-    rows = []
-    label, counted, made = "dimension", "", problem.mechanism
-    free = () if made is None else made.freedoms_left_out
-    if made is not None:
-        label, counted = "mobility", f" (Gruebler-Kutzbach counts {made.gruebler_kutzbach})"
+    """How it moves at each named point; of equations, which dimension their zeros have there."""
+    moves = problem.model is not None
+    counted = f", {_counted_text(problem)}" if moves else ""
     everything = expand_orbits(decomposition).components
+    rows = []
     for point in points:
         components = [everything[i] for i in point.components]
         if not point.solution:
@@ -58,15 +58,49 @@ def _mobility_rows(
         elif point.doubt:
             text = f"not known at {point.name}{counted}"
         else:
-            largest = max(c.dimension for c in components) + sum(count for count, _ in free)
-            text = f"{largest} at {point.name}{counted}: on {kinds_text(kinds(components))}"
-            text += "".join(f", and {count} by {whose}" for count, whose in free)
+            on = kinds_text(kinds(components))
+            largest = max(c.dimension for c in components) + problem.free
+            if moves:
+                text = _moves_text(problem, largest, point)
+                text = f"in complex coordinates {text}" if point.unreal else text
+                text += f"{_counted_beside(problem, largest)}; on {on}"
+            else:
+                text = f"{largest} at {point.name}: on {on}"
             if point.unreal:
-                text += _unreal_text(point.unreal, largest, made is not None)
+                text += _unreal_text(point.unreal, largest, moves)
             if any(c.status is not Status.IRREDUCIBLE for c in components):
                 text += ", not all of them decided"
-        rows.append((label, text))
+        rows.append(("mobility" if moves else "dimension", text))
     return rows
+
+
+def _counted_text(problem: Problem) -> str:
+    """What counting freedoms says of it."""
+    assert problem.model is not None
+    return f"counting predicts {problem.model.gruebler_kutzbach}"
+
+
+def _counted_beside(problem: Problem, mobility: int) -> str:
+    """The same beside how many freedoms there are."""
+    assert problem.model is not None
+    surprise = mobility != max(problem.model.gruebler_kutzbach, 0)
+    return f", {'though ' if surprise else ''}{_counted_text(problem)}"
+
+
+def _moves_text(problem: Problem, mobility: int, point: Through) -> str:
+    """With how many freedoms it moves, and whose those are that the equations leave out."""
+    if not mobility:
+        return f"it does not move at {point.name}"
+    text = f"it moves with {count_text(mobility, 'freedom')} at {point.name}"
+    return text + "".join(f", {count} of them by {who}" for count, who in problem.freedoms_left_out)
+
+
+def _degree_rows(decomposition: Decomposition, problem: Problem) -> list[Row]:
+    """To what the degrees of motions belong."""
+    if problem.model is None or not any(c.dimension for c in decomposition.components):
+        return []
+    named = problem.formulation
+    return [("degree", degree_text(f"formulation {named}" if named else "of the line `model`"))]
 
 
 def _unreal_text(unreal: int, dimension: int, moves: bool) -> str:
@@ -106,12 +140,15 @@ def answer_lines(
     run: Row,
 ) -> list[str]:
     """The whole answer, line by line: what was asked, and then what it rests on."""
-    head: list[Row] = [("answer", title_line(decomposition))]
+    answer: list[Row] = [("answer", title_line(decomposition))]
     if not decomposition.complete:
-        head.append(("", "INCOMPLETE, see below"))
-    head += _mobility_rows(decomposition, problem, points) + _pose_rows(problem)
-    head += assembly_rows(problem, decomposition)
+        answer.append(("", "INCOMPLETE, see below"))
+    through = _mobility_rows(decomposition, problem, points)
+    moves = through + assembly_rows(problem, decomposition) + _pose_rows(problem)
+    # Of a mechanism it is asked how it moves, of equations which solutions they have.
+    head = answer + through if problem.model is None else moves + answer
     tail: list[Row] = [("open", line) for line in remarks(decomposition)]
+    tail += _degree_rows(decomposition, problem)
     tail += [*case.note_rows, *model_rows(problem)]
     tail.append(("system", system_line(decomposition.system)))
     tail += _method_rows(decomposition) + _orbit_rows(decomposition)

@@ -11,16 +11,17 @@ from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.legs import parallel_robot
 from nag.mechanism.path_estimates import MOST_DECOMPOSED
-from nag.text.table import align, count_text, printable
+from nag.text.table import Row, align, count_text, printable
 
 if TYPE_CHECKING:
     from nag.mechanism.assembly import AssemblyModel
+    from nag.mechanism.axes import Space
     from nag.mechanism.framework import Framework
     from nag.mechanism.model import Model
     from nag.mechanism.path_estimates import Alternative
     from nag.mechanism.problem import Problem
 
-Rows = list[tuple[str, str]]
+Rows = list[Row]
 
 
 def model_row(problem: Problem) -> Rows:
@@ -41,6 +42,8 @@ def model_rows(problem: Problem) -> Rows:
         text = f"{problem.mechanism.sign_group} sign changes of Euler parameters keep the "
         text += "equations; components that they exchange are counted one by one"
         rows.append(("signs", text))
+    if problem.mechanism is not None:
+        rows.append(counted_row(made.gruebler_kutzbach, problem.space))
     rows += [("besides", text) for text in made.zero_links]
     if made.rank is not None:
         rows += rank_rows(made.rank, problem.system.n, problem.reference is not None)
@@ -54,8 +57,13 @@ def _counting_rows(parts: AssemblyModel) -> Rows:
     if isinstance(parts, FrameworkModel):
         return _framework_rows(parts.framework)
     if isinstance(parts, LinkageModel):
-        return [("counting", f"Gruebler-Kutzbach counts {parts.gruebler_kutzbach}")]
+        return [counted_row(parts.gruebler_kutzbach, parts.space)]
     return []
+
+
+def counted_row(count: int, space: Space | None) -> Row:
+    """What counting freedoms predicts, and by which formula."""
+    return "counted", f"{count} by Gruebler-Kutzbach ({space})"
 
 
 def _framework_rows(framework: Framework) -> Rows:
