@@ -119,8 +119,6 @@ ENDINGS = {
 }
 # Endings of what is read, and is neither a case nor equations when it is written.
 NOT_WRITTEN = (".json", ".urdf", ".xml")
-# How many names of variables are listed where another one is asked for.
-MOST_NAMES = 12
 # What is said of a component of an export on which paths fail.
 UNTESTED = "the trace of its points could not be tested"
 
@@ -1454,7 +1452,8 @@ def eliminate(
     Args:
         given: components that were found, a file of them, or what is decomposed now.
         onto: names of the variables, sympy's symbols, or a text of them; by default essential ones,
-            from which all others follow.
+            from which all others follow. Of a linkage ``x_P, y_P`` are the place of its pin P: the
+            equation is that of the curve which this point of a coupler draws.
         component: its number, from 1, in the order of `nag.decompose`; by default 1, and of a
             mechanism the one through its reference configuration, for which nothing is decomposed.
         point: a point, as for `nag.member`, that the component goes through, instead of its number:
@@ -1483,8 +1482,8 @@ def eliminate(
     if point is not None and component is not None:
         raise NagError("point: component names one already; give one of the two")
     given = asked_of_component(given, component, formulation)
-    chosen = choose_component(given, component, point, run)
     names = None if onto is None else list_names(onto)
+    chosen = choose_component(given, component, point, run, names or ())
     places = None if names is None else place_variables(names, chosen.cloud.ambient.system)
     return eliminate_component(chosen.cloud, chosen.alike, places, degree, polynomial, run.tell)
 
@@ -1539,11 +1538,14 @@ def formulation_of_component(given: Any, component: int | None, formulation: str
     return "E" if is_a(mechanism, *DESCRIPTIONS[1]) else "auto"
 
 
-def choose_component(given: Any, component: int | None, point: Any, run: Run) -> ChosenComponent:
+def choose_component(
+    given: Any, component: int | None, point: Any, run: Run, onto: Sequence[str] = ()
+) -> ChosenComponent:
     """The component with a number, or through a point, as `eliminate` takes them.
 
     Args:
         given: components, or a problem: what `asked_of_component` returns.
+        onto: variables that are asked for, which may be places of a linkage's pins.
 
     Raises:
         nag.NagError: if there is none, or more than one through the point.
@@ -1559,7 +1561,7 @@ def choose_component(given: Any, component: int | None, point: Any, run: Run) ->
             point = "reference" if "reference" in _points(problem) else None
         if point is not None:
             at = _point_on(problem, point, run)
-            reached = _reach_component(problem, point, at, rng, run)
+            reached = _reach_component(problem, point, at, rng, run, onto)
             if reached is not None:
                 return reached
         found = find_components(problem, run)
@@ -1573,7 +1575,7 @@ def choose_component(given: Any, component: int | None, point: Any, run: Run) ->
     chosen = component_numbered(found, component)
     if not chosen.dimension:
         raise SourceError("the component is a point; there is nothing to eliminate from")
-    ambient = ambient_variables(found.system if problem is None else problem)
+    ambient = ambient_variables(found.system if problem is None else problem, onto)
     source = source_of_component(found.system, chosen)
     return ChosenComponent(Cloud(source, ambient, rng, run), "", component, found)
 
@@ -1605,6 +1607,7 @@ def _reach_component(
     at: Sequence[Number | complex],
     rng: np.random.Generator,
     run: Run,
+    onto: Sequence[str],
 ) -> ChosenComponent | None:
     """The component through an exact point that is regular; None if the point is not exact.
 
@@ -1625,17 +1628,34 @@ def _reach_component(
         reason = str(error).replace("the point is", "it is").removesuffix("; name a component")
         text = f"{what}: {reason}; name a component by its number"
         raise NagError(text).mended_by("component") from None
-    cloud = Cloud(source, ambient_variables(problem), rng, run)
+    cloud = Cloud(source, ambient_variables(problem, onto), rng, run)
     return ChosenComponent(cloud, name or "the point")
 
 
-def ambient_variables(given: Problem | PolynomialSystem) -> AmbientVariables:
-    """All variables of a mechanism, where linear equations left only some in its system."""
+def ambient_variables(
+    given: Problem | PolynomialSystem, onto: Sequence[str] = ()
+) -> AmbientVariables:
+    """All variables of a mechanism, where linear equations left only some in its system.
+
+    Args:
+        onto: names of variables; of a linkage these may be the places x_P and y_P of a pin P.
+    """
+    from nag.algebra.polynomial import Polynomial
     from nag.interpolation.point_cloud import AmbientVariables
 
     if not is_a(given, "nag.mechanism.problem", "Problem"):
         return AmbientVariables.itself(given)
     made = given.mechanism
+    if is_a(given.parts, "nag.mechanism.linkage", "LinkageModel"):
+        own = given.system.variables
+        places = {
+            f"{letter}_{pin}": place
+            for pin, both in given.parts.place_polynomials().items()
+            for letter, place in zip("xy", both, strict=True)
+        }
+        further = [name for name in dict.fromkeys(onto) if name in places and name not in own]
+        images = (*Polynomial.variables(len(own)), *(places[name] for name in further))
+        return AmbientVariables.of(given.system, (*own, *further), range(len(own)), images)
     elimination = None if made is None else getattr(made.form, "elimination", None)
     if elimination is None or elimination.system.variables != given.system.variables:
         return AmbientVariables.itself(given.system)
@@ -1679,17 +1699,16 @@ def place_variables(names: Sequence[str], system: Any) -> tuple[int, ...]:
     Raises:
         nag.NagError: if there is no such variable, or one is named twice.
     """
-    from nag.algebra.tokens import nearest, quote
+    from nag.algebra.tokens import list_names, nearest, quote
 
     known = system.own_variables
     names = [name for name in names if name not in system.variables[len(known) :]]
     for name in names:
         if name not in known:
-            listed = ", ".join(known[:MOST_NAMES]) + ", ..." * (len(known) > MOST_NAMES)
             raise NagError(
                 f"onto: {quote(name)} is not one of the variables{nearest(name, known)}; they are "
-                f"{listed}; of a mechanism formulation E has Euler "
-                "parameters, H half-angles"
+                f"{list_names(known)}; of the case of a linkage x_P and y_P are the place of its "
+                "pin P; of a mechanism formulation E has Euler parameters, H half-angles"
             ).mended_by("formulation")
     if len(set(names)) < len(names):
         raise NagError("onto: a variable is given twice")

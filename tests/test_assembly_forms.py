@@ -367,7 +367,7 @@ def test_a_mobile_linkage_says_whether_it_has_real_assemblies(tmp_path, capsys, 
     assert main(["decompose", str(path), "--quiet"]) == 0
     found = " ".join(capsys.readouterr().out.split())
     start = "it moves" if said == "a real assembly was found" else "in complex coordinates it moves"
-    assert f"assemblies {start} with 1 freedom, on " in found
+    assert f"mobility {start} with 1 freedom, on " in found
     assert said in found
     status = main(["mobility", str(path), "--quiet"])
     captured = capsys.readouterr()

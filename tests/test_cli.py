@@ -6,6 +6,7 @@ import argparse
 import errno
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -503,3 +504,33 @@ def test_an_interruption_while_arguments_are_read_is_one_line(
     finally:
         signal.signal(signal.SIGINT, before)
     assert capsys.readouterr().err == "nag: interrupted\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "first"),
+    [
+        ("bennett", "mobility  it moves with 1 freedom at the reference configuration, though "),
+        (
+            "spatial/rssr",
+            "mobility  it moves with 2 freedoms at the reference configuration, 1 of ",
+        ),
+        ("planar/four-bar", "mobility  it moves with 1 freedom, on 1 component; a real assembly"),
+        ("rhombus", "answer     3 components of dimension 1, degree 2"),
+    ],
+)
+def test_what_was_asked_is_said_first(name: str, first: str, capsys) -> None:
+    assert main(["decompose", str(CASES / f"{name}.toml"), "--quiet"]) == 0
+    assert capsys.readouterr().out.splitlines()[2].startswith(first)
+
+
+def test_a_degree_says_to_which_coordinates_it_belongs(capsys) -> None:
+    degrees = {}
+    for formulation in ("H", "E"):
+        for command in ("decompose", "mobility"):
+            case = str(CASES / "bennett.toml")
+            assert main([command, case, "--formulation", formulation, "--quiet"]) == 0
+            out = capsys.readouterr().out
+            said = f"belongs to the coordinates, here formulation {formulation}; in others it may"
+            assert said in " ".join(out.split())
+            degrees.setdefault(formulation, set()).add(re.search(r"degree (\d+)", out)[1])
+    assert degrees == {"H": {"2"}, "E": {"8"}}

@@ -394,3 +394,42 @@ def test_the_model_says_whose_the_variables_are(capsys) -> None:
     out = capsys.readouterr().out
     assert "Euler parameters a0 to a3 of B1, b0 to b3 of B2, c0 to c3 of B3" in out
     assert "  a0 = 6/5*a1, a2 = -171/478*a3, c0 = 5/2*c1, c2 = 2/5*c3\n" in out
+
+
+FOUR_BAR = """
+title = "Coupler curve"
+kind = "linkage"
+ground = "base"
+link = [
+  { name = "base", pins = ["A", "D"], length = 4 },
+  { name = "crank", pins = ["A", "B"], length = 2 },
+  { name = "coupler", pins = ["B", "C", "P"], shape = [[0, 0], [3, 0], ["3/2", 2]] },
+  { name = "rocker", pins = ["C", "D"], length = "7/2" },
+]
+"""
+
+
+def test_a_coupler_point_draws_a_tricircular_sextic(tmp_path: Path) -> None:
+    case = tmp_path / "coupler.toml"
+    case.write_text(FOUR_BAR)
+    content = eliminated(tmp_path, str(case), "--onto", "x_P,y_P")
+    (sextic,) = polynomials([e["polynomial"] for e in content["equations"]], ["x_P", "y_P"])
+    leading = {e: c for e, c in sextic.terms.items() if sum(e) == 6}
+    x, y = Polynomial.variables(2)
+    assert sextic.degree == 6
+    assert Polynomial(2, leading) == leading[6, 0] * (x**2 + y**2) ** 3
+    # The crank along the base: the triangle of B, C and D tells how the coupler is turned.
+    c = (3**2 + 2**2 - Fraction(7, 2) ** 2) / (2 * 3 * 2)
+    s = square_root(1 - c**2)
+    assert sextic((2 + Fraction(3, 2) * c - 2 * s, Fraction(3, 2) * s + 2 * c)) == 0
+    assert nag.eliminate(case, "x_P, y_P").generators == (sextic,)
+
+
+def test_pins_that_are_not_asked_for_are_no_variables(tmp_path: Path, capsys) -> None:
+    case = tmp_path / "coupler.toml"
+    case.write_text(FOUR_BAR)
+    content = eliminated(tmp_path, str(case), "--onto", "c_crank,x_B")
+    assert "x_P" not in {m["variable"] for m in content["maps"]}
+    capsys.readouterr()
+    assert main(["eliminate", str(case), "--onto", "x_Q,y_P", "--quiet"]) == 2
+    assert "x_P and y_P are the place of its pin P" in capsys.readouterr().err

@@ -9,10 +9,9 @@ from nag.algebra.imaginary_unit import adjoin_unit, name_unit, values_with_unit
 from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import list_names
 from nag.errors import NagError
 
-# Of more unknowns a message names the first.
-MOST_NAMES = 12
 Terms = Mapping[Exponents, Number | complex]
 
 
@@ -40,10 +39,8 @@ class Family:
         if len(self.polynomials) != n:
             own = len(self.polynomials) - self.imaginary
             unknowns = self.own_variables
-            names = ", ".join(unknowns[:MOST_NAMES])
-            more = ", ..." if len(unknowns) > MOST_NAMES else ""
             raise NagError(
-                f"{own} equations for {len(unknowns)} unknowns: {names}{more}; parameters "
+                f"{own} equations for {len(unknowns)} unknowns: {list_names(unknowns)}; parameters "
                 "are those that are named"
             )
         if any(f.n != total for f in self.polynomials):

@@ -5,12 +5,14 @@ from __future__ import annotations
 import difflib
 import re
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 from nag.errors import EquationError
 
 MAX_LENGTH = 100_000
+# Of more names of variables a message lists the first.
+MOST_NAMES = 12
 
 FUNCTION_NAMES = ("sqrt", "sin", "cos")
 RESERVED = frozenset(FUNCTION_NAMES) | {"pi"}
@@ -139,6 +141,11 @@ def nearest(name: str, known: Iterable[str]) -> str:
     """`` (did you mean ...?)`` with the nearest of the known names, or nothing."""
     match = difflib.get_close_matches(name[:100], sorted(known), n=1, cutoff=0.5)
     return f" (did you mean {match[0]!r}?)" if match else ""
+
+
+def list_names(names: Sequence[str]) -> str:
+    """Names behind each other, of many the first."""
+    return ", ".join(names[:MOST_NAMES]) + ", ..." * (len(names) > MOST_NAMES)
 
 
 def quote(text: str, width: int = 40) -> str:

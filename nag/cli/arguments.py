@@ -382,7 +382,7 @@ def add_sharing(parser: argparse._ActionsContainer) -> None:
     parser.add_argument(
         "--executor",
         metavar="NAME",
-        help="who works out blocks: processes:N, dask://ADDRESS or mpi (default: threads here)",
+        help="where the work is done: processes:N, dask://ADDRESS or mpi (default: threads here)",
     )
 
 

@@ -89,7 +89,12 @@ def files(names: list[str] | None, folder: str) -> list[Path]:
         path = Path(name) if name.endswith(".toml") else there / f"{name}.toml"
         if not path.is_file():
             known = ", ".join(sorted(p.stem for p in there.glob("*.toml")))
-            raise UsageError(f"--case: {name}: no such benchmark; there are {known or 'none'}")
+            if not known:
+                raise UsageError(
+                    f"--case: {name}: no benchmark is in the folder {folder}; name the one that "
+                    "has them (--folder)"
+                )
+            raise UsageError(f"--case: {name}: no such benchmark; there are {known}")
         result.append(path)
     return result
 

@@ -133,7 +133,8 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "find exact equations of a component in some variables",
         "Find the exact equations that a component's points satisfy in some of the variables, and "
         "the maps from there to the other variables, by interpolation; prove them where possible. "
-        f"{FROM_COMPONENTS}",
+        "Of a planar linkage with a pin P, `nag eliminate CASE --onto x_P,y_P` finds the equation "
+        f"of the curve that P draws. {FROM_COMPONENTS}",
     ),
     (
         "model",

@@ -16,7 +16,10 @@ SHELLS = ("bash", "zsh", "fish")
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag completion``."""
     parser.add_argument(
-        "shell", choices=SHELLS, help='bash, zsh: eval "$(nag completion bash)"; fish: ... | source'
+        "shell",
+        choices=SHELLS,
+        metavar=f"{{{','.join(SHELLS)}}}",
+        help='bash, zsh: eval "$(nag completion bash)"; fish: ... | source',
     )
 
 

@@ -49,7 +49,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--onto",
         metavar="NAMES",
-        help="variables of the equations, with commas: a0,a2,c2 (default: essential ones)",
+        help="variables of the equations, with commas: a0,a2,c2 (default: essential ones); of a "
+        "linkage x_P,y_P, the place of its pin P, whose equation is that of the curve which this "
+        "point of a coupler draws",
     )
     add_component(
         parser,
@@ -87,7 +89,7 @@ def run(options: argparse.Namespace) -> CommandAnswer:
     complete = not found.note and not tail
     tail = [*([("open", found.note)] if found.note else []), *tail, checked_row(found)]
     if options.onto is None and not found.generators:
-        from nag.questions import MOST_NAMES
+        from nag.algebra.tokens import MOST_NAMES
 
         names = ",".join(cloud.ambient.system.own_variables[:MOST_NAMES])
         tail.append(("hint", f"--onto {names} gives equations in these variables"))
@@ -103,9 +105,14 @@ def _read_names(text: str | None, system: PolynomialSystem) -> tuple[int, ...] |
     if text is None:
         return None
     try:
-        return place_variables([name.strip() for name in text.split(",")], system)
+        return place_variables(_listed(text), system)
     except NagError as error:
         raise UsageError(f"--{error}").mended_by(error.keyword) from None
+
+
+def _listed(text: str | None) -> list[str]:
+    """The names of ``--onto``."""
+    return [] if text is None else [name.strip() for name in text.split(",")]
 
 
 Labelled = list[tuple[str, str]]
@@ -128,7 +135,7 @@ def _begin(options: argparse.Namespace) -> Begun:
         return read.case, chosen, *_said(chosen)
     case, problem, point = _asked_in(options)
     try:
-        chosen = choose_component(problem, number, point, run)
+        chosen = choose_component(problem, number, point, run, _listed(options.onto))
     except SourceError:
         raise
     except NagError as error:

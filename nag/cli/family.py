@@ -41,8 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         required=True,
         metavar="FILE",
         help="values of the parameters: a table (CSV) whose first line names them, a member a "
-        "line, by which of a system without [family] unknowns become parameters; or a NumPy "
-        "array (.npy), shape (members, parameters)",
+        "line; of a case without [family] it may name unknowns, which become parameters; or a "
+        "NumPy array (.npy), shape (members, parameters)",
     )
     parser.add_argument(
         "--points", metavar="FILE", help="write all solutions to FILE as NumPy arrays (.npz)"

@@ -14,7 +14,9 @@ KINDS = ("linkage", "mechanism", "framework", "dh", "system")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag init``."""
-    parser.add_argument("kind", choices=KINDS, help="what the case is to describe")
+    parser.add_argument(
+        "kind", choices=KINDS, metavar=f"{{{','.join(KINDS)}}}", help="what the case is to describe"
+    )
     parser.add_argument(
         "file",
         nargs="?",

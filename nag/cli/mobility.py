@@ -66,10 +66,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=budget_seconds,
         default=BUDGET,
         metavar="SECONDS",
-        help="processor time that the degree of the component through a smooth configuration may "
-        "take, beside that of the answer without it: counted by the work, of which 0.6 to 1.8 "
-        "seconds were measured for one, so that the same seed gives the same answer on any machine "
-        f"(default: {BUDGET}); what is not known then is bounded from below",
+        help="how much work the degree of the component through a smooth configuration is worth, "
+        f"in seconds of a common processor (default: {BUDGET}); one that takes more is bounded "
+        "from below; work is counted and not timed, so that the same seed gives the same answer on "
+        "any machine",
     )
     parser.add_argument(
         "--of",

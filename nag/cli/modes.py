@@ -48,8 +48,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=budget_seconds,
         default=MODES_BUDGET,
         metavar="SECONDS",
-        help="nothing is tracked where all paths that are estimated take longer, as counted by "
-        f"what a common processor does in that time (default: {MODES_BUDGET})",
+        help="no path is tracked where all of them are estimated to take longer than this, in "
+        f"seconds of a common processor (default: {MODES_BUDGET})",
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
@@ -61,6 +62,8 @@ QUESTIONS = {
 }
 LEGS = ("modes", "which operation modes has the platform of a parallel robot?")
 PAPERS = ("check", "are the statements of the papers about it true?")
+# Of a linkage with a pin that joins nothing.
+PATH = ("eliminate", "what is the equation of the curve that {pin} draws? (--onto x_{pin},y_{pin})")
 # Of an open chain, as an arm is, the last body stands for the hand.
 HAND = (
     ("motion", "which postures reach a pose? (inverse kinematics; --pose {hand}=X,Y,Z)"),
@@ -279,7 +282,21 @@ def _asked_of_case(case: Case) -> dict[str, Questions]:
         questions = (*questions, LEGS)
     if _is_of_papers(case):
         questions = (*questions, PAPERS)
+    pin = _drawing_pin(case)
+    if pin:
+        questions = (*questions, (PATH[0], PATH[1].format(pin=pin)))
     return {"ask": questions, "ask of its components, which are found first": OF_COMPONENTS}
+
+
+def _drawing_pin(case: Case) -> str:
+    """A pin of a moving link that joins nothing, as a coupler point; empty if there is none."""
+    from nag.mechanism.linkage import LinkageModel
+
+    if not isinstance(case.assembly, LinkageModel):
+        return ""
+    joined = Counter(pin for link in case.assembly.in_loops for pin in link.pins)
+    moving = case.assembly.in_loops[1:]
+    return next((p for link in moving for p in link.pins if joined[p] == 1), "")
 
 
 def _is_of_papers(case: Case) -> bool:

@@ -257,7 +257,7 @@ def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...
             number.
     """
     from nag.algebra.from_python import coordinates, exact_complex
-    from nag.algebra.tokens import nearest, quote
+    from nag.algebra.tokens import list_names, nearest, quote
 
     variables = system.own_variables
     units = ("I", *system.variables[len(variables) :])
@@ -269,7 +269,8 @@ def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...
             raise UsageError(f"--at: {quote(part.strip())}: write 'variable = number'")
         if name not in variables:
             raise UsageError(
-                f"--at: {quote(name)} is not one of the variables{nearest(name, variables)}"
+                f"--at: {quote(name)} is not one of the variables{nearest(name, variables)}; "
+                f"they are {list_names(variables)}"
             )
         if name in values:
             raise UsageError(f"--at: {name} is given twice")

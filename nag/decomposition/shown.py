@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from nag.text.table import count_text
+from nag.witness.shown import ranges_text
 
 if TYPE_CHECKING:
     from nag.decomposition.singular_members import SingularParameters
@@ -64,15 +65,16 @@ def locus_rows(locus: SingularLocus, count: int) -> list[tuple[str, str]]:
     rows = [("answer", ", ".join(parts) or none)]
     essential = sum(bool(one.essential) for one in locus.sets)
     if locus.sets:
-        kinds = f"essential: {essential}; where components meet: "
-        rows.append(("kinds", kinds + str(sum(one.intersection for one in locus.sets))))
+        meeting = sum(one.intersection for one in locus.sets)
+        kinds = f"{essential} on a component by itself, {meeting} where components meet"
+        rows.append(("kinds", kinds))
     smooth = locus.smooth
     if smooth:
         which = "the component"
         if count > 1:
             alone = "by itself" if len(smooth) == 1 else "each by itself"
             noun = "component" if len(smooth) == 1 else "components"
-            which = f"{noun} {_numbers(smooth)} of {count}, {alone}"
+            which = f"{noun} {ranges_text([i + 1 for i in smooth])} of {count}, {alone}"
         proof = "; proved, by a Groebner basis" if set(smooth) <= set(locus.proved) else ""
         rows.append(("smooth", f"{which}{proof}"))
     if not locus.complete:

@@ -99,6 +99,8 @@ def circuit_rows(motion: Motion, circuit: Circuit) -> list[str]:
         if len(passed) > MOST_POINTS:
             texts.append(f"and {len(passed) - MOST_POINTS} more")
         rows.append([each.name, range_text(motion, values, i), ", ".join(texts)])
+    if not any(row[2] for row in rows[1:]):
+        rows = [row[:2] for row in rows]
     return align(rows, left=(0, 1, 2))
 
 
@@ -139,7 +141,7 @@ def circuits_text(motion: Motion, number: int) -> str:
 
 def motion_rows(motion: Motion) -> list[tuple[str, str]]:
     """Labelled lines of the whole."""
-    rows = [("model", motion.reason), ("mobility", motion.sentence)]
+    rows = [("mobility", motion.sentence), ("model", motion.reason)]
     for i, (component, curve) in enumerate(zip(motion.components, motion.curves, strict=True)):
         text = f"dimension {component.dimension}, degree {component.degree}"
         own = [c for c in motion.circuits if c.component == i]

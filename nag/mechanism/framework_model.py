@@ -62,9 +62,14 @@ class FrameworkModel(AssemblyModel):
     held: tuple[Place, ...] = ()
     metric: tuple[Number, ...] = ()
 
-    formulation_text = "of a framework"
     solution = "realisation"
     counted_up_to = " up to motions"
+
+    @property
+    def formulation_text(self) -> str:
+        """What the equations are, as text."""
+        kind = "isotropic coordinates" if self.system.isotropic else "coordinates"
+        return f"{kind} ({', '.join(self.coordinates)}) of a framework"
 
     @property
     def has_moving_third(self) -> bool:

@@ -220,7 +220,7 @@ class LinkageModel(AssemblyModel):
     in_loops: tuple[Link, ...]
 
     space = "planar"
-    formulation_text = "of a linkage"
+    formulation_text = "cosines and sines of a linkage"
 
     @property
     def gruebler_kutzbach(self) -> int:

@@ -132,7 +132,7 @@ def mobility(
     model       1 equation in 2 unknowns, formulation H
     local       tangent dimension 1, local dimension 1
     components  1 through the configuration: dimension 1, degree 2
-    degree      belongs to the coordinates, here those of formulation H; in others it may be another
+    degree      belongs to the coordinates, here formulation H; in others it may be another
     """
     *_, report = mobility_in_steps(
         mechanism,

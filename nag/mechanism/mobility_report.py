@@ -20,6 +20,7 @@ from nag.mechanism.nearly_mobile import NearMotion
 from nag.numerics.local_dimension import LocalDimension
 from nag.numerics.read_only import equal_values
 from nag.text.table import count_text, html_table, named_line
+from nag.witness.shown import degree_text
 from nag.witness.witness import WitnessSet
 
 # What must be the same of components in two formulations.
@@ -432,19 +433,6 @@ class MobilityReport:
         }
 
 
-def degree_text(formulation: str) -> str:
-    """To what a degree belongs, which differs between formulations for the same motion.
-
-    Args:
-        formulation: in words, "formulation H", or of which parts the coordinates are.
-    """
-    return f"belongs to the coordinates, here those {_of(formulation)}; in others it may be another"
-
-
-def _of(formulation: str) -> str:
-    return formulation if formulation.startswith("of ") else f"of {formulation}"
-
-
 def is_so_far(rows: Sequence[tuple[str, str]]) -> bool:
     """Whether lines are those of a singular configuration before its components are known."""
     return bool(rows) and rows[0][0] == SO_FAR
@@ -488,7 +476,7 @@ def _components_text(report: MobilityReport) -> str:
         listed = "; ".join(f"{count} of {k}" for k, count in Counter(kinds).items())
         if report.without_real:
             return f"{listed}, with real assemblies; {report.without_real} without"
-        return f"in all {listed}"
+        return listed
     if report.least_degree is not None:
         ((dimension, _),) = report.components
         return (

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.given import value_text
-from nag.algebra.tokens import nearest, quote
+from nag.algebra.tokens import list_names, nearest, quote
 from nag.errors import ComponentError, NagError
 
 if TYPE_CHECKING:
@@ -100,7 +100,8 @@ def variables_onto(onto: Iterable[str], variables: Sequence[str]) -> tuple[int, 
     for name in names:
         if name not in variables:
             raise NagError(
-                f"onto: {quote(str(name))} is not one of the variables{nearest(name, variables)}"
+                f"onto: {quote(str(name))} is not one of the variables{nearest(name, variables)}; "
+                f"they are {list_names(variables)}"
             )
     if len(set(names)) != len(names) or len(names) not in (2, 3):
         raise NagError("onto: give two different variables, or three")

@@ -12,13 +12,20 @@ from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
 from nag.mechanism import PLATFORM_ALONE
-from nag.mechanism.mobility_report import degree_text
 from nag.report.agreement import agreement_text, compare
 from nag.report.assemblies import assembly_rows
 from nag.report.model import body_rows, eliminated_lines, formulation_lines, model_rows
 from nag.text.table import Row, count_text, printable, sheet
 from nag.witness.frame import expand_orbits
-from nag.witness.shown import component_table, kinds, kinds_text, paths_text, remarks, title_line
+from nag.witness.shown import (
+    component_table,
+    degree_text,
+    kinds,
+    kinds_text,
+    paths_text,
+    remarks,
+    title_line,
+)
 from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:
@@ -99,8 +106,7 @@ def _degree_rows(decomposition: Decomposition, problem: Problem) -> list[Row]:
     """To what the degrees of motions belong."""
     if problem.model is None or not any(c.dimension for c in decomposition.components):
         return []
-    named = problem.formulation
-    return [("degree", degree_text(f"formulation {named}" if named else "of the line `model`"))]
+    return [("degree", degree_text(problem.model.formulation_text))]
 
 
 def _unreal_text(unreal: int, dimension: int, moves: bool) -> str:

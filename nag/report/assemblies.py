@@ -23,27 +23,30 @@ def assembly_rows(problem: Problem, decomposition: Decomposition) -> Rows:
         return []
     isolated = [c for c in decomposition.components if c.dimension == 0]
     moving = [c for c in decomposition.components if c.dimension > 0]
-    texts = []
+    rows: Rows = []
     if moving:
         freedoms = sorted({c.dimension + problem.free for c in moving})
         most = count_text(freedoms[-1], "freedom")
         counted = " or ".join([*map(str, freedoms[:-1]), most])
         on = count_text(sum(c.orbit for c in moving), "component")
         start, end = _reality(problem, moving, decomposition)
-        texts.append(f"{start}it moves with {counted}, on {on}{end}")
+        beside = "".join(f", {n} of them by {whose}" for n, whose in problem.freedoms_left_out)
+        rows.append(("mobility", f"{start}it moves with {counted}{beside}, on {on}{end}"))
     if isolated:
         each = parts.points_of_each
         count = sum(c.orbit * len(c.points) for c in isolated) // each
         real = sum(c.orbit * sum(parts.is_real(x) for x in c.points) for c in isolated) // each
-        texts.append(
+        text = (
             f"{count_text(count, parts.solution, _plural(parts))}{parts.counted_up_to}, "
             f"{real} of them real"
-            + (", that cannot move" if moving else "; rigid in each of them")
+            + (", that cannot move" if moving else "; it moves in none of them")
             + (", but for the links that turn freely" if problem.free else "")
         )
-    if not texts:
-        texts = [f"no {parts.solution}, not even a complex one: the parts do not fit"]
-    return [(_plural(parts), "; ".join(texts))]
+        rows.append((_plural(parts), text))
+    if not rows:
+        text = f"no {parts.solution}, not even a complex one: the parts do not fit"
+        rows.append((_plural(parts), text))
+    return rows
 
 
 def _reality(

@@ -28,6 +28,8 @@ def solution_lines(result: SolveResult, case: Case, problem: Problem, run: Row) 
     head += real_rows(problem, result)
     paths = result.paths
     tail: list[Row] = [("note", note) for note in result.notes]
+    if result.positive_dimensional:
+        tail.append(("hint", "`nag decompose` finds the solution sets of positive dimension"))
     tail += [*case.note_rows, *model_row(problem), ("system", system_line(result.system))]
     if result.method in METHOD_TEXTS:
         tail.append(("method", METHOD_TEXTS[result.method]))

@@ -65,7 +65,9 @@ class Ledger:
             _clear_away(path, trial.stat().st_mtime - DEAD)
             trial.unlink()
         except OSError as error:
-            raise InputError(f"{folder}: no ledger can be kept there: {error.strerror}") from None
+            raise InputError(
+                f"{folder}: finished work cannot be kept there: {error.strerror}; name a folder"
+            ) from None
         return cls(path)
 
     def find(self, key: bytes) -> dict[str, np.ndarray] | None:

@@ -87,6 +87,15 @@ def kinds_text(counts: Counter[ComponentKind]) -> str:
     return "; ".join(each.text(plain[each]) for each in order) or "no component"
 
 
+def degree_text(coordinates: str) -> str:
+    """To what a degree belongs, which differs between formulations for the same motion.
+
+    Args:
+        coordinates: in which formulation or coordinates the equations are, in words.
+    """
+    return f"belongs to the coordinates, here {coordinates}; in others it may be another"
+
+
 def multidegree_text(multidegree: np.ndarray | None) -> str:
     """A multidegree in the groups' order: ``(1, 2)`` for a curve, entries ``12: 1`` above.
 
@@ -136,7 +145,7 @@ def component_rows(decomposition: Decomposition) -> list[list[str]]:
         after = following + count_expanded(component)
         numbers.setdefault(key, []).extend(range(following, after))
         following = after
-    rows = [{"number": _numbers_text(numbers[key])} | _row(group) for key, group in alike.items()]
+    rows = [{"number": ranges_text(numbers[key])} | _row(group) for key, group in alike.items()]
     if not decomposition.system.groups:
         rows = [{k: v for k, v in row.items() if k != "multidegree"} for row in rows]
     return [list(rows[0]), *(list(row.values()) for row in rows)] if rows else []
@@ -148,7 +157,7 @@ def component_table(decomposition: Decomposition) -> list[str]:
     return align(rows, [0, rows[0].index("status")]) if rows else []
 
 
-def _numbers_text(numbers: Sequence[int]) -> str:
+def ranges_text(numbers: Sequence[int]) -> str:
     """Numbers in order, neighbours as from the first to the last."""
     parts: list[list[int]] = []
     for number in numbers:
