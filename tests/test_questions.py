@@ -138,7 +138,7 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
         (lambda: nag.solve(np.array([1.0, 0, -2])), "an array of numbers is given; the roots of"),
         (
             lambda: nag.solve_family(["x = p", "y = q*x"], ["p"], {"p": [1], "q": [2]}),
-            "2 equations for 3 unknowns: q, x, y; parameters are those that are named",
+            "2 equations for 3 unknowns: q, x, y; a family has as many of both, so name parameters",
         ),
         (lambda: nag.mobility("x - y"), "equations are given, which have no bodies; ask nag.local"),
         (lambda: nag.decompose("x*y", method="some"), "method: 'some' is unknown"),

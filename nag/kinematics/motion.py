@@ -318,17 +318,20 @@ class Motion(Several[Circuit]):
         """The mobility in one sentence."""
         freedoms = count_text(self.freedoms, "freedom")
         idle, hanging = self.idle_count, self.hanging_count
+        counting = f"counting predicts {self.counted}"
+        if self.freedoms != max(self.counted, 0):
+            counting = f"though {counting}"
         if not self.freedoms:
-            return f"it does not move, counting predicts {self.counted}"
+            return f"it does not move, {counting}"
         if self.freedoms == idle + hanging:
             parts = ["idly"] * bool(idle) + ["what is in no loop"] * bool(hanging)
             but = " and ".join(parts)
-            return f"nothing moves but {but}, with {freedoms}, counting predicts {self.counted}"
+            return f"nothing moves but {but}, with {freedoms}, {counting}"
         if idle:
             freedoms += f", {idle} of them idle"
         if hanging:
             freedoms += f", {hanging} of them of joints in no loop"
-        return f"it moves with {freedoms}, counting predicts {self.counted}"
+        return f"it moves with {freedoms}, {counting}"
 
     @property
     def hanging_count(self) -> int:
