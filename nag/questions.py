@@ -1646,16 +1646,17 @@ def ambient_variables(
     if not is_a(given, "nag.mechanism.problem", "Problem"):
         return AmbientVariables.itself(given)
     made = given.mechanism
-    if is_a(given.parts, "nag.mechanism.linkage", "LinkageModel"):
-        own = given.system.variables
+    parts: Any = getattr(given, "parts", None)
+    if is_a(parts, "nag.mechanism.linkage", "LinkageModel"):
+        own = parts.system.variables
         places = {
             f"{letter}_{pin}": place
-            for pin, both in given.parts.place_polynomials().items()
+            for pin, both in parts.place_polynomials().items()
             for letter, place in zip("xy", both, strict=True)
         }
         further = [name for name in dict.fromkeys(onto) if name in places and name not in own]
         images = (*Polynomial.variables(len(own)), *(places[name] for name in further))
-        return AmbientVariables.of(given.system, (*own, *further), range(len(own)), images)
+        return AmbientVariables.of(parts.system, (*own, *further), range(len(own)), images)
     elimination = None if made is None else getattr(made.form, "elimination", None)
     if elimination is None or elimination.system.variables != given.system.variables:
         return AmbientVariables.itself(given.system)

@@ -523,6 +523,47 @@ def test_what_was_asked_is_said_first(name: str, first: str, capsys) -> None:
     assert capsys.readouterr().out.splitlines()[2].startswith(first)
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["init"], "required: {linkage,mechanism,framework,dh,system}"),
+        (["completion"], "required: {bash,zsh,fish}"),
+        (
+            ["bench", "--case", "none", "--folder", "away"],
+            "no benchmark is in the folder away; name",
+        ),
+        (["local", "CASE", "--at", "z = 0"], "'z' is not one of the variables; they are x, y"),
+        (["plot", "CASE", "--onto", "x,z", "--out", "a.svg"], "'z' is not one of the variables; t"),
+    ],
+)
+def test_bad_input_names_what_there_is(words, said, tmp_path, monkeypatch, capsys) -> None:
+    monkeypatch.chdir(tmp_path)
+    case = tmp_path / "case.toml"
+    case.write_text('title = "t"\nkind = "system"\nvariables = ["x", "y"]\nequations = ["x*y"]\n')
+    assert main([str(case) if word == "CASE" else word for word in words]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_solve_says_who_finds_sets_of_positive_dimension(tmp_path, capsys) -> None:
+    (tmp_path / "lines.txt").write_text("x*y\n")
+    assert main(["solve", str(tmp_path / "lines.txt"), "--quiet"]) == 0
+    assert "hint    `nag decompose` finds" in capsys.readouterr().out
+
+
+def test_a_linkage_with_a_coupler_point_says_how_its_curve_is_found(tmp_path, capsys) -> None:
+    (tmp_path / "case.toml").write_text(
+        'title = "t"\nkind = "linkage"\nground = "base"\nlink = [\n'
+        '{ name = "base", pins = ["A", "D"], length = 4 },\n'
+        '{ name = "crank", pins = ["A", "B"], length = 2 },\n'
+        '{ name = "rod", pins = ["B", "C", "P"], shape = [[0, 0], [3, 0], [1, 2]] },\n'
+        '{ name = "rocker", pins = ["C", "D"], length = 3 },\n]\n'
+    )
+    assert main([str(tmp_path / "case.toml")]) == 0
+    assert "the curve that P draws? (--onto x_P,y_P)" in capsys.readouterr().out
+    assert main([str(CASES / "planar" / "four-bar.toml")]) == 0
+    assert "--onto x_" not in capsys.readouterr().out
+
+
 def test_a_degree_says_to_which_coordinates_it_belongs(capsys) -> None:
     degrees = {}
     for formulation in ("H", "E"):

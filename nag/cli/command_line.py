@@ -55,7 +55,7 @@ COMMANDS: tuple[tuple[str, str, str], ...] = (
         "motion",
         "show how a mechanism of one freedom really moves",
         "Show how a mechanism of one freedom really moves: its circuits, how far each joint turns "
-        "and where it stands still; all bodies along each circuit as a table, and a page in which "
+        "and where it turns back; all bodies along each circuit as a table, and a page in which "
         "they move.",
     ),
     (
