@@ -913,7 +913,7 @@ def test_what_does_not_move_with_one_freedom_is_refused() -> None:
 
 def test_a_motion_says_what_it_is_in_a_few_lines(moved) -> None:
     text = str(moved("bennett", "H"))
-    assert "1 freedom, counting predicts -2" in text
+    assert "1 freedom, though counting predicts -2" in text
     assert "begins at the reference configuration" in text
     document = moved("bennett", "H").document()
     assert json.loads(json.dumps(document)) == document
