@@ -1700,16 +1700,18 @@ def place_variables(names: Sequence[str], system: Any) -> tuple[int, ...]:
     Raises:
         nag.NagError: if there is no such variable, or one is named twice.
     """
-    from nag.algebra.tokens import list_names, nearest, quote
+    from nag.algebra.tokens import nearest, quote, shorten_names
 
     known = system.own_variables
     names = [name for name in names if name not in system.variables[len(known) :]]
     for name in names:
         if name not in known:
+            more = "of a mechanism formulation E has Euler parameters, H half-angles"
+            if name[:2] in ("x_", "y_"):
+                more = "of the case of a linkage x_P and y_P are the place of its pin P"
             raise NagError(
                 f"onto: {quote(name)} is not one of the variables{nearest(name, known)}; they are "
-                f"{list_names(known)}; of the case of a linkage x_P and y_P are the place of its "
-                "pin P; of a mechanism formulation E has Euler parameters, H half-angles"
+                f"{shorten_names(known)}; {more}"
             ).mended_by("formulation")
     if len(set(names)) < len(names):
         raise NagError("onto: a variable is given twice")

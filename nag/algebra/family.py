@@ -9,7 +9,7 @@ from nag.algebra.imaginary_unit import adjoin_unit, name_unit, values_with_unit
 from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.tokens import list_names
+from nag.algebra.tokens import shorten_names
 from nag.errors import NagError
 
 Terms = Mapping[Exponents, Number | complex]
@@ -40,7 +40,7 @@ class Family:
             own = len(self.polynomials) - self.imaginary
             unknowns = self.own_variables
             raise NagError(
-                f"{own} equations for {len(unknowns)} unknowns: {list_names(unknowns)}; a family "
+                f"{own} equations for {len(unknowns)} unknowns: {shorten_names(unknowns)}; a family "
                 "has as many of both, so name parameters among them"
             )
         if any(f.n != total for f in self.polynomials):

@@ -143,7 +143,7 @@ def nearest(name: str, known: Iterable[str]) -> str:
     return f" (did you mean {match[0]!r}?)" if match else ""
 
 
-def list_names(names: Sequence[str]) -> str:
+def shorten_names(names: Sequence[str]) -> str:
     """Names behind each other, of many the first."""
     return ", ".join(names[:MOST_NAMES]) + ", ..." * (len(names) > MOST_NAMES)
 

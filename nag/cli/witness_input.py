@@ -257,7 +257,7 @@ def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...
             number.
     """
     from nag.algebra.from_python import coordinates, exact_complex
-    from nag.algebra.tokens import list_names, nearest, quote
+    from nag.algebra.tokens import nearest, quote, shorten_names
 
     variables = system.own_variables
     units = ("I", *system.variables[len(variables) :])
@@ -270,7 +270,7 @@ def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...
         if name not in variables:
             raise UsageError(
                 f"--at: {quote(name)} is not one of the variables{nearest(name, variables)}; "
-                f"they are {list_names(variables)}"
+                f"they are {shorten_names(variables)}"
             )
         if name in values:
             raise UsageError(f"--at: {name} is given twice")

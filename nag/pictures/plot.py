@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.given import value_text
-from nag.algebra.tokens import list_names, nearest, quote
+from nag.algebra.tokens import nearest, quote, shorten_names
 from nag.errors import ComponentError, NagError
 
 if TYPE_CHECKING:
@@ -101,7 +101,7 @@ def variables_onto(onto: Iterable[str], variables: Sequence[str]) -> tuple[int, 
         if name not in variables:
             raise NagError(
                 f"onto: {quote(str(name))} is not one of the variables{nearest(name, variables)}; "
-                f"they are {list_names(variables)}"
+                f"they are {shorten_names(variables)}"
             )
     if len(set(names)) != len(names) or len(names) not in (2, 3):
         raise NagError("onto: give two different variables, or three")
