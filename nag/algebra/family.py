@@ -40,8 +40,8 @@ class Family:
             own = len(self.polynomials) - self.imaginary
             unknowns = self.own_variables
             raise NagError(
-                f"{own} equations for {len(unknowns)} unknowns: {shorten_names(unknowns)}; a family "
-                "has as many of both, so name parameters among them"
+                f"{own} equations for {len(unknowns)} unknowns: {shorten_names(unknowns)}; "
+                "a family has as many of both, so name parameters among them"
             )
         if any(f.n != total for f in self.polynomials):
             raise NagError(f"the polynomials must be in {n} unknowns and the parameters")
