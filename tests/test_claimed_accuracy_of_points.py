@@ -106,17 +106,17 @@ X, Y, Z = Polynomial.variables(3)
 ROOT: Exact = lambda: [flint.arb(2).sqrt(), flint.arb(0), 1 - flint.arb(2).sqrt()]  # noqa: E731
 # Equations, a point in closed form, its local dimension, tangent dimension and multiplicity.
 KINDS = {
-    "node": ((Y**2 - (X**2 - 2) ** 2 * (X + 3), Z + X - 1), 1, 2, 0),
-    "cusp": ((Y**2 - (X**2 - 2) ** 3, Z + X - 1), 1, 2, 0),
-    "tacnode": ((Y**2 - (X**2 - 2) ** 4, Z + X - 1), 1, 2, 0),
-    "lines": ((Y * (X**2 - 2) * (Y - X**2 + 2), Z + X - 1), 1, 2, 0),
+    "node": ((Y**2 - (X**2 - 2) ** 2 * (X + 3), Z + X - 1), 1, 2, None),
+    "cusp": ((Y**2 - (X**2 - 2) ** 3, Z + X - 1), 1, 2, None),
+    "tacnode": ((Y**2 - (X**2 - 2) ** 4, Z + X - 1), 1, 2, None),
+    "lines": ((Y * (X**2 - 2) * (Y - X**2 + 2), Z + X - 1), 1, 2, None),
     "regular": ((X**2 - 2, Y, Z + X - 1), 0, 0, 1),
     "double": ((X**2 - 2, Y**2, Z + X - 1), 0, 1, 2),
     "triple": ((X**2 - 2, Y**3, (Z + X - 1) * (Z + 5)), 0, 1, 3),
     "square": (((X**2 - 2) ** 2, Y**2, Z + X - 1), 0, 2, 4),
     "touching": ((Y - (X**2 - 2) ** 2, Y + (X**2 - 2) ** 2 * X, Z**2 + 2 * X - 3), 0, 1, 2),
-    "cone": (((X**2 - 2) ** 2 + Y**2 - (Z + X - 1) ** 2,), 2, 3, 0),
-    "surfaces": ((Y * (Z + X - 1),), 2, 3, 0),
+    "cone": (((X**2 - 2) ** 2 + Y**2 - (Z + X - 1) ** 2,), 2, 3, None),
+    "surfaces": ((Y * (Z + X - 1),), 2, 3, None),
 }
 
 

@@ -114,9 +114,9 @@ def _dead_point_text(
     other = values.coordinates[driver]
     value = point.others[driver]
     if other.kind == "angle":
-        # Half a turn back, to the digits that are written, is half a turn forth.
         value = np.pi - (np.pi - value) % (2 * np.pi)
-        value = np.pi if value < np.radians(-179.995) else value
+        # Half a turn back, as it is written, is half a turn forth.
+        value = abs(value) if value_text(other, value) == value_text(other, -np.pi) else value
     return f"{text} ({other.name} {value_text(other, value)})"
 
 
