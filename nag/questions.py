@@ -1749,7 +1749,7 @@ def solve_family(
         values: those of each member, real or complex: an array, shape ``(M, k)``, in the order of
             ``parameters``, of one parameter also a list of numbers or a Series; or columns by
             their names, each of a parameter: a DataFrame or a mapping; or a file of either, CSV or
-            ``.npy``.
+            ``.npy``. Members keep the index of a DataFrame or a Series.
         variables: of equations, names of the unknowns, in order; by default all other names that
             occur.
         imaginary: of equations, what the imaginary unit is called, as for `nag.system`.
@@ -1778,13 +1778,14 @@ def solve_family(
     [[-1.0, -1.0], [1.0, 1.0]]
     """
     from nag.algebra.tokens import list_names
-    from nag.solving.family_members import solve_family_members
+    from nag.solving.family_members import labels_of, solve_family_members
 
     if values is None:
         raise NagError(
             "values: none are given; give an array, shape (members, parameters), columns by their "
             "names, or a file of either"
         )
+    labels = labels_of(values)
     if _is_series(values):
         name = values.name if parameters is None else None
         values = values.to_numpy() if name is None else {str(name): values.to_numpy()}
@@ -1804,7 +1805,9 @@ def solve_family(
     count = solutions if count is None else count
     if start == "auto" and solutions is not None and known is None:
         start = "parameter"
-    return solve_family_members(family, values, start=start, count=count, known=known, run=run)
+    return solve_family_members(
+        family, values, start=start, count=count, known=known, labels=labels, run=run
+    )
 
 
 def _is_series(values: Any) -> bool:

@@ -130,6 +130,87 @@ def test_points_of_a_curve_are_no_isolated_solutions() -> None:
     assert found.one_by_one.tolist() == [True, False]
 
 
+@pytest.mark.parametrize("size", [1e-5, 1e-10, 1e-17, 1e-100])
+def test_solutions_of_small_members_are_real_where_those_of_large_ones_are(size: float) -> None:
+    circles = ["x^2 + y^2 = r^2", "x = d"]
+    found = nag.solve_family(circles, ["r", "d"], [[size, 2 * size], [2 * size, size]])
+    assert found.real_counts.tolist() == [0, 2] and found.complete.all()
+    assert len(found.real(0)) == 0 and len(found.to_dataframe(real=True)) == 2
+
+
+@pytest.mark.parametrize("a", [-1e-17, -1e-10, -1e-24, 1e-17, 1e-24])
+def test_close_solutions_are_real_as_they_are_of_each_member_by_itself(a: float) -> None:
+    found = nag.solve_family("(x - 5)^2 = a", ["a"], [[a]])
+    own = nag.solve([f"(x - 5)^2 = {Fraction(a)}"])
+    assert found.counts.tolist() == [len(own)] == [2]
+    assert found.real_counts.tolist() == [len(own.real)] == [2 if a > 0 else 0]
+
+
+@pytest.mark.parametrize("a", [1e-12, 1e-15, 1e-17, 0])
+def test_solutions_of_complex_members_are_real_as_exact_equations_say(a: float) -> None:
+    found = nag.solve_family("(x - 5)*(x - 6 - a)", ["a"], [[1j * a], [1]])
+    assert found.real_counts.tolist() == [1 if a else 2, 2] and not found.one_by_one.any()
+
+
+@pytest.mark.parametrize(
+    ("equations", "values", "counts", "infinite"),
+    [
+        (["(x - a)*(y - 1)", "(x - 1)*(y - b)"], [[1, 1], [2, 3], [1, 2]], [0, 2, 0], [1, 0, 1]),
+        # General members have no solutions at all.
+        (["x - a", "x - b + 0*y"], [[1, 1], [2, 3]], [0, 0], [1, 0]),
+        # All members have a line.
+        (["x*(y - a)", "x*(y^2 - b - x)"], [[2, 3], [5, 7]], [1, 1], [1, 1]),
+    ],
+)
+def test_members_with_a_set_of_positive_dimension_are_told(
+    equations: list[str], values: list[list[int]], counts: list[int], infinite: list[int]
+) -> None:
+    found = nag.solve_family(equations, ["a", "b"], values, variables="x y")
+    assert found.counts.tolist() == counts and found.complete.all()
+    assert found.positive_dimensional.tolist() == infinite
+    texts = [equation.replace("a", "({})").replace("b", "({})") for equation in equations]
+    for (a, b), expected in zip(values, infinite, strict=True):
+        own = nag.solve([texts[0].format(a), texts[1].format(b)], "x y")
+        assert own.positive_dimensional == expected
+    members = found.document()["members"]
+    assert [each["positive_dimensional"] for each in members] == infinite
+    told = f"; {sum(infinite)} with a set of positive dimension besides"
+    assert told in repr(found) and told in str(found)
+    numbers = [k + 1 for k, each in enumerate(infinite) if each]
+    assert f"member{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}" in str(found)
+    frame = found.to_dataframe()
+    assert frame["positive_dimensional"].tolist() == np.repeat(infinite, counts).tolist()
+
+
+def test_the_command_names_members_with_a_set_of_positive_dimension(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, table = tmp_path / "lines.toml", tmp_path / "values.csv"
+    nag.write(nag.system(["(x - a)*(y - 1)", "(x - 1)*(y - b)"], "x y a b"), case)
+    table.write_text("a,b\n1,1\n2,3\n1,2\n")
+    assert main(["family", str(case), "--values", str(table)]) == 0
+    told = "members 1, 3 have a solution set of positive dimension besides"
+    assert told in capsys.readouterr().out
+
+
+def test_members_keep_the_index_of_a_frame() -> None:
+    frame = pandas.DataFrame({"a": [4.0, 9.0, 0.0], "b": [1, 2, 3]}, index=[2, 0, 1])
+    found = nag.solve_family(["x^2 - a", "y - b"], values=frame)
+    table = found.to_dataframe(real=True)
+    assert table["member"].tolist() == [2, 2, 0, 0, 1] and table["member"].dtype == np.int64
+    joined = table.join(frame.add_suffix("_given"), on="member")
+    assert joined["a"].tolist() == joined["a_given"].tolist()
+    # Python's indices are places, as of any sequence.
+    assert np.allclose(np.sort(found.real(0)[:, 0]), [-2, 2])
+    named = nag.solve_family("x^2 = a", "a", pandas.Series([1, 4], name="a", index=["p", "q"]))
+    assert named.to_dataframe()["member"].tolist() == ["p", "p", "q", "q"]
+    plain = nag.solve_family("x^2 = a", "a", [1, 4]).to_dataframe()
+    assert plain["member"].tolist() == [0, 0, 1, 1]
+    wrong = pandas.Series([1, np.nan], name="a", index=["p", "q"])
+    with pytest.raises(nag.NagError, match="those of member 2, q in the index, are not all finite"):
+        nag.solve_family("x^2 = a", "a", wrong)
+
+
 def test_nothing_is_complete_where_the_family_is_not_known_to_be() -> None:
     solved = solve_generic(CONICS, start="parameter", seed=1)
     assert not solved.complete
@@ -311,7 +392,8 @@ def test_columns_that_do_not_fit_are_told(table: dict[str, list[int]], text: str
 def test_a_frame_has_a_row_for_each_solution() -> None:
     found = nag.solve_family("x^2 = a", ["a"], [[4], [-1], [0]])
     frame = found.to_dataframe()
-    assert list(frame.columns) == ["member", "a", "x", "real", "error"]
+    facts = ["real", "error", "positive_dimensional"]
+    assert list(frame.columns) == ["member", "a", "x", *facts]
     assert frame["member"].tolist() == [0, 0, 1, 1, 2]
     assert frame["real"].tolist() == [True, True, False, False, True]
     assert frame["a"].dtype == float and frame["x"].dtype == complex

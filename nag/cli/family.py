@@ -145,10 +145,13 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         if alone > 1:
             was = "were solved one by one, as not all paths to them end"
         rows.append(("one by one", f"{count_text(alone, 'member')} {was} at simple solutions"))
-    incomplete = (~found.complete).nonzero()[0]
-    if len(incomplete):
-        more = " and more" if len(incomplete) > 5 else ""
-        rows.append(("open", f"members {', '.join(str(k + 1) for k in incomplete[:5])}{more}"))
+    infinite = found.positive_dimensional
+    if infinite.any():
+        have = "has" if infinite.sum() == 1 else "have"
+        text = f"{found.name_members(infinite)} {have} a solution set of positive dimension besides"
+        rows.append(("infinite", text))
+    if not found.complete.all():
+        rows.append(("open", found.name_members(~found.complete)))
     if options.points is None and options.json is None:
         rows.append(("written", "nowhere: --points FILE writes all solutions"))
     rows += [("note", note) for note in solved.notes]
@@ -174,9 +177,10 @@ def _arrays(found: FamilySolutions, parameters: tuple[str, ...]) -> dict[str, An
     """The arrays of ``--points``, by name."""
     import numpy as np
 
-    names = ("values", "points", "status", "errors", "one_by_one", "complete")
+    from nag.solving.family_members import ARRAYS
+
     return {
         "variables": np.array(found.variables),
         "parameters": np.array(parameters),
-        **{name: getattr(found, name) for name in names},
+        **{name: getattr(found, name) for name in ("values", *ARRAYS)},
     }

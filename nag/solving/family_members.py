@@ -4,15 +4,15 @@ The family is solved once, for random parameters. From there all members are tra
 many paths each as there are solutions, with coefficients of their own. Where these end in as many
 distinct regular zeros, Newton's method proves them, and there are no more; any other member is
 solved by itself, as `nag.solving.parameter.solve_targets` solves one, and where paths are lost even
-so, without its family.
+so, without its family. Whether a zero is real is decided as `nag.solving.solve.solve` decides it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Hashable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -20,7 +20,7 @@ import numpy as np
 
 from nag.algebra.family import Family
 from nag.algebra.from_python import exact_complex, system
-from nag.algebra.imaginary_unit import append_unit
+from nag.algebra.imaginary_unit import append_unit, as_real, real_and_imaginary_parts
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import list_names
 from nag.errors import NagError, StartError
@@ -37,6 +37,7 @@ from nag.numerics.read_only import (
     handed_over,
 )
 from nag.solving.certificate import bound_of_zeros
+from nag.solving.isolated_zero import are_within_errors, which_members_are_real
 from nag.solving.member_lines import MemberLines
 from nag.solving.parameter import (
     Solved,
@@ -46,7 +47,7 @@ from nag.solving.parameter import (
     solve_generic,
     solve_targets,
 )
-from nag.solving.solve import solve
+from nag.solving.solve import is_real_zero, solve
 from nag.solving.start.family_monodromy import random_values
 from nag.text.table import count_text, data_frame, lines_of, named_apart, one_line
 from nag.tracking import blocks
@@ -66,6 +67,18 @@ __all__ = ["FamilySolutions", "family_of", "solve_family_members", "solve_member
 MEMBERS, PATHS = 1000, 1 << 16
 # Bytes of the results of one call.
 MOST_BYTES = 1 << 34
+# Fields of `FamilySolutions` that have a row for each member, but for the values.
+ARRAYS = (
+    "points",
+    "status",
+    "errors",
+    "one_by_one",
+    "complete",
+    "is_real",
+    "positive_dimensional",
+)
+# Members that a line names.
+NAMED = 5
 # Zeros, by Bezout's bound, of a member that is solved without its family, where paths from that are
 # lost.
 MOST_ZEROS = 10_000
@@ -84,8 +97,13 @@ class FamilySolutions(Several[ComplexArray]):
             that is not known.
         errors: estimated relative errors of the points, shape ``(M, S)``; inf where there is none.
         one_by_one: members that were solved by themselves, shape ``(M,)``.
-        complete: members all of whose isolated solutions are here, shape ``(M,)``; one may have
-            curves of solutions besides.
+        complete: members all of whose isolated solutions are here, shape ``(M,)``.
+        is_real: which solutions are real, shape ``(M, S)``.
+        positive_dimensional: members with a solution set of positive dimension besides, on which a
+            path to them ended, shape ``(M,)``; those that were not solved by themselves have one if
+            general members do.
+        labels: what members are called, by the index of the frame that their values came in; None
+            where that counts them from 0, or there was none. They are not compared.
     """
 
     start: Solved
@@ -95,11 +113,14 @@ class FamilySolutions(Several[ComplexArray]):
     errors: RealArray
     one_by_one: BooleanArray
     complete: BooleanArray
+    is_real: BooleanArray
+    positive_dimensional: BooleanArray
+    labels: tuple[Hashable, ...] | None = field(default=None, compare=False)
 
     __eq__ = equal_values
 
     def __post_init__(self) -> None:
-        for name in ("values", "points", "status", "errors", "one_by_one", "complete"):
+        for name in ("values", *ARRAYS):
             object.__setattr__(self, name, fixed_array(getattr(self, name)))
 
     @property
@@ -131,18 +152,39 @@ class FamilySolutions(Several[ComplexArray]):
 
     def __str__(self) -> str:
         all_known = int(self.complete.sum())
+        answer = f"{count_text(int(self.counts.sum()), 'solution')} of {len(self)} members"
+        infinite = int(self.positive_dimensional.sum())
+        if infinite:
+            answer += f"; {infinite} with a set of positive dimension besides"
         rows = [
-            ("answer", f"{count_text(int(self.counts.sum()), 'solution')} of {len(self)} members"),
+            ("answer", answer),
             ("complete", f"{all_known} of {count_text(len(self), 'member')}"),
         ]
         if self.one_by_one.any():
             rows.append(("by themselves", count_text(int(self.one_by_one.sum()), "member")))
+        if infinite:
+            rows.append(("infinite", self.name_members(self.positive_dimensional)))
         title = f"FamilySolutions of {', '.join(self.variables)} by {', '.join(self.parameters)}"
         rows += [("note", note) for note in self.start.notes]
         return lines_of(title, rows)
 
+    def name_members(self, chosen: np.ndarray) -> str:
+        """Names of the first of some members, shape ``(M,)``, counted from 1, as in all texts."""
+        places = np.flatnonzero(chosen).tolist()
+        more = " and more" if len(places) > NAMED else ""
+        word = "member" if len(places) == 1 else "members"
+        named = f"{word} {', '.join(str(k + 1) for k in places[:NAMED])}{more}"
+        if self.labels is None:
+            return named
+        labels = ", ".join(str(self.labels[k]) for k in places[:NAMED])
+        return f"{named}, in the index {labels}{more}"
+
     def to_dataframe(self, real: bool = False, *, parts: bool = False) -> pandas.DataFrame:
-        """A row for each solution: its member, from 0, parameters, coordinates, and whether real.
+        """A row for each solution: its member, parameters, coordinates, and what is known of it.
+
+        The column ``member`` has the index of the frame that the values came in, so that the two
+        can be joined on it; of other values it counts members from 0, in their order. Of a member
+        without isolated solutions there is no row.
 
         Args:
             real: only the real ones, their coordinates as floats.
@@ -152,45 +194,45 @@ class FamilySolutions(Several[ComplexArray]):
         Raises:
             nag.NagError: if pandas is not installed.
         """
-        are_real = self._is_real(slice(None))
-        members, places = np.nonzero(are_real if real else self.status <= PathStatus.SINGULAR)
+        members, places = np.nonzero(self.is_real if real else self.status <= PathStatus.SINGULAR)
         points = self.points[members, places]
         # Values that are all real are floats, as they were given.
         values = self.values if self.values.imag.any() else self.values.real
         own = dict(zip(self.parameters, values[members].T, strict=True))
         own |= dict(zip(self.variables, (points.real if real else points).T, strict=True))
-        facts = {"real": are_real[members, places], "error": self.errors[members, places]}
-        columns = named_apart(own, {"member": members} | facts)
+        facts = {
+            "real": self.is_real[members, places],
+            "error": self.errors[members, places],
+            "positive_dimensional": self.positive_dimensional[members],
+        }
+        called: Any = members
+        if self.labels is not None:
+            called = [self.labels[k] for k in members.tolist()]
+        columns = named_apart(own, {"member": called} | facts)
         first = next(name for name in columns if name not in own)
-        return data_frame({first: members} | columns, parts)
+        return data_frame({first: called} | columns, parts)
 
     def document(self) -> dict[str, Any]:
         """The numbers of solutions of each member as a JSON object, the solutions left out."""
-        columns = (self.counts, self.real_counts, self.complete, self.one_by_one)
-        numbers = zip(*(column.tolist() for column in columns), strict=True)
+        columns = {
+            "solutions": self.counts,
+            "real": self.real_counts,
+            "complete": self.complete,
+            "one_by_one": self.one_by_one,
+            "positive_dimensional": self.positive_dimensional,
+        }
+        numbers = zip(*(column.tolist() for column in columns.values()), strict=True)
         return {
             "variables": list(self.variables),
             "parameters": list(self.parameters),
             "solutions": len(self.start.points),
-            "members": [
-                {"solutions": n, "real": r, "complete": c, "one_by_one": o}
-                for n, r, c, o in numbers
-            ],
+            "members": [dict(zip(columns, each, strict=True)) for each in numbers],
         }
 
     @property
     def real_counts(self) -> IntegerArray:
         """Numbers of distinct real solutions, shape ``(M,)``."""
-        return self._is_real(slice(None)).sum(axis=1)
-
-    def _is_real(self, members: slice) -> np.ndarray:
-        """Which points of some members are real to within their errors, shape ``(k, S)``."""
-        points, status = self.points[members], self.status[members]
-        flat = points.reshape(-1, points.shape[-1])
-        with np.errstate(invalid="ignore"):
-            off = np.linalg.norm(flat.imag, axis=1)
-            real = off <= radii_of_balls(flat, self.errors[members].reshape(-1))
-        return np.asarray(real.reshape(status.shape) & (status <= PathStatus.SINGULAR))
+        return self.is_real.sum(axis=1)
 
     @property
     def counts(self) -> IntegerArray:
@@ -202,9 +244,8 @@ class FamilySolutions(Several[ComplexArray]):
         return self.points[member, self.status[member] <= PathStatus.SINGULAR]
 
     def real(self, member: int) -> RealArray:
-        """The real ones among them, to within their errors, shape ``(count, n)``."""
-        member = range(len(self))[member]
-        return self.points[member, self._is_real(slice(member, member + 1))[0]].real
+        """The real ones among them, shape ``(count, n)``."""
+        return self.points[member, self.is_real[member]].real
 
 
 @takes_run
@@ -215,6 +256,7 @@ def solve_family_members(
     start: str = "auto",
     count: int | None = None,
     known: tuple[Any, Any] | None = None,
+    labels: tuple[Hashable, ...] | None = None,
     run: Run = DEFAULT_RUN,
 ) -> FamilySolutions:
     """The isolated solutions of many members of a family, see `nag.solve_family`.
@@ -223,18 +265,19 @@ def solve_family_members(
         family: the equations and their parameters.
         values: of each member, see `check_values`.
         start, count, known: as for `nag.solve_family`.
+        labels: what members are called, see `FamilySolutions`.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.NagError: if family and values do not fit each other.
         nag.StartError: if the family cannot be solved that way.
     """
-    wanted = check_values(family, values)
+    wanted = check_values(family, values, labels)
     if known is None:
         solved = solve_generic(family, start=start, count=count, run=run.without_found)
     else:
         solved = _solve_from_known(family, known, count, run)
-    return solve_members(solved, wanted, run=run)
+    return solve_members(solved, wanted, labels, run=run)
 
 
 def family_of(
@@ -276,8 +319,22 @@ def family_of(
     return Family.of_system(made, len(names))
 
 
-def check_values(family: Family, values: Any) -> np.ndarray:
+def labels_of(values: Any) -> tuple[Hashable, ...] | None:
+    """The index of a DataFrame or a Series, unless that counts from 0; None of other values."""
+    index = getattr(values, "index", None)
+    if not hasattr(index, "tolist"):
+        return None
+    labels = tuple(index.tolist())
+    return None if labels == tuple(range(len(labels))) else labels
+
+
+def check_values(
+    family: Family, values: Any, labels: tuple[Hashable, ...] | None = None
+) -> np.ndarray:
     """Values of the parameters as an array of complex doubles, shape ``(M, k)``.
+
+    Args:
+        labels: what members are called, see `FamilySolutions`.
 
     Raises:
         NagError: if they are no finite numbers, or not as many as parameters.
@@ -300,7 +357,8 @@ def check_values(family: Family, values: Any) -> np.ndarray:
         )
     wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
     if len(wrong):
-        raise NagError(f"values: those of member {wrong[0] + 1} are not all finite")
+        called = "" if labels is None else f", {labels[wrong[0]]} in the index,"
+        raise NagError(f"values: those of member {wrong[0] + 1}{called} are not all finite")
     return array
 
 
@@ -373,22 +431,40 @@ class _Block(NamedTuple):
     proved: np.ndarray
 
 
+class _Alone(NamedTuple):
+    """A member that was solved by itself, see `FamilySolutions`."""
+
+    points: np.ndarray
+    status: np.ndarray
+    errors: np.ndarray
+    is_real: np.ndarray
+    complete: bool
+    positive_dimensional: bool
+
+
 @takes_run
-def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> FamilySolutions:
+def solve_members(
+    solved: Solved,
+    values: Any,
+    labels: tuple[Hashable, ...] | None = None,
+    *,
+    run: Run = DEFAULT_RUN,
+) -> FamilySolutions:
     """The members of a family that is solved for random parameters.
 
     Args:
         solved: by `nag.solving.parameter.solve_generic`.
         values: the parameters of each member, shape ``(M, k)``.
+        labels: what members are called, see `FamilySolutions`.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Raises:
         nag.NagError: if the values do not fit the family.
     """
     family, S = solved.family, len(solved.points)
-    values = check_values(family, values)
+    values = check_values(family, values, labels)
     M = len(values)
-    if M * S * (16 * family.n + 9) > MOST_BYTES:
+    if M * S * (16 * family.n + 10) > MOST_BYTES:
         raise NagError(f"values: {M} members of {S} solutions are too many at once; give fewer")
     places = np.full((M, S, family.n), np.nan, dtype=np.complex128)
     # The imaginary unit is a coordinate of the paths, and none of the points.
@@ -398,12 +474,16 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
     proved = np.zeros(M, dtype=bool)
     one_by_one = np.zeros(M, dtype=bool)
     complete = np.zeros(M, dtype=bool)
-    arrays = (values, points, status, errors, one_by_one, complete)
+    is_real = np.zeros((M, S), dtype=bool)
+    infinite = np.zeros(M, dtype=bool)
+    arrays = (points, status, errors, one_by_one, complete, is_real, infinite)
     done = 0
 
     def first_members() -> FamilySolutions:
         # What is told stays as it is, while the others are solved.
-        return FamilySolutions(solved, *(array[:done].copy() for array in arrays))
+        called = None if labels is None else labels[:done]
+        first = (array[:done].copy() for array in (values, *arrays))
+        return FamilySolutions(solved, *first, labels=called)
 
     # What is under way ends before what was found is told.
     with TellFound(run, first_members) as tell, closing(_track_all(solved, values, run)) as tracked:
@@ -411,6 +491,8 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
             places[chunk], errors[chunk], proved[chunk] = block
             status[chunk][block.proved] = PathStatus.REGULAR
             complete[chunk] = block.proved & solved.complete
+            infinite[chunk] = block.proved & solved.positive_dimensional
+            is_real[chunk] = _which_are_real(family, values[chunk], block)
             done += len(block.proved)
             run.tell("members", done, M)
             tell(done < M or not proved.all())
@@ -419,10 +501,37 @@ def solve_members(solved: Solved, values: Any, *, run: Run = DEFAULT_RUN) -> Fam
         for number, member in enumerate(alone.tolist()):
             run.tell("members one by one", number, len(alone))
             own = _solve_alone(solved, values[member], run)
-            places[member], status[member], errors[member], complete[member] = own
+            places[member], status[member], errors[member] = own.points, own.status, own.errors
+            is_real[member], complete[member] = own.is_real, own.complete
+            infinite[member] = own.positive_dimensional
             tell(number + 1 < len(alone))
     # The values may be the caller's; the others are nobody else's, and large.
-    return FamilySolutions(solved, values, *map(handed_over, arrays[1:]))
+    return FamilySolutions(solved, values, *map(handed_over, arrays), labels=labels)
+
+
+def _which_are_real(family: Family, values: np.ndarray, block: _Block) -> np.ndarray:
+    """Which solutions of some members are real, shape ``(m, S)``; of unproved ones none is said.
+
+    Of real equations the conjugate of a zero is a zero: where as many as there can be are distinct,
+    one whose conjugate is no other one is real. Of complex ones exact equations decide.
+    """
+    points, errors = block.points, block.errors
+    real = np.zeros(errors.shape, dtype=bool)
+    has_complex = values.imag.any(axis=1) | family.imaginary
+    chosen = block.proved & ~has_complex
+    real[chosen] = which_members_are_real(points[chosen], errors[chosen])
+    own = points[..., : len(family.own_variables)]
+    for k in np.flatnonzero(block.proved & has_complex).tolist():
+        near = np.flatnonzero(are_within_errors(own[k], errors[k])).tolist()
+        if near:
+            exact = [exact_complex(v, "values") for v in values[k].tolist()]
+            system = family.with_unit().at(exact)
+            both, parts = as_real(system), real_and_imaginary_parts(system).polynomials
+            real[k, near] = [
+                is_real_zero(np.append(own[k, i], 1j), float(errors[k, i]), both, parts)
+                for i in near
+            ]
+    return real
 
 
 def _track_all(
@@ -485,6 +594,8 @@ def _track_chunk(
     proved = (paths.status.reshape(m, S) == PathStatus.REGULAR).all(axis=1)
     proved &= np.isfinite(points).all(axis=(1, 2))
     proved[proved] = _are_distinct(points[proved], errors[proved])
+    # Where there are no paths, none of them tells what else a member has.
+    proved &= S > 0
     points[~proved], errors[~proved] = np.nan, np.inf
     return _Block(points, errors, proved)
 
@@ -511,27 +622,27 @@ def _are_distinct(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
     return distinct
 
 
-def _solve_alone(
-    solved: Solved, values: np.ndarray, run: Run
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, bool]:
-    """One member by itself: points, their status and errors, and whether these are all."""
+def _solve_alone(solved: Solved, values: np.ndarray, run: Run) -> _Alone:
+    """One member by itself."""
     S, n = len(solved.points), solved.family.n
     points = np.full((S, n), np.nan, dtype=np.complex128)
     status = np.full(S, PathStatus.FAILED, dtype=np.int8)
     errors = np.full(S, np.inf)
+    is_real = np.zeros(S, dtype=bool)
     exact = [exact_complex(v, "values") for v in values.tolist()]
     alone = replace(run, progress=None, found=None)
     (result,) = solve_targets(replace(solved, classes=None), [exact], run=alone)
-    if result.paths.failed:
+    # Without paths nothing is seen of the member.
+    if result.paths.failed or not S:
         result = _solve_without_family(result, solved.family.at(exact), alone)
     found = result.solutions[:S]
     for i, each in enumerate(found):
-        points[i], errors[i] = each.point[:n], each.accuracy
+        points[i], errors[i], is_real[i] = each.point[:n], each.accuracy, each.real
         status[i] = PathStatus.REGULAR if each.multiplicity == 1 else PathStatus.SINGULAR
     whole = result.complete and len(result.solutions) <= S
     if whole:
         status[len(found) :] = PathStatus.AT_INFINITY
-    return points, status, errors, whole
+    return _Alone(points, status, errors, is_real, whole, result.positive_dimensional)
 
 
 def _solve_without_family(result: SolveResult, system: PolynomialSystem, run: Run) -> SolveResult:

@@ -118,26 +118,30 @@ class IsolatedZeros(RecordTable[IsolatedZero]):
         return self.concatenate([self, self.of(zeros, self.points.shape[1])])
 
 
-def which_are_real(zeros: IsolatedZeros) -> np.ndarray:
-    """Which zeros are real, shape ``(k,)``.
+def which_are_real(
+    points: np.ndarray, accuracy: np.ndarray, fine: Mapping[int, PrecisePoint]
+) -> np.ndarray:
+    """Which zeros of equations with real coefficients are real, shape ``(k,)``.
 
     Imaginary parts beyond the errors, in the digits that a zero is known to, say that it is not.
     Of a zero in doubles a little beyond its estimated error, another zero that is its conjugate
     says so.
+
+    Args:
+        points: all of them, in doubles, shape ``(k, n)``.
+        accuracy: their relative errors, shape ``(k,)``.
+        fine: more digits of those that are known to more, by index.
     """
-    points = zeros.points
-    sizes = 1 + map_rows(lambda some: np.abs(some).max(axis=1, initial=0.0), points)
-    imaginary = map_rows(lambda some: np.abs(some.imag).max(axis=1, initial=0.0), points)
-    errors = SAFETY * sizes * zeros.accuracy
-    in_doubles = np.ones(len(zeros), dtype=bool)
-    for i, fine in zeros.fine.items():
+    imaginary, errors, nearly = _imaginary_parts(points, accuracy)
+    in_doubles = np.ones(len(points), dtype=bool)
+    for i, precise in fine.items():
         in_doubles[i] = False
-        parts = np.array([float(abs(z.imag).mid()) for z in fine.centre])
+        parts = np.array([float(abs(z.imag).mid()) for z in precise.centre])
         # A small coordinate may be known far better than others.
-        over = parts / np.maximum(fine.radii, VANISHES * (1 + np.abs(points[i])))
+        over = parts / np.maximum(precise.radii, VANISHES * (1 + np.abs(points[i])))
         imaginary[i], errors[i] = over.max(initial=0.0), SAFETY
     real = imaginary <= errors
-    asked = np.flatnonzero(in_doubles & ~real & (imaginary <= REAL * sizes)).tolist()
+    asked = np.flatnonzero(in_doubles & ~real & (imaginary <= nearly)).tolist()
     every = SortedPoints.of(points if asked else points[:0])
     for i in asked:
         x = points[i].conj()
@@ -145,3 +149,39 @@ def which_are_real(zeros: IsolatedZeros) -> np.ndarray:
         apart = np.abs(points[near[near != i]] - x).max(axis=1)
         real[i] = not (apart <= errors[i]).any()
     return real
+
+
+def are_within_errors(points: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
+    """Which zeros in doubles may be real: their imaginary parts are within their errors, ``(k,)``.
+
+    Args:
+        points: shape ``(k, n)``; accuracy: relative errors, shape ``(k,)``.
+    """
+    imaginary, errors, _ = _imaginary_parts(points, accuracy)
+    return np.asarray(imaginary <= errors)
+
+
+def which_members_are_real(points: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
+    """Which zeros of many systems are real, as `which_are_real` of each says, shape ``(m, S)``.
+
+    Args:
+        points: all zeros of each, in doubles, shape ``(m, S, n)``.
+        accuracy: their relative errors, shape ``(m, S)``.
+    """
+    shape, n = accuracy.shape, points.shape[-1]
+    parts = _imaginary_parts(points.reshape(-1, n), accuracy.ravel())
+    imaginary, errors, nearly = (part.reshape(shape) for part in parts)
+    real = imaginary <= errors
+    asked = (~real & (imaginary <= nearly)).any(axis=1)
+    for k in np.flatnonzero(asked).tolist():
+        real[k] = which_are_real(points[k], accuracy[k], {})
+    return np.asarray(real)
+
+
+def _imaginary_parts(
+    points: np.ndarray, accuracy: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The largest of each point, its error, and what it may be of a real zero, each ``(k,)``."""
+    sizes = 1 + map_rows(lambda some: np.abs(some).max(axis=1, initial=0.0), points)
+    imaginary = map_rows(lambda some: np.abs(some.imag).max(axis=1, initial=0.0), points)
+    return imaginary, SAFETY * sizes * accuracy, REAL * sizes

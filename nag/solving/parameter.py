@@ -64,6 +64,8 @@ class Solved(FixedArrays):
         detail: how they were found.
         classes: one solution of each class, where only these are followed.
         notes: what is to be said of a number of solutions that is given.
+        positive_dimensional: whether there is a solution set of positive dimension besides, as far
+            as it was met.
     """
 
     family: Family
@@ -73,6 +75,7 @@ class Solved(FixedArrays):
     detail: str = ""
     classes: SolvedClasses | None = None
     notes: tuple[str, ...] = ()
+    positive_dimensional: bool = False
 
     __eq__ = equal_values
 
@@ -144,7 +147,8 @@ def _solve_from_rational(family: Family, values: np.ndarray, start: str, run: Ru
     points = np.array(simple, dtype=np.complex128).reshape(len(simple), family.n)
     ends = move_regular(family, np.array([complex(v) for v in here]), points, values, run)
     complete = result.complete and len(ends) == len(result.solutions)
-    return Solved(family, values, ends, complete)
+    infinite = result.positive_dimensional
+    return Solved(family, values, ends, complete, positive_dimensional=infinite)
 
 
 def move_regular(

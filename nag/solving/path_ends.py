@@ -438,7 +438,7 @@ def _solutions(
 ) -> tuple[Solutions, Solutions, tuple[str, ...]]:
     """The solutions where nothing vanishes that must not, and those that were left out; notes."""
     points, accuracy = isolated.points, isolated.accuracy.copy()
-    real = which_are_real(isolated)
+    real = which_are_real(points, accuracy, isolated.fine)
     # Where the unit is known for i, conjugates solve another system.
     paired = problem.system.imaginary or bool(
         conjugates_present(points, accuracy, isolated.multiplicity, real)

@@ -19,10 +19,10 @@ from nag.algebra.imaginary_unit import as_real, has_unit, real_and_imaginary_par
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import Completeness, ZeroCount
-from nag.numerics.coincidence import SAFETY
 from nag.numerics.system_facts import SystemFacts
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
 from nag.solving.branch_solutions import solve_branches, solve_exactly
+from nag.solving.isolated_zero import are_within_errors
 from nag.solving.missing_zeros import find_at_lost_paths, find_by_sizes
 from nag.solving.path_search import Bound, PathSearch, SolveTask
 from nag.solving.solutions import Solution, SolveResult
@@ -91,13 +91,13 @@ def solve(
 def leave_out_conjugate(result: SolveResult, system: PolynomialSystem) -> SolveResult:
     """The solutions in which the imaginary unit is i; those with -i are the conjugate system's."""
 
-    parts = real_and_imaginary_parts(system).polynomials
+    both, parts = as_real(system), real_and_imaginary_parts(system).polynomials
 
     def chosen(solutions: Sequence[Solution]) -> tuple[Solution, ...]:
         kept = (s for s in solutions if s.point[-1].imag > 0)
         # What paths lead to is the unit to rounding; it is known exactly.
         exact = (replace(s, point=np.append(s.point[:-1], 1j)) for s in kept)
-        return tuple(replace(s, real=_is_real(s, system, parts)) for s in exact)
+        return tuple(replace(s, real=is_real_zero(s.point, s.accuracy, both, parts)) for s in exact)
 
     def points(found: np.ndarray) -> np.ndarray:
         return found[has_unit(found)]
@@ -121,19 +121,22 @@ def leave_out_conjugate(result: SolveResult, system: PolynomialSystem) -> SolveR
     )
 
 
-def _is_real(solution: Solution, system: PolynomialSystem, parts: Sequence[Polynomial]) -> bool:
-    """Whether all coordinates but the imaginary unit are real.
+def is_real_zero(
+    point: np.ndarray, accuracy: float, system: PolynomialSystem, parts: Sequence[Polynomial]
+) -> bool:
+    """Whether all coordinates of a zero but the last one, the imaginary unit, are real.
 
     Conjugates are no zeros here, so that a small imaginary part says nothing; at a real zero the
     real and the imaginary parts of all equations vanish.
+
+    Args:
+        point: the zero, shape ``(n,)``; accuracy: its relative error.
+        system: the equations, the unit's own among them, as `as_real` gives them.
+        parts: `real_and_imaginary_parts` of the equations.
     """
-    x = solution.point[:-1]
-    size = 1 + np.abs(x).max(initial=0.0)
-    if np.abs(x.imag).max(initial=0.0) > SAFETY * size * solution.accuracy:
+    if not are_within_errors(point[None, :-1], np.array([accuracy]))[0]:
         return False
-    zeros = possible_zeros(
-        as_real(system).polynomials, solution.point, solution.accuracy, np.random.default_rng(0)
-    )
+    zeros = possible_zeros(system.polynomials, point, accuracy, np.random.default_rng(0))
     return all(vanishes_at_all(zeros, f) is not False for f in parts)
 
 
