@@ -180,6 +180,9 @@ def test_members_with_a_set_of_positive_dimension_are_told(
     assert f"member{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}" in str(found)
     frame = found.to_dataframe()
     assert frame["positive_dimensional"].tolist() == np.repeat(infinite, counts).tolist()
+    each = found.to_dataframe(members=True)
+    assert each["member"].tolist() == list(range(len(values))) and each["a"].dtype == float
+    assert each.drop(columns=["member", "a", "b"]).to_dict("records") == members
 
 
 def test_the_command_names_members_with_a_set_of_positive_dimension(

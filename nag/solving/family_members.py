@@ -9,7 +9,7 @@ so, without its family. Whether a zero is real is decided as `nag.solving.solve.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Hashable, Sequence
+from collections.abc import Generator, Hashable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, field, replace
@@ -179,48 +179,67 @@ class FamilySolutions(Several[ComplexArray]):
         labels = ", ".join(str(self.labels[k]) for k in places[:NAMED])
         return f"{named}, in the index {labels}{more}"
 
-    def to_dataframe(self, real: bool = False, *, parts: bool = False) -> pandas.DataFrame:
+    def to_dataframe(
+        self, real: bool = False, *, parts: bool = False, members: bool = False
+    ) -> pandas.DataFrame:
         """A row for each solution: its member, parameters, coordinates, and what is known of it.
 
         The column ``member`` has the index of the frame that the values came in, so that the two
-        can be joined on it; of other values it counts members from 0, in their order. Of a member
-        without isolated solutions there is no row.
+        can be joined on it; of other values it counts members from 0, in their order. A member
+        without isolated solutions has no row, whatever else it has.
 
         Args:
             real: only the real ones, their coordinates as floats.
             parts: two columns of floats for each complex one, ``x.real`` and ``x.imag``, which can
                 be written to any file of tables.
+            members: a row for each member instead: its parameters, how many solutions it has, and
+                what is known of these, as in `document`.
 
         Raises:
             nag.NagError: if pandas is not installed.
         """
-        members, places = np.nonzero(self.is_real if real else self.status <= PathStatus.SINGULAR)
-        points = self.points[members, places]
-        # Values that are all real are floats, as they were given.
-        values = self.values if self.values.imag.any() else self.values.real
-        own = dict(zip(self.parameters, values[members].T, strict=True))
-        own |= dict(zip(self.variables, (points.real if real else points).T, strict=True))
-        facts = {
-            "real": self.is_real[members, places],
-            "error": self.errors[members, places],
-            "positive_dimensional": self.positive_dimensional[members],
-        }
-        called: Any = members
+        if members:
+            rows = np.arange(len(self))
+            own: dict[str, Any] = self._parameters_of(rows)
+            facts: dict[str, Any] = self._columns_of_members
+        else:
+            chosen = self.is_real if real else self.status <= PathStatus.SINGULAR
+            rows, places = np.nonzero(chosen)
+            points = self.points[rows, places]
+            own = self._parameters_of(rows)
+            own |= dict(zip(self.variables, (points.real if real else points).T, strict=True))
+            facts = {
+                "real": self.is_real[rows, places],
+                "error": self.errors[rows, places],
+                "positive_dimensional": self.positive_dimensional[rows],
+            }
+        called: Any = rows
         if self.labels is not None:
-            called = [self.labels[k] for k in members.tolist()]
+            called = [self.labels[k] for k in rows.tolist()]
         columns = named_apart(own, {"member": called} | facts)
         first = next(name for name in columns if name not in own)
         return data_frame({first: called} | columns, parts)
 
-    def document(self) -> dict[str, Any]:
-        """The numbers of solutions of each member as a JSON object, the solutions left out."""
-        columns = {
+    def _parameters_of(self, members: np.ndarray) -> dict[str, Any]:
+        """The parameters of some members by their names."""
+        # Values that are all real are floats, as they were given.
+        values = self.values if self.values.imag.any() else self.values.real
+        return dict(zip(self.parameters, values[members].T, strict=True))
+
+    @property
+    def _columns_of_members(self) -> dict[str, np.ndarray]:
+        """Numbers of solutions of each member, and what is known of these, each ``(M,)``."""
+        return {
             "solutions": self.counts,
             "real": self.real_counts,
             "complete": self.complete,
             "one_by_one": self.one_by_one,
             "positive_dimensional": self.positive_dimensional,
         }
+
+    def document(self) -> dict[str, Any]:
+        """The numbers of solutions of each member as a JSON object, the solutions left out."""
+        columns = self._columns_of_members
         numbers = zip(*(column.tolist() for column in columns.values()), strict=True)
         return {
             "variables": list(self.variables),
@@ -321,7 +340,7 @@ def family_of(
 
 def labels_of(values: Any) -> tuple[Hashable, ...] | None:
     """The index of a DataFrame or a Series, unless that counts from 0; None of other values."""
-    index = getattr(values, "index", None)
+    index: Any = getattr(values, "index", None)
     if not hasattr(index, "tolist"):
         return None
     labels = tuple(index.tolist())
@@ -479,11 +498,16 @@ def solve_members(
     arrays = (points, status, errors, one_by_one, complete, is_real, infinite)
     done = 0
 
+    def of_arrays(
+        own: np.ndarray, columns: Iterable[np.ndarray], called: tuple[Hashable, ...] | None
+    ) -> FamilySolutions:
+        named: dict[str, Any] = dict(zip(ARRAYS, columns, strict=True))
+        return FamilySolutions(solved, own, labels=called, **named)
+
     def first_members() -> FamilySolutions:
         # What is told stays as it is, while the others are solved.
         called = None if labels is None else labels[:done]
-        first = (array[:done].copy() for array in (values, *arrays))
-        return FamilySolutions(solved, *first, labels=called)
+        return of_arrays(values[:done].copy(), (a[:done].copy() for a in arrays), called)
 
     # What is under way ends before what was found is told.
     with TellFound(run, first_members) as tell, closing(_track_all(solved, values, run)) as tracked:
@@ -506,7 +530,7 @@ def solve_members(
             infinite[member] = own.positive_dimensional
             tell(number + 1 < len(alone))
     # The values may be the caller's; the others are nobody else's, and large.
-    return FamilySolutions(solved, values, *map(handed_over, arrays), labels=labels)
+    return of_arrays(values, (handed_over(array) for array in arrays), labels)
 
 
 def _which_are_real(family: Family, values: np.ndarray, block: _Block) -> np.ndarray:
