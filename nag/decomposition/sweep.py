@@ -14,6 +14,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
+from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -192,22 +193,26 @@ def sweep(
 
     Args:
         system_at: the exact system at a rational value.
-        values: two or more.
+        values: each is worked out once, however often it is there.
         run: how it is worked out; its ``found`` is told of the values that are done.
     """
     told, run = run.found, run.without_found
     how, rng = run, run.random(13)
-    general, reason = _general(system_at, values, rng, run)
-    swept = []
-    for k, value in enumerate(values):
+    distinct = list(dict.fromkeys(values))
+    general, reason = None, "a single value: there is no other one to follow components from"
+    if len(distinct) > 1:
+        general, reason = _general(system_at, distinct, rng, run)
+    swept: dict[Fraction, Swept] = {}
+    for k, value in enumerate(distinct):
         system = system_at(value)
-        run = _tell_as_value(how, k, len(values))
+        run = _tell_as_value(how, k, len(distinct))
         call = general, reason, system, value
         read = partial(_unpack_member, system, run)
-        swept.append(blocks.keep_result(_find_components_at, call, run, _pack_member, read))
-        if told is not None and len(swept) < len(values):
-            told(list(swept))
-    return swept
+        swept[value] = blocks.keep_result(_find_components_at, call, run, _pack_member, read)
+        if told is not None and len(swept) < len(distinct):
+            # In the order of the values, as far as each is known.
+            told([swept[each] for each in takewhile(swept.__contains__, values)])
+    return [swept[value] for value in values]
 
 
 def _tell_as_value(run: Run, done: int, count: int) -> Run:
