@@ -656,7 +656,8 @@ def sweep_parameter(
     Args:
         given: a case with parameters, or the name of its file.
         parameter: the name of one.
-        values: two or more, exact: numbers, or texts as ``"1/3"``.
+        values: two or more, exact: numbers, or texts as ``"1/3"``; each is worked out once, however
+            often it is there.
         formulation: of a mechanism's model, as for `nag.model`; that of the first value for all.
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
@@ -2037,9 +2038,14 @@ def check_statements(given: Any = None, *, run: Run = DEFAULT_RUN) -> CheckedSta
 class Certified:
     """What was proved of a result.
 
+    True where all is proved that is said of the points, and nothing is to be said against the rest;
+    that there is nothing else may rest on evidence all the same, see ``complete``.
+
     Attributes:
         rows: labelled lines, which say how long it took as well, and are not compared.
-        all_proved: whether nothing was refuted or left open.
+        all_proved: whether each point, and each path or loop that was asked for, is proved, none of
+            them by evidence only, and no statement of the result is refuted, doubted, or was looked
+            at in vain.
         certificate, paths: of the points, and of the paths or loops, if they were asked for.
         claims: how every statement of an export of the result stands.
     """
@@ -2062,23 +2068,40 @@ class Certified:
 
     @property
     def complete(self) -> bool:
-        """Whether nothing was left open: the same as `all_proved`."""
-        return self.all_proved
+        """Whether it is proved that there are no other solutions, or components."""
+        return self.certificate.complete
 
     def document(self) -> dict[str, Any]:
         """The boxes, and what is claimed, as a JSON object."""
-        return self.certificate.document(self.claims, self.paths)
+        document = self.certificate.document(self.claims, self.paths)
+        return document | {"all_proved": self.all_proved, "complete": self.complete}
 
     def __bool__(self) -> bool:
         return self.all_proved
 
     def __repr__(self) -> str:
-        return f"<Certified: {'all proved' if self.all_proved else 'NOT all proved'}>"
+        from nag.numerics.claims import Standing, stands
+
+        proved = "all points proved" if self.all_proved else "NOT all proved"
+        complete = Standing.PROVED if self.complete else stands(self.claims, "complete")
+        said = "not proved" if complete is Standing.UNSEEN else str(complete)
+        return f"<Certified: {proved}; complete: {said}>"
 
     def __str__(self) -> str:
         from nag.text.table import label_lines
 
         return "\n".join(label_lines(self.rows))
+
+
+_WHOLE = "points are proved together with their system: give all that nag.solve returned"
+# What has points, and is nothing that `certify` takes.
+NOT_CERTIFIED = {
+    ("nag.solving.solutions", "Solution"): _WHOLE,
+    ("nag.solving.solutions", "Solutions"): _WHOLE,
+    ("nag.solving.family_members", "FamilySolutions"): (
+        "members are proved one by one: give what nag.solve returns of one"
+    ),
+}
 
 
 @takes_files
@@ -2098,8 +2121,9 @@ def certify(
         run: a `nag.Run`; its fields, as ``seed=1`` or ``time_limit=60``, may be given one by one.
 
     Returns:
-        What was proved; it is true where nothing was refuted or left open. Its ``found`` is the
-        result.
+        What was proved; it is true where each point is proved, and no statement is refuted or was
+        looked at in vain. Its ``complete`` says whether it is proved that there is nothing else,
+        its ``found`` is the result.
 
     Raises:
         nag.NagError: if ``given`` is nothing of that kind.
@@ -2108,9 +2132,15 @@ def certify(
     >>> bool(nag.certify(nag.solve(["x^2 + y^2 - 1", "x - y"])))
     True
     >>> proved = nag.certify("x^2 + y^2 - 1")
+    >>> proved
+    <Certified: all points proved; complete: proved>
     >>> proved.found
     <Decomposition: 1 component of dimension 1, degree 2>
     """
+    one = given[0] if isinstance(given, list | tuple) and given else given
+    for kind, advice in NOT_CERTIFIED.items():
+        if is_a(one, *kind):
+            raise NagError(f"given: {kind[1]} is given; {advice}")
     if is_a(given, "nag.witness.witness", "WitnessSet"):
         given = _of_one_component(given)
     known = is_a(given, "nag.solving.solutions", "SolveResult")

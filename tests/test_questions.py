@@ -10,6 +10,8 @@ import pickle
 import pkgutil
 import re
 from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -24,6 +26,7 @@ import nag
 from nag.cli import main
 from nag.questions import EQUATION_OPTIONS, FILE_OPTIONS
 from nag.real.curve import PictureVerdict
+from nag.solving.certified_paths import PathsError
 
 CIRCLE_AND_LINE = "(x^2 + y^2 - 1)*(x - y)"
 NAG = Path(nag.__file__).parent
@@ -282,6 +285,48 @@ def test_families_are_solved_of_whatever_describes_one(tmp_path: Path) -> None:
     ):
         with pytest.raises(nag.NagError, match=message):
             nag.solve_family(given, ["a"], [[1]])
+
+
+def test_that_nothing_is_missing_is_said_apart_from_what_is_proved_of_points() -> None:
+    linkage = ["c1 + c2 = 1", "s1 + s2 = 1/2", "c1^2 + s1^2 = 1", "c2^2 + s2^2 = 1"]
+    for given, complete in (
+        (nag.solve(["x^2 + y^2 - 1", "x - y"]), "proved"),
+        (nag.solve(linkage), "on evidence"),
+        (nag.decompose(CASES / "rhombus.toml"), "not proved"),
+    ):
+        proved = nag.certify(given)
+        assert repr(proved) == f"<Certified: all points proved; complete: {complete}>"
+        assert proved.all_proved and bool(proved) and proved.document()["all_proved"]
+        assert proved.complete is proved.document()["complete"] is (complete == "proved")
+        (said,) = (value for label, value in proved.rows if label == "complete")
+        assert said.startswith("proved: ") == proved.complete
+        assert ("on evidence these are all" in said) == (complete == "on evidence")
+    refuted = nag.certify(replace(given, components=(*given.components, given.components[0])))
+    assert not refuted and not refuted.all_proved and not refuted.document()["all_proved"]
+    assert repr(refuted).startswith("<Certified: NOT all proved; ")
+
+
+def test_the_document_of_a_certificate_says_of_paths_what_the_certificate_says(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def refuse(found: nag.SolveResult) -> None:
+        raise PathsError("they are too long")
+
+    monkeypatch.setattr("nag.solving.certified_paths.prove_paths", refuse)
+    proved = nag.certify(nag.solve(["x^2 + y^2 - 1", "x - y"]), paths=True)
+    assert not proved and proved.document()["all_proved"] is False
+    assert proved.complete and repr(proved) == "<Certified: NOT all proved; complete: proved>"
+
+
+def test_points_without_their_system_are_refused_by_who_certifies() -> None:
+    found = nag.solve("x^2 - 2")
+    for given, kind in ((found[0], "Solution"), (found[:1], "Solutions"), ([*found], "Solution")):
+        with pytest.raises(nag.NagError) as error:
+            nag.certify(given)
+        text = "points are proved together with their system: give all that nag.solve returned"
+        assert str(error.value) == f"given: {kind} is given; {text}"
+    with pytest.raises(nag.NagError, match="members are proved one by one: give what"):
+        nag.certify(nag.solve_family("x^2 - a", ["a"], [[1]]))
 
 
 def test_what_is_not_solved_yet_is_solved_or_decomposed_to_be_certified() -> None:
@@ -564,6 +609,12 @@ def test_what_an_option_of_decompose_asks_has_a_function(tmp_path) -> None:
         nag.sweep_parameter("cases/rhombus.toml", "b", [1])
     with pytest.raises(nag.NagError, match="a case with parameters"):
         nag.sweep_parameter("x^2 - b", "b", [1, 2])
+    twice = nag.sweep_parameter("cases/rhombus.toml", "b", [1, "1/2", 1])
+    assert [each.value for each in twice] == [1, Fraction(1, 2), 1]
+    assert twice[0] == twice[2] and twice[1] == swept[0] and twice.followed_count == 3
+    same = nag.sweep_parameter("cases/rhombus.toml", "b", [1, 1])
+    assert same[0] == same[1] and not same[0].followed and same.complete
+    assert [(c.dimension, c.degree) for c in same[0].decomposition] == [(1, 2)] * 3
     modes = nag.decompose_modes("cases/bennett.toml")
     assert [len(each.modes.members) for each in modes] == [8, 8]
     assert nag.decompose_modes(nag.read("cases/bennett.toml").mechanism) == modes
@@ -694,7 +745,8 @@ def test_a_variable_that_is_called_like_a_column_has_its_own() -> None:
     assert component["error"].tolist() == component["x"].tolist() and "error_" in component
     family = nag.solve_family("member^2 - real", "real", [4.0]).to_dataframe()
     assert family["real"].tolist() == [4, 4] and family["member"].abs().tolist() == [2, 2]
-    assert [*family.columns] == ["member_", "real", "member", "real_", "error"]
+    facts = ["real_", "error", "positive_dimensional"]
+    assert [*family.columns] == ["member_", "real", "member", *facts]
     assert [*nag.find_real_curve("edge^2 + x^2 - 1").to_dataframe()] == ["edge_", "edge", "x"]
 
 

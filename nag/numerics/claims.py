@@ -174,6 +174,11 @@ def nothing_against(claims: Iterable[Claim]) -> bool:
     return all(claim.standing in GOOD for claim in claims)
 
 
+def stands(claims: Iterable[Claim], field: str) -> Standing:
+    """How it stands that all is true that is said in a field."""
+    return combine_standings([claim.standing for claim in claims if claim.field == field])
+
+
 def claims_rows(claims: Iterable[Claim]) -> list[tuple[str, str]]:
     """How the statements of an export stand that are not proved, as labelled lines."""
     claims = list(claims)

@@ -28,7 +28,7 @@ from nag.numerics.certified_points import (
     distinct_simple,
     points_rows,
 )
-from nag.numerics.claims import CERTIFICATE, Claim, nothing_against
+from nag.numerics.claims import CERTIFICATE, Claim, Standing, nothing_against, stands
 from nag.numerics.krawczyk import find_overlaps, tell_real_zeros
 from nag.numerics.point_claims import (
     find_nonvanishing,
@@ -40,6 +40,7 @@ from nag.solving.solutions import Solution, Solutions, SolveResult
 from nag.solving.start.multihomogeneous import best_groups
 from nag.solving.start.target import Target
 from nag.solving.start.total_degree import bezout
+from nag.text.table import count_text
 from nag.tracking.blocks import share
 
 if TYPE_CHECKING:
@@ -177,10 +178,14 @@ class SolutionsCertificate:
             number = f"{self.bound_name}, {self.bound}"
             text = f"proved: there are no more isolated zeros than {number}"
             if not self.complete:
-                text = f"not proved: {self.zeros} simple zeros are proved"
+                simple = f"{count_text(self.zeros, 'simple zero')} "
+                simple += "is proved" if self.zeros == 1 else "are proved"
+                text = f"not proved: {simple}"
                 if self.solutions_left_out.any():
                     text += ", among them solutions that are said to be excluded"
                 text += f"; there are no more than {number}"
+                if stands(self.claims, "complete") is Standing.EVIDENCE:
+                    text += "; on evidence these are all, as many as are counted modulo two primes"
             rows.append(("complete", text))
         rows.append(cost_row([points], seconds))
         return rows
