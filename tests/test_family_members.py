@@ -146,6 +146,13 @@ def test_close_solutions_are_real_as_they_are_of_each_member_by_itself(a: float)
     assert found.real_counts.tolist() == [len(own.real)] == [2 if a > 0 else 0]
 
 
+@pytest.mark.parametrize("r", [4.0, 1e-20, -1e-20, -1e-26])
+def test_a_solution_whose_conjugate_may_be_missing_is_real_within_its_error(r: float) -> None:
+    found = nag.solve_family(["x = d", "y^2 = r"], "d r", [[1, r]], known=([1, 1], [[1, 1]]))
+    assert not found.complete[0] and found.counts.tolist() == [1]
+    assert found.real_counts.tolist() == [int(r > 0)]
+
+
 @pytest.mark.parametrize("a", [1e-12, 1e-15, 1e-17, 0])
 def test_solutions_of_complex_members_are_real_as_exact_equations_say(a: float) -> None:
     found = nag.solve_family("(x - 5)*(x - 6 - a)", ["a"], [[1j * a], [1]])

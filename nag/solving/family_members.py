@@ -516,7 +516,7 @@ def solve_members(
             status[chunk][block.proved] = PathStatus.REGULAR
             complete[chunk] = block.proved & solved.complete
             infinite[chunk] = block.proved & solved.positive_dimensional
-            is_real[chunk] = _which_are_real(family, values[chunk], block)
+            is_real[chunk] = _which_are_real(solved, values[chunk], block)
             done += len(block.proved)
             run.tell("members", done, M)
             tell(done < M or not proved.all())
@@ -533,17 +533,22 @@ def solve_members(
     return of_arrays(values, (handed_over(array) for array in arrays), labels)
 
 
-def _which_are_real(family: Family, values: np.ndarray, block: _Block) -> np.ndarray:
+def _which_are_real(solved: Solved, values: np.ndarray, block: _Block) -> np.ndarray:
     """Which solutions of some members are real, shape ``(m, S)``; of unproved ones none is said.
 
     Of real equations the conjugate of a zero is a zero: where as many as there can be are distinct,
-    one whose conjugate is no other one is real. Of complex ones exact equations decide.
+    one whose conjugate is no other one is real; where there may be more, its conjugate may be one
+    of these, and its error alone decides. Of complex ones exact equations decide.
     """
-    points, errors = block.points, block.errors
+    family, points, errors = solved.family, block.points, block.errors
     real = np.zeros(errors.shape, dtype=bool)
     has_complex = values.imag.any(axis=1) | family.imaginary
     chosen = block.proved & ~has_complex
-    real[chosen] = which_members_are_real(points[chosen], errors[chosen])
+    if solved.complete:
+        real[chosen] = which_members_are_real(points[chosen], errors[chosen])
+    else:
+        within = are_within_errors(points[chosen].reshape(-1, family.n), errors[chosen].ravel())
+        real[chosen] = within.reshape(-1, errors.shape[1])
     own = points[..., : len(family.own_variables)]
     for k in np.flatnonzero(block.proved & has_complex).tolist():
         near = np.flatnonzero(are_within_errors(own[k], errors[k])).tolist()
