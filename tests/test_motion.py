@@ -114,7 +114,7 @@ def test_joints_fit_as_both_bodies_see_them_and_loops_return(moved, name, formul
 def test_samples_are_equally_far_from_each_other(moved, name, formulation) -> None:
     motion = moved(name, formulation, samples=720)
     (circuit,) = motion.circuits
-    steps = pose_steps(circuit.poses, motion.scene.centres, motion.scene.size)
+    steps = pose_steps(circuit.poses, motion.scene.measure)
     assert steps.max() - steps.min() < 0.01 * steps.mean()
     assert np.diff(circuit.arc) == pytest.approx(np.full(720, circuit.length / 720))
 
@@ -198,7 +198,7 @@ def test_every_point_of_a_motion_in_half_angles_is_one_in_euler_parameters(name:
         assert s[n - 2] > 1e-4 * s[0] and (len(s) < n or s[n - 1] < FIT * s[0])
     scene = scene_of(euler)
     there = scene.lift(own)
-    assert pose_distances(there, poses, scene.centres, scene.size).max() < FIT
+    assert pose_distances(there, poses, scene.measure).max() < FIT
     one, other = (joint_values(*each) for each in ((scene, there), (scene_of(halves), poses)))
     assert np.abs(np.exp(1j * one) - np.exp(1j * other)).max() < FIT
 
@@ -400,8 +400,45 @@ def test_a_spherical_joint_turns_by_half_a_turn_as_by_any_other() -> None:
     for circuit in motion.circuits:
         assert circuit.closed and not circuit.crossings
         assert joint_errors(scene, circuit.poses).max() < FIT
-        steps = pose_steps(circuit.poses, scene.centres, scene.size)
+        steps = pose_steps(circuit.poses, scene.measure)
         assert steps.max() < 1.01 * circuit.length / 120
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_how_a_rod_turns_about_itself_changes_nothing(seed: int) -> None:
+    """A rod between balls comes to point nearly against the direction that it is drawn in.
+
+    With a universal joint for one of the balls, whose second axis is across the rod, it comes to
+    all the same places and does not turn about itself.
+    """
+
+    def moved_with(kind: str, *axes: tuple[int, int, int]) -> nag.Motion:
+        joints = (
+            nag.Joint("A", "revolute", ("g", "c"), (0, 1, 3), (3, 0, 0)),
+            nag.Joint("D", "revolute", ("g", "o"), (2, -1, 1), (-2, 3, -1)),
+            nag.Joint("B", kind, ("c", "r"), (-1, -1, -5), *axes),
+            nag.Joint("C", "spherical", ("r", "o"), (-5, -5, 1)),
+        )
+        return nag.motion(nag.Mechanism("g", joints), seed=seed)
+
+    free, held = moved_with("spherical"), moved_with("universal", (0, 0, 1), (1, -1, 0))
+    assert free.scene.rods and not held.scene.rods
+    assert len(free.circuits) == len(held.circuits) == 1
+    for name in ("A", "D"):
+        ends = []
+        for motion in (free, held):
+            values = motion.circuits[0].values
+            dead = [p.value for p in values.turning if p.coordinate == name]
+            ends.append(np.unique(np.round(np.mod(dead, 2 * np.pi), 9)))
+        assert len(ends[0]) == len(ends[1]) == 2
+        assert ends[0] == pytest.approx(ends[1], abs=1e-8)
+    (circuit,), scene = free.circuits, free.scene
+    assert joint_errors(scene, circuit.poses).max() < FIT
+    # Its frame is carried along, and comes back.
+    turns, r = circuit.poses.turns, scene.bodies.index("r")
+    assert np.linalg.norm(np.diff(turns[r], axis=0), axis=-1).max() < 0.2
+    assert abs(turns[r, 0] @ turns[r, -1]) == pytest.approx(1.0, abs=1e-12)
+    assert pose_steps(circuit.poses, scene.measure).max() < 1.01 * circuit.length / 360
 
 
 def test_the_table_has_a_column_for_each_number(moved) -> None:

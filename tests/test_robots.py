@@ -7,6 +7,7 @@ from fractions import Fraction
 from math import atan2
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import nag
@@ -411,3 +412,18 @@ def test_an_arm_whose_held_hand_keeps_it_still_is_told_how_its_postures_are_foun
     assert "2 real assemblies" in capsys.readouterr().out
     assert main(["motion", path, "--quiet"]) == 2
     assert "--hold" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "orientation",
+    ['zaxis="0 -1 0"', 'axisangle="1 0 0 90"', 'xyaxes="1 0 0 0 0 1"', 'euler="90 0 0"'],
+)
+def test_each_way_to_write_an_orientation_says_the_same(tmp_path: Path, orientation: str) -> None:
+    path = tmp_path / "arm.xml"
+    path.write_text(
+        f'<mujoco><worldbody><body name="a" {orientation}><joint name="j"/></body></worldbody>'
+        "</mujoco>"
+    )
+    (joint,) = read_case(path).mechanism.joints
+    axis = np.array([float(x) for x in joint.axis])
+    assert axis / np.linalg.norm(axis) == pytest.approx([0, -1, 0], abs=1e-15)

@@ -59,6 +59,9 @@ class EqualSides:
 
 def equal_sides(mechanism: Mechanism) -> EqualSides | None:
     """The mechanism as a planar four-bar with rational equal opposite sides, or None."""
+    # Models of many bodies take long.
+    if len(mechanism.joints) != 4:
+        return None
     try:
         made = model(mechanism, "E")
     except ModelError:

@@ -363,7 +363,7 @@ def _displacement(made: Model, pose: Pose) -> GivenFrame:
 
 def is_same_assembly(scene: Scene, one: DrivenAssembly, other: DrivenAssembly) -> bool:
     """Whether two assemblies are the same configuration, as where circuits cross."""
-    return bool(pose_distances(one.poses, other.poses, scene.centres, scene.size)[0] < SAME)
+    return bool(pose_distances(one.poses, other.poses, scene.measure)[0] < SAME)
 
 
 def has_value(scene: Scene, assembly: DrivenAssembly, drive: Drive) -> bool:

@@ -290,7 +290,7 @@ def _gap(scene: Scene, one: Poses, other: Poses) -> float:
     count, most = len(one), len(other)
     left = Poses(np.repeat(one.turns, most, axis=1), np.repeat(one.places, most, axis=1))
     right = Poses(np.tile(other.turns, (1, count, 1)), np.tile(other.places, (1, count, 1)))
-    distances = pose_distances(left, right, scene.centres, scene.size).reshape(count, most)
+    distances = pose_distances(left, right, scene.measure).reshape(count, most)
     return float(max(distances.min(axis=0).max(), distances.min(axis=1).max()))
 
 

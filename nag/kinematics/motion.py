@@ -38,7 +38,7 @@ from nag.kinematics.path import (
     interpolate_ahead,
     sample_path,
 )
-from nag.kinematics.poses import SAME, Poses, join_poses, pose_distances
+from nag.kinematics.poses import SAME, Poses, join_poses, pose_distances, steady_rods
 from nag.kinematics.rigid_assemblies import (
     Configurations,
     RigidAssemblies,
@@ -1039,13 +1039,15 @@ def _sample(
     values = values_along(path, on_reference)
     # Euler parameters may run twice through all configurations, with other signs.
     half = path.poses.at(slice(0, samples + 1)), path.poses.at(slice(samples, None))
-    centres, size = curve.scene.centres, curve.scene.size
     spacing = path.length / (2 * samples)
-    twice = walk.closed and bool((pose_distances(*half, centres, size) < BESIDE * spacing).all())
+    twice = walk.closed and bool(
+        (pose_distances(*half, curve.scene.measure) < BESIDE * spacing).all()
+    )
     step = slice(0, samples + 1) if twice else slice(0, None, 2)
     poses = path.poses.at(step)
     if twice:
         poses = _return_to_start(poses)
+    poses = steady_rods(poses, curve.scene.rods, walk.closed).with_continuous_signs()
     return _FoundCircuit(
         Circuit(
             number,
@@ -1197,7 +1199,7 @@ def _is_same_motion(scene: Scene, one: _FoundCircuit, other: _FoundCircuit) -> b
             np.repeat(a.poses.turns[:, i : i + 1], len(b.poses), axis=1),
             np.repeat(a.poses.places[:, i : i + 1], len(b.poses), axis=1),
         )
-        distances = pose_distances(at, b.poses, scene.centres, scene.size)
+        distances = pose_distances(at, b.poses, scene.measure)
         if distances.min() > (0.5 + BESIDE) * spacing:
             return False
     return True
@@ -1243,7 +1245,7 @@ def _same_poses(places: Sequence[_SingularPlace]) -> np.ndarray:
     rows = []
     for i in range(len(places)):
         alone = every.at(np.full(len(places), i))
-        rows.append(pose_distances(alone, every, scene.centres, scene.size) < SAME)
+        rows.append(pose_distances(alone, every, scene.measure) < SAME)
     return np.array(rows)
 
 

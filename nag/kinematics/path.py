@@ -401,7 +401,7 @@ def _beside_turns(walk: CurveWalk) -> np.ndarray:
 
 
 def _steps(curve: Curve, chart: np.ndarray) -> np.ndarray:
-    return pose_steps(curve.poses(chart), curve.scene.centres, curve.scene.size)
+    return pose_steps(curve.poses(chart), curve.scene.measure)
 
 
 def _interpolate(

@@ -88,6 +88,44 @@ class Poses(FixedArrays):
         return Poses(self.turns * signs[:, :, None], self.places)
 
 
+@dataclass(frozen=True, eq=False)
+class FreeRod(FixedArrays):
+    """Bodies, fixed to each other, that turn about a line as they like.
+
+    Attributes:
+        bodies: indices.
+        ends: two points of the line in the frame of each, shape ``(bodies, 2, 3)``.
+    """
+
+    bodies: tuple[int, ...]
+    ends: RealArray
+
+    __eq__ = equal_values
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "ends", handed_over(self.ends))
+
+    def direction(self, k: int) -> RealArray:
+        """Unit vector along the line in the frame of the ``k``-th of its bodies."""
+        span = self.ends[k, 1] - self.ends[k, 0]
+        return np.asarray(span / np.linalg.norm(span))
+
+
+@dataclass(frozen=True, eq=False)
+class PoseMeasure:
+    """By what configurations are compared: the same in whatever coordinates they were found.
+
+    Attributes:
+        centres: a point of each body, in its frame, shape ``(bodies, 3)``; of free rods on the line.
+        size: a length.
+        rods: bodies of which only the line counts that they turn about.
+    """
+
+    centres: np.ndarray
+    size: float
+    rods: tuple[FreeRod, ...] = ()
+
+
 def join_poses(several: Sequence[Poses]) -> Poses:
     """The configurations of all of them, one after another."""
     return Poses(
@@ -96,29 +134,59 @@ def join_poses(several: Sequence[Poses]) -> Poses:
     )
 
 
-def pose_steps(poses: Poses, centres: np.ndarray, size: float) -> np.ndarray:
+def pose_steps(poses: Poses, measure: PoseMeasure) -> np.ndarray:
     """How far configurations are from the ones before them, shape ``(k - 1,)``.
 
     The root of the sum over bodies of the squared angle turned by, and of the squared way of a
-    point of each over ``size``: the same in whatever coordinates the points were found.
-
-    Args:
-        centres: that point in each body's frame, shape ``(bodies, 3)``.
+    point of each over the size. Turns of free rods about themselves do not count.
     """
-    return pose_distances(poses.at(slice(1, None)), poses.at(slice(None, -1)), centres, size)
+    return pose_distances(poses.at(slice(1, None)), poses.at(slice(None, -1)), measure)
 
 
-def pose_distances(one: Poses, other: Poses, centres: np.ndarray, size: float) -> np.ndarray:
+def pose_distances(one: Poses, other: Poses, measure: PoseMeasure) -> np.ndarray:
     """The same between configurations of two lists, those with the same number."""
     # Chords of unit quaternions: arc cosines lose half of the digits where turns are alike.
     chords = np.sqrt(np.maximum(_least_square(one.turns, other.turns), 0.0))
     angles = 4 * np.arcsin(np.minimum(chords / 2, 1.0))
+    for rod in measure.rods:
+        for k, body in enumerate(rod.bodies):
+            along = rod.direction(k)
+            chord = np.linalg.norm(one.turn(body, along) - other.turn(body, along), axis=-1)
+            angles[body] = 2 * np.arcsin(np.minimum(chord / 2, 1.0))
     ways = one.places - other.places
-    for body, centre in enumerate(centres):
+    for body, centre in enumerate(measure.centres):
         ways[body] += turn_vectors(one.turns[body], centre)
         ways[body] -= turn_vectors(other.turns[body], centre)
-    squares = (angles**2).sum(axis=0) + (ways**2).sum(axis=(0, 2)) / size**2
+    squares = (angles**2).sum(axis=0) + (ways**2).sum(axis=(0, 2)) / measure.size**2
     return np.sqrt(squares)
+
+
+def steady_rods(poses: Poses, rods: Sequence[FreeRod], closed: bool) -> Poses:
+    """The same with rods that turn about themselves as little as possible along the way.
+
+    What is left of it after a closed motion is spread over all of that.
+    """
+    turns, places = poses.turns.copy(), poses.places.copy()
+    for rod in rods:
+        first = rod.bodies[0]
+        along, own = poses.turn(first, rod.direction(0)), poses.turns[first]
+        before, after = along[:-1], along[1:]
+        product = (before * after).sum(axis=-1, keepdims=True)
+        least = np.concatenate([1 + product, np.cross(before, after)], axis=-1)
+        least /= np.linalg.norm(least, axis=-1, keepdims=True)
+        more = turn_product(own[1:], turn_back(turn_product(least, own[:-1])))
+        each = 2 * np.arctan2((more[:, 1:] * after).sum(axis=-1), more[:, 0])
+        angles = -np.concatenate([[0.0], np.cumsum(each)])
+        if closed:
+            left = (angles[-1] + np.pi) % (2 * np.pi) - np.pi
+            angles -= left * np.linspace(0, 1, len(angles))
+        half = angles[:, None] / 2
+        spin = np.concatenate([np.cos(half), np.sin(half) * along], axis=-1)
+        fixed = poses.move(first, rod.ends[0, 0])
+        for body in rod.bodies:
+            turns[body] = turn_product(spin, poses.turns[body])
+            places[body] = fixed + turn_vectors(spin, poses.places[body] - fixed)
+    return Poses(turns, places)
 
 
 def _least_square(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -111,7 +111,7 @@ def distinct_assemblies(scene: Scene, assemblies: Sequence[DrivenAssembly]) -> l
     kept: list[int] = []
     for i in range(len(assemblies)):
         before, own = every.at(np.array(kept, dtype=int)), every.at(np.full(len(kept), i))
-        if not (pose_distances(own, before, scene.centres, scene.size) < SAME).any():
+        if not (pose_distances(own, before, scene.measure) < SAME).any():
             kept.append(i)
     return [assemblies[i] for i in kept]
 

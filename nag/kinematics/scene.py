@@ -17,7 +17,14 @@ from typing import Any
 import numpy as np
 
 from nag.errors import NagError
-from nag.kinematics.poses import Poses, turn_back, turn_product, turn_vectors
+from nag.kinematics.poses import (
+    FreeRod,
+    PoseMeasure,
+    Poses,
+    turn_back,
+    turn_product,
+    turn_vectors,
+)
 from nag.mechanism import PLATFORM_ALONE
 from nag.mechanism.configuration import Configuration, as_entries
 from nag.mechanism.dh import DHEulerModel, DHModel
@@ -83,6 +90,7 @@ class Scene(FixedArrays):
         points: named points, each as a body's index and a place in its frame: of frameworks, and
             pins of a single link.
         variables: those of the equations.
+        rods: bodies that turn about a line as they like, which the equations leave out.
         lift: poses at points, shape ``(k, n)``.
         lift_all: of equations of which a point stands for several configurations, all real ones
             above points: which of these each is above, their poses, and what is not known.
@@ -99,14 +107,26 @@ class Scene(FixedArrays):
     lift_all: Callable[[np.ndarray, Run], tuple[np.ndarray, Poses, list[str]]] | None = field(
         default=None, compare=False
     )
+    rods: tuple[FreeRod, ...] = ()
 
     __eq__ = equal_values
 
     @property
     def centres(self) -> np.ndarray:
-        """The middle of each body's joints and named points, in its frame: ``(bodies, 3)``."""
+        """The middle of each body's joints and named points, in its frame: ``(bodies, 3)``.
+
+        Of bodies that turn about a line the middle of its ends.
+        """
         places = [self._places_on(body) for body in range(len(self.bodies))]
+        for rod in self.rods:
+            for body, ends in zip(rod.bodies, rod.ends, strict=True):
+                places[body] = list(ends)
         return np.array([np.mean(own, axis=0) if own else np.zeros(3) for own in places])
+
+    @cached_property
+    def measure(self) -> PoseMeasure:
+        """By what its configurations are compared."""
+        return PoseMeasure(self.centres, self.size, self.rods)
 
     def _places_on(self, body: int) -> list[np.ndarray]:
         """Joints and named points of a body, in its frame.
@@ -225,7 +245,23 @@ def _of_mechanism(made: Model) -> Scene:
         made.system.variables,
         partial(_lift_mechanism, made),
         partial(_lift_poses, made) if made.formulation == PLATFORM_ALONE else None,
+        _free_rods(made, back),
     )
+
+
+def _free_rods(made: Model, back: np.ndarray) -> tuple[FreeRod, ...]:
+    """The rods of a model by distances, in the frames of bodies, to which ``back`` turns."""
+    from nag.mechanism.rods import RodModel
+
+    if not isinstance(made.form, RodModel):
+        return ()
+    names = made.mechanism.body_names
+    found = []
+    for rod in made.form.rods:
+        bodies = tuple(names.index(b) for b in rod.frames)
+        ends = [[_vector(end) for end in rod.ends_on(b)] for b in rod.frames]
+        found.append(FreeRod(bodies, turn_vectors(back[list(bodies)][:, None], np.array(ends))))
+    return tuple(found)
 
 
 def _lift_mechanism(made: Model, points: np.ndarray) -> Poses:

@@ -94,6 +94,14 @@ class Rod:
     def __post_init__(self) -> None:
         object.__setattr__(self, "frames", fixed_mapping(self.frames))
 
+    def ends_on(self, body: str) -> tuple[tuple[Number, ...], tuple[Number, ...]]:
+        """Both ends as one of its bodies carries them, where that is drawn."""
+        own = next(b for b in self.ends[0].bodies if b in self.frames)
+        first = move_place(self.frames[own], self.ends[0].point)
+        second = tuple(x + y for x, y in zip(first, self.span, strict=True))
+        back = dual_conjugate(self.frames[body])
+        return tuple(move_place(back, first)), tuple(move_place(back, second))
+
 
 @dataclass(frozen=True)
 class RodModel:

@@ -265,7 +265,7 @@ def _quaternion_of(vectors: list[list[float]]) -> list[float] | None:
 
     first = np.array(vectors[0]) / math.hypot(*vectors[0])
     if len(vectors) == 1:
-        x, y, z = first
+        x, y, z = first.tolist()
         if z < 0 and x == y == 0:
             return [0.0, 1.0, 0.0, 0.0]
         return [1.0 + z, -y, x, 0.0]
