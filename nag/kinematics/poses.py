@@ -116,7 +116,8 @@ class PoseMeasure:
     """By what configurations are compared: the same in whatever coordinates they were found.
 
     Attributes:
-        centres: a point of each body, in its frame, shape ``(bodies, 3)``; of free rods on the line.
+        centres: a point of each body, in its frame, shape ``(bodies, 3)``; of a free rod one on its
+            line.
         size: a length.
         rods: bodies of which only the line counts that they turn about.
     """
