@@ -7,6 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.witness import cutting_in_digits
@@ -66,3 +67,46 @@ def test_a_number_for_an_unknown_does_not_change_the_sizes_of_the_others(monkeyp
     assert with_number.powers.tolist() == [-40, 0, 0]
     monkeypatch.undo()
     assert alone.powers.tolist() == [-40, 0, 0]
+
+
+# Curves and 15 points; mixed and moved, so that at many points of the curves all derivatives are
+# rounding errors.
+CURVES_AND_POINTS = (
+    "-2*a^2*b^2 + 4*a^2*b*c - 5*a^2*c^2 - 12*a^2*c*d + a^2*c - 11*a^2*d^2 + a^2*d + 4*a^2 "
+    "- 8*a*b^3 + 16*a*b^2*c + 2*a*b^2 - 20*a*b*c^2 - 48*a*b*c*d - 44*a*b*d^2 + 4*a*b*d + "
+    "16*a*b + 4*a*c^2 + 8*a*c*d + 8*a*d^2 - 4*a - 8*b^4 + 16*b^3*c + 4*b^3 - 20*b^2*c^2 - "
+    "48*b^2*c*d - 4*b^2*c - 43*b^2*d^2 + 3*b^2*d + 16*b^2 + 8*b*c^2 - 2*b*c*d^2 + "
+    "18*b*c*d + 16*b*d^2 - 8*b - c^2*d + 2*c^2 - 4*c*d^3 + c*d^2 + 8*c*d - 2*c - 4*d^4 + "
+    "2*d^3 + 6*d^2 - 2*d",
+    "2*a^2*b^2 - 4*a^2*b*c + 2*a^2*c^2 + 2*a^2*c + 4*a^2*d - 4*a^2 + 8*a*b^3 - 16*a*b^2*c "
+    "- 2*a*b^2 + 8*a*b*c^2 + 12*a*b*c + 16*a*b*d - 16*a*b - 4*a*c^2 - 8*a*c*d - 8*a*d^2 + "
+    "4*a + 8*b^4 - 16*b^3*c - 4*b^3 + 7*b^2*c^2 - 4*b^2*c*d + 16*b^2*c - 5*b^2*d^2 + "
+    "16*b^2*d - 14*b^2 + 2*b*c^3 + 8*b*c^2*d - 7*b*c^2 + 10*b*c*d^2 - 12*b*c*d - 4*b*c - "
+    "11*b*d^2 + 6*b - c^4 - 4*c^3*d - c^3 - 7*c^2*d^2 - 4*c^2*d + 6*c^2 - 8*c*d^3 - "
+    "3*c*d^2 + 16*c*d - 2*c - 8*d^4 + 4*d^3 + 16*d^2 - 8*d",
+    "a^2*b^2 - 2*a^2*b*c + 4*a^2*c^2 + 12*a^2*c*d - 2*a^2*c + 13*a^2*d^2 - 5*a^2*d - "
+    "2*a^2 + 4*a*b^3 - 8*a*b^2*c - a*b^2 + 16*a*b*c^2 + 48*a*b*c*d - 6*a*b*c + 52*a*b*d^2 "
+    "- 20*a*b*d - 8*a*b - 2*a*c^2 - 4*a*c*d - 4*a*d^2 + 2*a + 4*b^4 - 8*b^3*c - 2*b^3 + "
+    "15*b^2*c^2 + 44*b^2*c*d - 4*b^2*c + 48*b^2*d^2 - 21*b^2*d - 6*b^2 + 2*b*c^3 + "
+    "8*b*c^2*d - 3*b*c^2 + 8*b*c*d^2 - 2*b*c*d - 4*b*c - 3*b*d^2 + 2*b - c^4 - 4*c^3*d - "
+    "c^3 - 2*c^2*d^2 - 5*c^2*d - 2*c^2 + 8*c*d^3 - 7*c*d^2 - 16*c*d + 6*c + 8*d^4 - 4*d^3 "
+    "- 18*d^2 + 10*d",
+    "a^2*b^2 - 2*a^2*b*c + 2*a^2*c^2 + 4*a^2*c*d + 4*a^2*d^2 - 2*a^2 + 4*a*b^3 - "
+    "8*a*b^2*c - a*b^2 + 8*a*b*c^2 + 16*a*b*c*d + 2*a*b*c + 16*a*b*d^2 - 8*a*b - 2*a*c^2 "
+    "- 4*a*c*d - 4*a*d^2 + 2*a + 4*b^4 - 8*b^3*c - 2*b^3 + 7*b^2*c^2 + 12*b^2*c*d + "
+    "4*b^2*c + 11*b^2*d^2 - 6*b^2 + 2*b*c^3 + 8*b*c^2*d - 3*b*c^2 + 10*b*c*d^2 - 4*b*c*d "
+    "- 4*b*c - 3*b*d^2 + 2*b - c^4 - 4*c^3*d - c^3 - 5*c^2*d^2 - 4*c^2*d + 2*c^2 - "
+    "5*c*d^2 + 2*c",
+)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_no_end_on_a_curve_becomes_a_zero_elsewhere(seed: int) -> None:
+    """Rounding errors in place of a Jacobian led Newton's method to an isolated zero once more."""
+    found = nag.decompose(CURVES_AND_POINTS, variables="a b c d", seed=seed)
+    assert found.complete
+    own = [(c.dimension, c.degree) for c in found]
+    assert {kind: own.count(kind) for kind in own} == {(1, 1): 12, (1, 2): 4, (0, 1): 15}
+    points = np.array([c.points[0] for c in found if not c.dimension])
+    apart = np.linalg.norm(points[:, None] - points, axis=2)
+    assert apart[~np.eye(15, dtype=bool)].min() > 0.1

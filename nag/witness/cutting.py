@@ -340,7 +340,9 @@ class _End:
             chosen = _combinations(system.polynomials, len(subset), rng) if combined else subset
             cut = Cut(n, system.total - n, chosen, system.levels)
             again = sharpen(cut.evaluator, rows, sharpened.z)
-            if again.converged and regular_on(cut.evaluator, rows, again):
+            # Rounding errors in place of a Jacobian lead anywhere, to another zero as well.
+            here = again.converged and is_end(self.x, self.accuracy, again.z[:n])
+            if here and regular_on(cut.evaluator, rows, again):
                 return cut, again.z
             if not regular_on(system.evaluator, rows, sharpened):
                 return None
