@@ -189,6 +189,8 @@ def test_a_superscript_is_no_part_of_a_name() -> None:
         ("x^2 + I*y\n", "line 1, column 7", "looks like the imaginary unit"),
         ("@var x\n[x - 1]\n[x]", "line 3, column 2", "a second list of equations"),
         ("@var x[1:2,1:2]\n[1]", "line 1, column 6", "is not read; write indices as in x[1:3]"),
+        ("x + NaN*y\n", "line 1, column 5", "'NaN' looks like a value that is no finite number"),
+        ("2\nx + nan;\nx;\n", "line 2, column 5", "no finite number; write a number"),
         ("@var x y\nF = [x, y\n", "line 2, column 5", "'[' is never closed"),
         ("@var x y\nF = [x, z]", "line 2, column 9", "unknown name 'z'"),
         ("@var x y\nsolve(F)", "line 2, column 9", "there is no list of equations"),

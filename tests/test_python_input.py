@@ -185,6 +185,46 @@ def test_the_imaginary_unit_is_never_taken_for_a_variable(equations: Any, messag
         assert "\n" not in str(refused.value)
 
 
+@pytest.mark.parametrize("name", ["nan", "NaN", "inf", "Infinity"])
+def test_what_is_no_finite_number_is_a_variable_only_where_it_is_listed(name: str) -> None:
+    texts = [f"x + {name}*y = 1", "x - y = 2"]
+    message = f"equations\\[0\\]: '{name}' looks like a value that is no finite number; if it is"
+    for command in (nag.system, nag.solve, nag.decompose):
+        with pytest.raises(nag.EquationError, match=message) as refused:
+            command(texts)
+        assert "\n" not in str(refused.value)
+    assert nag.system(texts, ["x", "y", name]).variables == ("x", "y", name)
+    assert nag.system(texts, parameters={name: 2}).variables == ("x", "y")
+
+
+@pytest.mark.parametrize(
+    "numbers",
+    [[1, 0, -2], (1.0, 0, -2), np.array([1, 0, -2]), np.poly1d([1, 0, -2]), [Fraction(1, 2)]],
+)
+def test_numbers_alone_are_no_equations(numbers: Any) -> None:
+    for variables in (None, "x"):
+        with pytest.raises(nag.EquationError, match="of numbers is given; the roots of a poly"):
+            nag.solve(numbers, variables)
+
+
+def test_numbers_of_pandas_alone_are_no_equations() -> None:
+    pandas = pytest.importorskip("pandas")
+    with pytest.raises(nag.EquationError, match="an array of numbers is given; the roots"):
+        nag.solve(pandas.Series([1.0, 0, -2]))
+    assert nag.solve(pandas.Series(["x - 1"])).variables == ("x",)
+
+
+def test_zeros_are_equations_that_came_out_empty() -> None:
+    assert len(nag.system([0, 0], ["x"]).polynomials) == 2
+
+
+def test_the_nodes_of_a_graph_are_no_equations() -> None:
+    graph = pytest.importorskip("networkx").Graph([("a", "b")])
+    for ask in (nag.system, nag.solve, nag.decompose, nag.mobility, nag.model):
+        with pytest.raises(nag.NagError, match="networkx graph is given; make it a mechanism"):
+            ask(graph)
+
+
 def test_the_imaginary_unit_is_refused_wherever_numbers_are_read() -> None:
     with pytest.raises(ValueError, match=r"nonzero\[0\]: 'I' looks like"):
         nag.system(["x^2 - 1"], nonzero=["x - I"])

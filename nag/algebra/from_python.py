@@ -7,6 +7,7 @@ how it prints: 0.1 is 1/10, not 3602879701896397/36028797018963968.
 
 from __future__ import annotations
 
+import numbers
 import re
 import sys
 from cmath import isfinite
@@ -19,7 +20,7 @@ from typing import Any
 from nag.algebra.bounded import Budget, Value, representable
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.from_sympy import is_sympy, symbol_names, sympy_value
-from nag.algebra.given import check_listed, check_type, is_a, value_text
+from nag.algebra.given import GRAPH_GIVEN, check_listed, check_type, is_a, value_text
 from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, values_with_unit
 from nag.algebra.number import ComplexNumber, Number, is_zero
 from nag.algebra.polynomial import Polynomial
@@ -29,10 +30,12 @@ from nag.algebra.tokens import (
     ExpressionError,
     imaginary_text,
     is_name,
+    is_not_finite,
     list_names,
     names_in,
     natural_order,
     nearest,
+    not_finite_text,
     quote,
 )
 from nag.errors import NagError
@@ -210,13 +213,7 @@ def _list_equations(equations: Any, place: str) -> list[Any]:
     if isinstance(equations, str | Polynomial) or (is_sympy(equations) and not matrix):
         return [equations]
     if hasattr(equations, "ravel"):
-        equations = equations.ravel()
-        if equations.dtype.kind in "biufc":
-            raise ExpressionError(
-                f"{place}: an array of numbers is given; the roots of a polynomial with these "
-                "coefficients are those of a text like 'x^2 - 2'"
-            )
-        return list(equations)
+        return _refuse_numbers(list(equations.ravel()), equations, place)
     if matrix:
         return list(equations)
     answer = is_a(equations, *RESULTS)
@@ -227,13 +224,34 @@ def _list_equations(equations: Any, place: str) -> list[Any]:
         )
     # What iterates over names: a dict, a table of pandas, but not one of its columns.
     names = hasattr(equations, "keys") and getattr(equations, "ndim", 0) != 1
+    if is_a(equations, "networkx", "Graph"):
+        raise ExpressionError(f"{place}: {GRAPH_GIVEN}")
     none = isinstance(equations, bytes | bytearray) or names
     if answer or none or not isinstance(equations, Iterable):
         raise ExpressionError(
             f"{place}: something of type {type(equations).__name__} is given; give texts like "
             "'x^2 + y^2 = 1', sympy's expressions or nag.Polynomial, in a list"
         )
-    return list(equations)
+    return _refuse_numbers(list(equations), equations, place)
+
+
+def _refuse_numbers(listed: list[Any], given: Any, place: str) -> list[Any]:
+    """The list, unless all in it are numbers: coefficients are meant, which are no equations.
+
+    Zeros are equations that came out empty, unless an array has them.
+
+    Raises:
+        ExpressionError: if they are.
+    """
+    only = all(isinstance(e, numbers.Number) and not is_sympy(e) for e in listed)
+    array = hasattr(given, "dtype") or is_a(given, "numpy", "poly1d")
+    if listed and only and (array or any(listed)):
+        what = "an array" if array else f"a {type(given).__name__}"
+        raise ExpressionError(
+            f"{place}: {what} of numbers is given; the roots of a polynomial with these "
+            "coefficients are those of a text like 'x^2 - 2'"
+        )
+    return listed
 
 
 def _names(
@@ -277,6 +295,9 @@ def _list_names(
                 mend = f"if it is, give imaginary={unit!r} as well, else list all variables, "
                 mend += "variables='x y'"
                 raise ExpressionError(f"{place}: {imaginary_text(unit, mend)}")
+        for name in sorted(filter(is_not_finite, names - values.keys())):
+            mend = "if it is a variable, list all variables, variables='x y'"
+            raise ExpressionError(f"{place}: {not_finite_text(name, mend)}")
         return names
     try:
         return symbol_names(equation)

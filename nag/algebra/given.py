@@ -28,6 +28,11 @@ ANSWERS = (
     ("nag.witness.witness", "Decomposition"),
     ("nag.solving.solutions", "SolveResult"),
 )
+# What is said of a graph where a system or a mechanism is asked for.
+GRAPH_GIVEN = (
+    "a networkx graph is given; make it a mechanism first, "
+    "nag.Mechanism.from_graph(graph, ground=...), or of bars nag.framework_of_graph(graph)"
+)
 SETTINGS = ("fast", "default", "careful")
 # More of anything that is counted does not fit into memory.
 LARGEST = 10**9

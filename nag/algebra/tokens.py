@@ -18,6 +18,8 @@ FUNCTION_NAMES = ("sqrt", "sin", "cos")
 RESERVED = frozenset(FUNCTION_NAMES) | {"pi"}
 # Names that mostly stand for the imaginary unit: taken for variables only where they are listed.
 IMAGINARY_UNITS = ("I", "i", "J", "j")
+# How programs print what is no finite number, in any case: variables only where they are listed.
+NOT_FINITE = ("nan", "inf", "infinity")
 ONLY_REAL = "only real numbers are read here"
 
 # A letter of any alphabet and what may follow it: digits, an index as in x_{12} or x[1,2], primes.
@@ -130,6 +132,16 @@ def natural_order(name: str) -> list[tuple[int, int, str]]:
 def imaginary_text(name: str, mend: str) -> str:
     """What to say where a name looks like the imaginary unit."""
     return f"{quote(name)} looks like the imaginary unit; {mend}"
+
+
+def is_not_finite(name: str) -> bool:
+    """Whether a name is how programs print what is no finite number."""
+    return name.lower() in NOT_FINITE
+
+
+def not_finite_text(name: str, mend: str) -> str:
+    """What to say where a name looks like a number that was not finite."""
+    return f"{quote(name)} looks like a value that is no finite number; {mend}"
 
 
 def unit_called(unit: str) -> str:

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from nag.algebra.from_python import exact_vector
-from nag.algebra.given import ANSWERS, check_listed, check_type, is_a, value_text
+from nag.algebra.given import ANSWERS, GRAPH_GIVEN, check_listed, check_type, is_a, value_text
 from nag.algebra.number import Number, brief_number_text, is_zero
 from nag.algebra.tokens import nearest, quote
 from nag.errors import MechanismError
@@ -469,9 +469,7 @@ def check_mechanism(given: Any, others: str = "") -> None:
     if isinstance(given, Mechanism):
         return
     if is_a(given, "networkx", "Graph"):
-        what = "a networkx graph is given; make it a mechanism first: "
-        what += "nag.Mechanism.from_graph(graph, ground=...)"
-        what += ", or of bars nag.framework_of_graph(graph)"
+        what = GRAPH_GIVEN
     elif is_a(given, "nag.files.cases", "Case") and not is_equations(given):
         what = (
             f"a nag.Case is given; give its mechanism, case.mechanism{others and ', or '}{others}"

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.from_python import system as system_of_equations
-from nag.algebra.given import ANSWERS, check_listed, is_a
+from nag.algebra.given import ANSWERS, GRAPH_GIVEN, check_listed, is_a
 from nag.algebra.number import Number, number_text
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import NamedPoint, PolynomialSystem
@@ -257,10 +257,7 @@ def _describe_problem(given: Any, formulation: str) -> Problem | None:
         check_formulation(formulation)
         return _of_answer(given)
     if is_a(given, "networkx", "Graph"):
-        raise NagError(
-            "system: a networkx graph is given; make it a mechanism first, "
-            "nag.Mechanism.from_graph(graph, ground=...), or of bars nag.framework_of_graph(graph)"
-        )
+        raise NagError(f"system: {GRAPH_GIVEN}")
     if given is None or isinstance(given, Mapping | bool | int | float):
         raise NagError(
             f"system: something of type {type(given).__name__} is given; give equations in a list, "

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 
-from nag.algebra.tokens import RESERVED, ExpressionError, tokenize
+from nag.algebra.tokens import RESERVED, ExpressionError, is_not_finite, not_finite_text, tokenize
 from nag.files.case_table import MAX_ENTRIES
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
@@ -69,5 +69,7 @@ def _names_in_order(source: SourceFile, equations: list[Passage]) -> tuple[str, 
         for token in tokens:
             if token.kind == "name" and token.text not in RESERVED | {*IMAGINARY}:
                 at = equation.offset + token.column - 1
+                if is_not_finite(token.text):
+                    source.fail(at, not_finite_text(token.text, "write a number"))
                 found.setdefault(token.text, Passage(token.text, at))
     return check_names(source, found.values())

@@ -10,7 +10,9 @@ from nag.algebra.tokens import (
     RESERVED,
     ExpressionError,
     imaginary_text,
+    is_not_finite,
     natural_order,
+    not_finite_text,
     tokenize,
 )
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
@@ -73,6 +75,9 @@ def _occurring(source: SourceFile, lines: list[Passage], units: tuple[str, ...])
                 mend = f"begin with a line 'imaginary {token.text}' if it is, or "
                 mend += "'variables ...' that lists it"
                 source.fail(line.offset + token.column - 1, imaginary_text(token.text, mend))
+            if is_not_finite(token.text):
+                mend = "if it is a variable, begin with a line 'variables ...' that lists it"
+                source.fail(line.offset + token.column - 1, not_finite_text(token.text, mend))
             if token.text not in RESERVED:
                 names.add(token.text)
     return names
