@@ -254,6 +254,8 @@ def write(
     check_path(path)
     check_type(format, str, "format", "a text")
     check_type(title, str, "title", "a text")
+    if not title.isprintable():
+        raise NagError("title: holds a line break or a control character; write it in one line")
     if names_file(result):
         result = read(result)
     elif _is_equations(result):

@@ -344,7 +344,7 @@ BROKEN: dict[str, tuple[str | bytes, str, str]] = {
     "body of no name": (
         mechanism(joint(bodies='["A", "\\n"]')),
         "[[joint]] 1 'J': bodies",
-        "empty or unprintable name",
+        "is no name; write a text in one line",
     ),
     "a body with itself": (
         mechanism(joint(bodies='["A", "A"]')),

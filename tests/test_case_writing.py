@@ -147,7 +147,13 @@ def test_an_ending_names_another_program(ending: str, tmp_path: Path) -> None:
     ("given", "how", "message"),
     [
         (lambda: nag.system("x", nonzero="x - 1"), {}, "cannot say what is nonzero"),
-        (lambda: nag.Framework.of(["1a", "b"], [("1a", "b")], [1]), {}, "'1a' cannot name a point"),
+        (lambda: nag.system("x"), {"title": "a\nb"}, "title: holds a line break"),
+        (lambda: nag.system("x"), {"format": "m2", "title": "a\nb"}, "title: holds a line break"),
+        (
+            lambda: replace(nag.read("cases/rhombus.toml"), title="a\nb", text=""),
+            {},
+            "title: holds a line break",
+        ),
         (lambda: nag.decompose("x"), {"format": "m2"}, "format: is for cases and equations"),
         (lambda: nag.system("x"), {"format": "word"}, "format: 'word' is unknown"),
         (lambda: 3, {}, "result: 3 is given; give an answer"),
@@ -157,3 +163,36 @@ def test_what_cannot_be_said_is_refused(given: Any, how: Any, message: str, tmp_
     with pytest.raises(nag.NagError, match=message) as refused:
         nag.write(given(), tmp_path / "a.toml", **how)
     assert "\n" not in str(refused.value) and not (tmp_path / "a.toml").exists()
+
+
+def links(name: str) -> dict[str, str]:
+    return {name: "AD2", "left": "AB1", "top": "BC2", "right": "CD1"}
+
+
+def rows(name: str) -> list[dict[str, str]]:
+    return [{"name": n, "a": "1", "alpha": "pi/2"} for n in (name, "J2", "J3", "J4")]
+
+
+PARTS = {
+    "link": lambda name: nag.Linkage.of(links(name), name),
+    "point": lambda name: nag.Framework.of([name, "B"], [(name, "B")], [1]),
+    "joint": lambda name: nag.DHLoop.of(rows(name)),
+}
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_parts_have_the_names_that_a_case_can_have(part: str, tmp_path: Path) -> None:
+    for name in ("Gestell_é", "1", "1a", "sin"):
+        made = PARTS[part](name)
+        nag.write(made, tmp_path / "parts.toml")
+        assert nag.read(tmp_path / "parts.toml").described == made
+    for name in ("r t", "Gestell é", "a-b", ""):
+        with pytest.raises(nag.MechanismError, match=f"{name!r} cannot name a {part}; use") as no:
+            PARTS[part](name)
+        assert "\n" not in str(no.value)
+
+
+@pytest.mark.parametrize(("joint", "body"), [("J\n1", "b"), ("", "b"), ("J", "b\n"), ("J", " ")])
+def test_a_mechanism_has_the_names_that_a_case_can_have(joint: str, body: str) -> None:
+    with pytest.raises(nag.MechanismError, match="is no name; write a text in one line"):
+        nag.Mechanism("a", (nag.Joint(joint, "revolute", ("a", body), (0, 0, 0), (0, 0, 1)),))

@@ -108,6 +108,16 @@ def is_name(text: str) -> bool:
     return len(text) <= 100 and _NAME.fullmatch(text) is not None and text not in RESERVED
 
 
+def is_part_name(text: Any) -> bool:
+    """Whether ``text`` can name what variables are named after: ``A`` and ``12``, as in x_A."""
+    return isinstance(text, str) and is_name(f"x_{text}")
+
+
+def part_name_text(name: Any, part: str) -> str:
+    """What to say of a name that no variable can be named after."""
+    return f"{quote(str(name))} cannot name a {part}; use letters, digits and _"
+
+
 def list_names(names: Any) -> list[str]:
     """Names that are given one by one, or in a text with commas or blanks between.
 

@@ -12,7 +12,6 @@ from typing import Any
 from nag.algebra.given import value_text
 from nag.algebra.number import ComplexNumber, Number, is_zero, number_text
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.tokens import is_name
 from nag.errors import NagError
 from nag.files.case_table import parse_toml, with_values
 from nag.files.cases import Case, case_of_text, parameter_table
@@ -51,6 +50,8 @@ def case_text(given: Any, title: str = "") -> str:
     Raises:
         NagError: if a case file cannot say it; one line says what.
     """
+    if not (title or getattr(given, "title", "") or "one").isprintable():
+        raise NagError("title: holds a line break or a control character; write it in one line")
     if isinstance(given, Case):
         own = _text_of_case(given, title)
         if own is not None:
@@ -190,9 +191,6 @@ def _of_linkage(linkage: Linkage) -> dict[str, Any]:
 
 def _of_framework(framework: Framework) -> dict[str, Any]:
     tables: dict[str, Any] = {"kind": "framework", "dimension": framework.dimension}
-    for name in framework.points:
-        if not is_name(name):
-            raise NagError(f"result: in a case {name!r} cannot name a point; rename it")
     bars = {"bars": [list(bar) for bar in framework.bars]}
     if framework.placement is None:
         squared = {"squared_lengths": _vector(framework.squared_lengths)}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from nag.algebra.tokens import is_name
 from nag.files.case_table import CaseTable, ReadNumber
 from nag.mechanism.dh import DHError, DHLoop, DHModel, HalfAngle, Row, half_angle
 from nag.mechanism.graph import Mechanism
@@ -29,8 +28,6 @@ def read_dh(top: CaseTable, number: ReadNumber) -> tuple[DHLoop, DHModel | Mecha
 def _read_row(i: int, table: CaseTable, number: ReadNumber) -> Row:
     table.allow(_JOINT_KEYS)
     name = table.text("name") if "name" in table.values else f"J{i}"
-    if not is_name(name):
-        table.fail("name", f"{name!r} cannot name a joint; use letters, digits and _")
     lengths = []
     for key in ("a", "d"):
         with table.at(key):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from nag.algebra.number import Number
-from nag.algebra.tokens import is_name, quote
+from nag.algebra.tokens import is_part_name, part_name_text
 from nag.files.case_table import CaseTable, ReadNumber, kind_of
 from nag.mechanism.framework import Framework, FrameworkError, placed_framework
 from nag.mechanism.framework_model import FrameworkModel, framework_model
@@ -36,8 +36,8 @@ def read_framework(top: CaseTable, number: ReadNumber) -> tuple[Framework, Frame
 
 def _read_names(names: list[str], top: CaseTable) -> list[str]:
     for name in names:
-        if not is_name(name):
-            top.fail("points", f"{quote(name)} cannot name a point; use letters, digits and _")
+        if not is_part_name(name):
+            top.fail("points", part_name_text(name, "point"))
     return names
 
 

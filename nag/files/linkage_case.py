@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from nag.algebra.tokens import is_name, quote
 from nag.files.case_table import CaseTable, ReadNumber, wanted_text
 from nag.mechanism.linkage import Link, Linkage, LinkageError, LinkageModel, Place, linkage_model
 
@@ -31,8 +30,6 @@ def read_linkage(top: CaseTable, number: ReadNumber) -> tuple[Linkage, LinkageMo
 
 def _read_link(name: str, table: CaseTable, number: ReadNumber) -> Link:
     table.allow(_LINK_KEYS)
-    if not is_name(name):
-        table.fail("name", f"{quote(name)} cannot name a link; use letters, digits and _")
     pins = table.texts("pins", "names of pins")
     if ("length" in table.values) == ("shape" in table.values):
         found = "given beside 'shape'" if "length" in table.values else "missing"

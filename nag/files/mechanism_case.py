@@ -53,8 +53,6 @@ def _read_joint(name: str, table: CaseTable, number: ReadNumber) -> Joint:
     second_keys = SECOND_KEYS if "second_axis" in needed else ()
     table.allow(("name", "type", "bodies", *VECTORS, *LINE_KEYS, *second_keys))
     bodies = table.texts("bodies", "names of bodies", 2)
-    if not all(b.strip() and b.isprintable() for b in bodies):
-        table.fail("bodies", "holds an empty or unprintable name; write names of bodies")
     line = _read_line(table, number)
     vectors = dict(zip(("point", "axis"), line, strict=True)) if line else {}
     as_line = any(key in table.values for key in second_keys)

@@ -30,6 +30,7 @@ from nag.algebra.number import Number, brief_number_text, cosine, is_zero, pi_mu
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import is_part_name, part_name_text
 from nag.errors import MechanismError
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import zero_length
@@ -161,6 +162,8 @@ class DHLoop:
         if len(self.rows) < 3:
             raise DHError(f"a loop needs at least 3 joints, not {len(self.rows)}")
         for i, row in enumerate(self.rows):
+            if not is_part_name(row.name):
+                raise DHError(part_name_text(row.name, "joint"), i, "name")
             if any(row.name == other.name for other in self.rows[:i]):
                 raise DHError("another joint has that name", i, "name")
         if len(self.open) > MOST_JOINTS:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from nag.algebra.from_python import exact_number, exact_vector
 from nag.algebra.given import check_listed, value_text
 from nag.algebra.number import Number, brief_number_text, is_zero, square_root
+from nag.algebra.tokens import is_part_name, part_name_text
 from nag.errors import MechanismError
 from nag.mechanism.graph import connected_to
 from nag.text.table import count_text, lines_of, one_line
@@ -122,6 +123,9 @@ class Framework:
         object.__setattr__(self, "squared_lengths", tuple(squared))
         if not self.points:
             raise FrameworkError("none are given; a framework has points", "points")
+        for name in self.points:
+            if not is_part_name(name):
+                raise FrameworkError(part_name_text(name, "point"), "points")
         if len(set(self.points)) != len(self.points):
             name = next(p for i, p in enumerate(self.points) if p in self.points[:i])
             raise FrameworkError(f"two points are named {name!r}; name each point once", "points")

@@ -133,6 +133,7 @@ class Mechanism:
         if not self.joints:
             raise MechanismError("a mechanism needs at least one joint")
         for joint in self.joints:
+            _check_names(joint)
             _check_joint(joint)
         repeated = _first_repeated(j.name for j in self.joints)
         if repeated is not None:
@@ -406,6 +407,18 @@ def _check_vector(joint: Joint, key: str) -> None:
         raise MechanismError(
             "the axis has length zero; it needs a direction", joint=joint.name, key=key
         )
+
+
+def _check_names(joint: Joint) -> None:
+    """Names of a joint and its bodies are texts in one line, as a case has them."""
+    for key, names in (("name", (joint.name,)), ("bodies", joint.bodies)):
+        for name in names:
+            if not (isinstance(name, str) and name.strip() and name.isprintable()):
+                raise MechanismError(
+                    f"{quote(str(name))} is no name; write a text in one line",
+                    joint=joint.name,
+                    key=key,
+                )
 
 
 def _parallel(u: Vector, v: Vector) -> bool:

@@ -26,6 +26,7 @@ from nag.algebra.given import check_type
 from nag.algebra.number import Number, is_zero, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import is_part_name, part_name_text
 from nag.errors import MechanismError
 from nag.mechanism.assembly import AssemblyModel, Side
 from nag.mechanism.axes import difference
@@ -71,6 +72,8 @@ class Link:
     shape: tuple[Place, ...]
 
     def __post_init__(self) -> None:
+        if not is_part_name(self.name):
+            raise LinkageError(part_name_text(self.name, "link"), self.name, "name")
         if len(self.pins) < 2:
             raise LinkageError("a link needs at least two pins", self.name, "pins")
         if len(set(self.pins)) != len(self.pins):
