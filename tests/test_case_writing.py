@@ -175,7 +175,7 @@ def rows(name: str) -> list[dict[str, str]]:
 
 PARTS = {
     "link": lambda name: nag.Linkage.of(links(name), name),
-    "point": lambda name: nag.Framework.of([name, "B"], [(name, "B")], [1]),
+    "point": lambda name: nag.Framework.of([name, "B", "C"], [(name, "B"), "BC"], [1, 2]),
     "joint": lambda name: nag.DHLoop.of(rows(name)),
 }
 

@@ -110,7 +110,7 @@ def is_name(text: str) -> bool:
 
 def is_part_name(text: Any) -> bool:
     """Whether ``text`` can name what variables are named after: ``A`` and ``12``, as in x_A."""
-    return isinstance(text, str) and is_name(f"x_{text}")
+    return isinstance(text, str) and bool(text) and is_name(f"x_{text}")
 
 
 def part_name_text(name: Any, part: str) -> str:
