@@ -118,7 +118,8 @@ ENDINGS = {
     ".py": "sympy",
 }
 # Endings of what is read, and is neither a case nor equations when it is written.
-NOT_WRITTEN = (".json", ".urdf", ".xml")
+NOT_WRITTEN = (".json", ".urdf", ".xml", ".csv", ".npy", ".npz", ".parquet")
+NOT_WRITTEN += (".html", ".svg", ".png", ".pdf")
 # What is said of a component of an export on which paths fail.
 UNTESTED = "the trace of its points could not be tested"
 
@@ -262,8 +263,10 @@ def write(
         from nag.algebra.from_python import system
 
         result = system(result)
-    ending = os.path.splitext(path)[1]
     from nag.files.answer_export import is_answer
+    from nag.files.written_file import ending_of
+
+    ending = ending_of(path)
 
     moves = any(is_a(result, *kind) for kind in SHOWN_MOVING)
     if moves and ending == ".html" and format == "auto":
@@ -772,11 +775,12 @@ def write_report(
     True
     """
     from nag.files.case_writing import case_of
-    from nag.files.written_file import check_target, write_target
+    from nag.files.written_file import check_ending, check_target, write_target
     from nag.mechanism.problem import problem_of
     from nag.page.mechanism_report import report_of
 
     check_target(path)
+    check_ending(path, (".html",))
     if not any(is_a(given, *kind) for kind in DESCRIPTIONS):
         raise NagError(
             f"given: {value_text(given)} is given; reports are of mechanisms: give a case of one, "

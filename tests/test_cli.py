@@ -296,13 +296,21 @@ def test_the_model_of_a_system_is_the_system(case, capsys) -> None:
         (["decompose", "{case}", "--json", "{case}/a.json"], "there is no directory"),
         (["decompose", "{case}", "--json", "{case}"], "is the case file"),
         (["decompose", "{case}", "--json", ""], "is a directory"),
+        (["decompose", "{case}", "--json", "{folder}/a.csv"], ".csv holds no JSON; name it .json"),
+        (["solve", "{case}", "--points", "{folder}/a.csv"], "no arrays and no table; name it .npz"),
+        (
+            ["family", "{case}", "--values", "v.csv", "--points", "{folder}/a.parquet"],
+            "--points: {folder}/a.parquet: a file that ends in .parquet holds no arrays; name it",
+        ),
+        (["motion", "{case}", "--csv", "{folder}/a.npz"], "holds no table; name it .csv"),
+        (["motion", "{case}", "--html", "{folder}/a.json"], "holds no page; name it .html"),
         (["decompose", "{case}", "--json", "a\0b"], "is not a file name"),
     ],
 )
 def test_bad_input_gets_one_line(engine, case, complaint, argv, part) -> None:
     folder = str(Path(case).parent)
     message = complaint(*(word.format(case=case, folder=folder) for word in argv))
-    assert part in message
+    assert part.format(folder=folder) in message
     assert engine.calls == []
     assert Path(case).read_text() == LINES
     assert os.listdir(folder) == ["lines.toml"]

@@ -123,6 +123,14 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
             "a file that ends in .txt holds no export, which is JSON; name it .json$",
         ),
         (
+            lambda: nag.write("x*y", "points.csv"),
+            "no case and no equations are written to a file that ends in .csv; name it .toml",
+        ),
+        (
+            lambda: nag.write_report("cases/bennett.toml", "report.json"),
+            "report.json: a file that ends in .json holds no page; name it .html",
+        ),
+        (
             lambda: nag.write(nag.find_real_points("x^2 - 1", 1), "file"),
             "RealPieces is given; give an answer .* others are kept by pickle",
         ),

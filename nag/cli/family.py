@@ -47,6 +47,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--points", metavar="FILE", help="write all solutions to FILE as NumPy arrays (.npz)"
     )
+    # The solutions of many members are no table.
+    parser.set_defaults(points_endings=(".npz",))
     add_start(
         parser,
         "start system for the family at random parameters (default: auto, parameter where "

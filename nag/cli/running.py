@@ -20,8 +20,13 @@ if TYPE_CHECKING:
     from nag.text.table import Block, Row
     from nag.tracking.run import Run
 
-# Options that name a file to be written, and what stands for standard output.
-TARGETS = ("json", "csv", "html", "points")
+# Options that name a file to be written, with their endings, and what stands for standard output.
+TARGETS = {
+    "json": (".json",),
+    "csv": (".csv",),
+    "html": (".html",),
+    "points": (".npz", ".parquet"),
+}
 STANDARD_OUTPUT = "-"
 Progress = Callable[[str, int, int], None]
 
@@ -181,12 +186,14 @@ def begin(options: argparse.Namespace) -> None:
     Raises:
         UsageError: for such a file.
     """
+    from nag.files.written_file import check_ending
+
     options.started = time.perf_counter()
     for name in VARIABLES:
         os.environ.setdefault(name, "1")
     source = getattr(options, "case", None) or getattr(options, "export", "")
     written: dict[str, str] = {}
-    for name in TARGETS:
+    for name, endings in TARGETS.items():
         target = getattr(options, name, None)
         if target is not None and (name, target) != ("json", STANDARD_OUTPUT):
             if target == STANDARD_OUTPUT:
@@ -194,6 +201,8 @@ def begin(options: argparse.Namespace) -> None:
                     f"--{name}: name a file; only --json writes to standard output, as -"
                 )
             check_option_target(name, target, source if isinstance(source, str) else "")
+            with writing_to(name):
+                check_ending(target, getattr(options, f"{name}_endings", endings))
             file = os.path.realpath(target)
             # Devices and pipes are not replaced.
             if file in written and (os.path.isfile(file) or not os.path.exists(file)):

@@ -49,9 +49,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> CommandAnswer:
     """All isolated solutions of a case."""
     from nag.errors import StartError
+    from nag.files.written_file import ending_of
     from nag.report.solutions import realisations, solution_lines
 
-    as_table = options.points is not None and options.points.endswith(".parquet")
+    as_table = options.points is not None and ending_of(options.points) == ".parquet"
     if as_table:
         check_tables("points")
     case, problem = read_problem(options)

@@ -6,7 +6,7 @@ import contextlib
 import os
 import stat
 import uuid
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import BinaryIO
 
@@ -39,6 +39,31 @@ def remove_temporary(path: str | os.PathLike[str], process: int) -> None:
     with contextlib.suppress(OSError, ValueError):
         for left in Path(path).resolve().parent.glob(f".nag-{process}-*.tmp"):
             left.unlink(missing_ok=True)
+
+
+# What files of these endings hold.
+HELD = {".json": "JSON", ".csv": "table", ".html": "page", ".npz": "arrays", ".parquet": "table"}
+
+
+def ending_of(path: str | os.PathLike[str]) -> str:
+    """The ending of a file's name, empty of a device or a pipe, whose name says nothing."""
+    return "" if _is_special(Path(path)) else os.path.splitext(path)[1].lower()
+
+
+def check_ending(path: str | os.PathLike[str], endings: Sequence[str]) -> None:
+    """Refuse a file whose ending says that it holds something else; it may have none.
+
+    Args:
+        endings: those of what is written, keys of `HELD`.
+
+    Raises:
+        TargetError: for another one.
+    """
+    ending = ending_of(path)
+    if ending and ending not in endings:
+        held = " and no ".join(dict.fromkeys(HELD[each] for each in endings))
+        names = " or ".join(endings)
+        raise TargetError(f"{path}: a file that ends in {ending} holds no {held}; name it {names}")
 
 
 def check_target(path: str | os.PathLike[str]) -> None:
