@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any, Literal, Protocol, SupportsFloat, TypeAlias, TypedDict, Unpack, overload
+from typing import Any, Literal, Protocol, TypeAlias, TypedDict, Unpack, overload
 
 import networkx
 import numpy as np
@@ -100,12 +100,12 @@ class RunOptions(TypedDict, total=False):
 class FileOptions(TypedDict, total=False):
     """How a file is read, as for `read`."""
 
-    set: Mapping[str, AnyNumber] | None
+    set: Mapping[str, AnyNumber] | Table | None
     format: Literal[
         "auto", "toml", "bertini", "phc", "m2", "singular", "hc", "text", "urdf", "mjcf"
     ]
     hold: Sequence[str]
-    at: Mapping[str, RealNumber] | None
+    at: Mapping[str, RealNumber] | Table | None
 
 class EquationOptions(TypedDict, total=False):
     """How equations are read, as for `problem`."""
@@ -164,9 +164,8 @@ Start: TypeAlias = Literal[
     "auto", "total", "multihomogeneous", "polyhedral", "monodromy", "parameter"
 ]
 Circuits: TypeAlias = Literal["reference", "all"] | int
-Drives: TypeAlias = tuple[str, float] | Mapping[str, float]
-# Texts of decimals as well, as a command line has them.
-Poses: TypeAlias = Mapping[str, Sequence[str | SupportsFloat] | np.ndarray]
+Drives: TypeAlias = tuple[str, RealNumber] | Mapping[str, RealNumber] | Table
+Poses: TypeAlias = Mapping[str, Sequence[RealNumber] | np.ndarray] | Table
 
 def certify(
     given: Decomposed,
@@ -191,7 +190,7 @@ def decompose(
 def driven_motion(
     mechanism: Moving,
     coordinate: str,
-    values: Sequence[float] | np.ndarray,
+    values: Sequence[RealNumber] | np.ndarray,
     *,
     samples: int = 360,
     formulation: Formulation = "auto",
@@ -338,10 +337,10 @@ def problem(
 def read(
     path: File,
     *,
-    set: Mapping[str, AnyNumber] | None = None,
+    set: Mapping[str, AnyNumber] | Table | None = None,
     format: str = "auto",
     hold: Sequence[str] = (),
-    at: Mapping[str, RealNumber] | None = None,
+    at: Mapping[str, RealNumber] | Table | None = None,
 ) -> (
     Case
     | Decomposition
@@ -353,11 +352,11 @@ def read(
 ): ...
 def read_case(
     path: File,
-    set: Mapping[str, AnyNumber] | None = None,
+    set: Mapping[str, AnyNumber] | Table | None = None,
     *,
     format: str = "auto",
     hold: Sequence[str] = (),
-    at: Mapping[str, RealNumber] | None = None,
+    at: Mapping[str, RealNumber] | Table | None = None,
 ) -> Case: ...
 def read_decomposition(path: File) -> Decomposition: ...
 def read_solutions(path: File) -> SolutionsExport: ...

@@ -9,6 +9,7 @@ import random
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import networkx as nx
 import numpy as np
@@ -21,7 +22,7 @@ from traced_curves import trace_loop
 import nag
 from nag.algebra.evaluation import Evaluator
 from nag.errors import NagError
-from nag.kinematics.driven import Drive, assemblies_on
+from nag.kinematics.driven import Drive, Pose, assemblies_on, read_drives, read_poses
 from nag.kinematics.joint_values import joint_errors, joint_values
 from nag.kinematics.motion import Motion, MotionError, _real_curve, motion_of
 from nag.kinematics.path import Curve, sample_path
@@ -1073,3 +1074,39 @@ def test_the_body_that_most_joints_part_from_the_ground_is_a_robots_platform(
     scene = scene_of(read_problem(case))
     found = scene.farthest_body
     assert (None if found is None else scene.bodies[found]) == body
+
+
+def test_joints_and_bodies_are_held_at_numbers_of_all_kinds() -> None:
+    half, root = 0.5, 2**0.5 / 2
+    series = pytest.importorskip("pandas").Series({"J0": "1/2", "J1": 1})
+    for held in ({"J0": "1/2", "J1": 1}, {"J0": Fraction(1, 2), "J1": 1.0}, series):
+        assert read_drives(held) == (Drive("J0", half), Drive("J1", 1.0))
+    assert read_drives(("J0", "sqrt(2)/2")) == (Drive("J0", root),)
+    assert read_poses({"B1": ("1/10", "0", Fraction(1, 20))}) == (Pose("B1", (0.1, 0, 0.05)),)
+    driven = nag.driven_motion("cases/bennett.toml", "J0", ["1/2", 0.5])
+    assert driven.values == (half, half) and driven[0] == driven[1]
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"J0": True}, r"drive\['J0'\]: a truth value is no number"),
+        ({"J0": "x"}, r"drive\['J0'\]: column 1: unknown name 'x'"),
+        ({"J0": float("nan")}, r"drive\['J0'\]: NaN is no number"),
+        (b"ab", "drive: give a joint and a value"),
+        ("ab", "drive: give a joint and a value"),
+        ([("J0", 1), ("J1", 1)], "drive: give a joint and a value"),
+    ],
+)
+def test_what_is_no_number_holds_no_joint(given: Any, message: str) -> None:
+    with pytest.raises(NagError, match=message):
+        read_drives(given)
+    with pytest.raises(NagError, match=r"pose\['B1'\]\[0\]: a truth value is no number"):
+        read_poses({"B1": (True, 0, 0)})
+    for values in ("12", b"12", {1, 2}):
+        with pytest.raises(NagError, match="give a dict of bodies"):
+            read_poses({"B1": values})
+        with pytest.raises(NagError, match="values: give a list of numbers"):
+            nag.driven_motion("cases/bennett.toml", "J0", values)
+    with pytest.raises(NagError, match=r"values\[1\]: a truth value is no number"):
+        nag.driven_motion("cases/bennett.toml", "J0", [0.5, True])

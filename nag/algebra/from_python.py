@@ -67,6 +67,20 @@ def exact_number(value: Any, place: str = "the number") -> Number:
         raise ExpressionError(f"{place}: {error}") from None
 
 
+def real_double(value: Any, place: str = "the number") -> float:
+    """The double next to the real number that ``value`` is or spells.
+
+    Raises:
+        ExpressionError: if it is none, or too large; the message begins with ``place``.
+    """
+    try:
+        return float(exact_number(value, place))
+    except OverflowError:
+        raise ExpressionError(
+            f"{place}: {value_text(value)} is too large; give numbers up to 1e308"
+        ) from None
+
+
 def plain_number(value: Any) -> Any:
     """NumPy's numbers, and those of others that are registered as numbers, as Python's."""
     if isinstance(value, bool | str | int | float | Fraction):

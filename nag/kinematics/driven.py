@@ -8,7 +8,7 @@ moves, or nothing does, they are solutions of the equations with the joints held
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence, Set
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.from_python import real_double
 from nag.algebra.given import is_a
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -111,20 +112,23 @@ class DrivenAssembly(FixedArrays):
 
 
 def read_drives(given: Any) -> tuple[Drive, ...]:
-    """Joints and values: a pair of them, or a dict of several.
+    """Joints and values: a pair of them, or a dict of several, or a series of pandas'.
 
     Raises:
         NagError: if it is neither.
     """
     if given is None:
         return ()
-    pairs = list(given.items()) if isinstance(given, Mapping) else [given]
-    try:
-        return tuple(Drive(str(name), float(value)) for name, value in pairs)
-    except (TypeError, ValueError, OverflowError):
+    named = hasattr(given, "keys")
+    pairs = list(given.items()) if named else [given]
+    pair = isinstance(given, tuple | list) and len(given) == 2 and isinstance(given[0], str)
+    if not (named or pair):
         raise NagError(
             "drive: give a joint and a value, ('A', 0.5), or a dict of several, {'A': 0.5, 'B': 1}"
-        ) from None
+        )
+    return tuple(
+        Drive(str(name), real_double(value, f"drive[{str(name)!r}]")) for name, value in pairs
+    )
 
 
 def read_poses(given: Any) -> tuple[Pose, ...]:
@@ -136,14 +140,14 @@ def read_poses(given: Any) -> tuple[Pose, ...]:
     if given is None:
         return ()
     problem = "pose: give a dict of bodies, {'hand': (x, y, z)}, with a quaternion behind it or not"
-    if not isinstance(given, Mapping):
+    if not hasattr(given, "keys"):
         raise NagError(problem)
     found = []
     for body, numbers in given.items():
-        try:
-            x = tuple(float(each) for each in numbers)
-        except (TypeError, ValueError, OverflowError):
-            raise NagError(problem) from None
+        if isinstance(numbers, str | bytes | Set) or not isinstance(numbers, Iterable):
+            raise NagError(problem)
+        place = f"pose[{str(body)!r}]"
+        x = tuple(real_double(each, f"{place}[{i}]") for i, each in enumerate(numbers))
         if len(x) not in (3, 7):
             raise NagError(f"pose: {body!r} has {len(x)} numbers; give 3, or 7 with a quaternion")
         name, joint = split_place(str(body))

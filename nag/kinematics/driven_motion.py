@@ -7,12 +7,13 @@ other: between values that are far apart circuits may have met and parted.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from nag.algebra.from_python import real_double
 from nag.errors import NagError
 from nag.kinematics import MOST_VALUES
 from nag.kinematics.driven import (
@@ -190,12 +191,9 @@ def driven_motion(
     >>> [len(motion.assemblies) for motion in driven]
     [1, 1]
     """
-    try:
-        numbers = [] if isinstance(values, bytes) else [float(value) for value in values]
-    except OverflowError:
-        raise NagError("values: are too large; give numbers up to 1e308") from None
-    except (TypeError, ValueError):
-        raise NagError("values: give a list of numbers, [0.1, 0.2]") from None
+    if isinstance(values, str | bytes | Set) or not isinstance(values, Iterable):
+        raise NagError("values: give a list of numbers, [0.1, 0.2]")
+    numbers = [real_double(value, f"values[{i}]") for i, value in enumerate(values)]
     if not 1 <= len(numbers) <= MOST_VALUES:
         raise NagError(f"values: give 1 to {MOST_VALUES}, not {len(numbers)}")
     others, poses = read_drives(drive), read_poses(pose)
