@@ -6,7 +6,7 @@ import ast
 import copy
 import json
 import pickle
-from collections.abc import Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -333,3 +333,13 @@ def test_every_answer_says_whether_it_is_complete() -> None:
         complete: Any = RESULTS[name]().complete
         assert complete is True or complete.all() or name == "real points", name
     assert RESULTS["sweep"]()[0].complete and len(repr(RESULTS["sweep"]()[0])) < 80
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_what_cannot_be_hashed_says_so(name: str) -> None:
+    result = RESULTS[name]()
+    try:
+        hash(result)
+    except TypeError as error:
+        assert str(error) == f"unhashable type: {type(result).__name__!r}"
+        assert not isinstance(result, Hashable)

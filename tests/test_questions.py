@@ -768,6 +768,39 @@ def test_solutions_are_chosen_by_arrays_as_well() -> None:
         roots["x"]
 
 
+def test_whatever_holds_several_is_chosen_from_in_the_same_ways() -> None:
+    frame = (roots := nag.solve(["x^3 - x", "y - x"])).to_dataframe()
+    assert roots[frame.real] == roots[:] and roots[frame.x.map(abs) < 0.5] == [roots[0]]
+    lines, points = nag.decompose("x*y"), nag.sample("x^2 + y^2 - 1", count=3)
+    assert lines[[True, False]] == lines[[0]] == lines[:1]
+    assert (points[np.array([2, -3])] == points.points[[2, 0]]).all()
+    for several in (roots, lines, points):
+        for wrong in (frame, "x", None, (0, 1), 0.5, [0.5], ["x"], np.ones((2, 2), bool)):
+            with pytest.raises(TypeError, match="is no index; give a whole number") as refused:
+                several[wrong]
+            assert "\n" not in str(refused.value)
+        for index in (9, [9], np.array([0, -9])):
+            with pytest.raises(IndexError, match=r"index -?9 of [23], counted from 0"):
+                several[index]
+        with pytest.raises(IndexError, match=r"1 truth values for [23]; give one for each"):
+            several[[True]]
+
+
+def test_entries_are_found_and_counted_whole() -> None:
+    answers = (nag.solve("x^3 - x"), nag.decompose("x*y"), nag.sample("x^2 + y^2 - 1", count=3))
+    for several in answers:
+        assert several.index(several[1]) == 1 and several.count(several[1]) == 1
+        assert several.index(several[-1], 1) == len(several) - 1 and several.count(3) == 0
+        with pytest.raises(ValueError, match=r"3 is none of the [23]"):
+            several.index(3)
+
+
+def test_a_component_says_of_itself_what_its_decomposition_says() -> None:
+    found = nag.decompose("x^2 + y^2 = i", imaginary="i")
+    own = found[0].document()
+    assert own.items() <= found.document()["components"][0].items()
+
+
 def test_what_is_found_knows_its_variables() -> None:
     circle = nag.decompose("x^2 + y^2 = i", imaginary="i")
     answers = (circle, circle[0], nag.solve(["x^2 = i", "y = x"], imaginary="i"))

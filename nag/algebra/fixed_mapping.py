@@ -29,6 +29,10 @@ class FixedMapping(Mapping[Key, Value]):
     def __len__(self) -> int:
         return len(self._values)
 
+    def __hash__(self) -> int:
+        # Mappings are equal whatever the order of their items is.
+        return hash(frozenset(self._values.items()))
+
     def __repr__(self) -> str:
         return repr(self._values)
 

@@ -123,7 +123,8 @@ class SingularSet(Several[ComplexArray]):
         """The set as a JSON object; components are numbered from 1.
 
         Args:
-            variables: names of all coordinates.
+            variables: names of all coordinates: `SingularLocus.variables` and, where coefficients
+                are complex, the imaginary unit's behind them.
         """
         cone = self.cone
         return {

@@ -199,7 +199,11 @@ class Circuit(Several[RealArray]):
         return data_frame(self.table(angles=angles))
 
     def document(self, scene: Scene) -> dict[str, Any]:
-        """The circuit as a JSON object."""
+        """The circuit as a JSON object.
+
+        Args:
+            scene: the bodies of the motion that it is of, `Motion.scene`.
+        """
         values = self.values
         return {
             "number": self.number,

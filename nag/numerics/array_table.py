@@ -13,7 +13,7 @@ import numpy as np
 
 from nag.errors import NagError
 from nag.numerics.large_arrays import empty_array, leave_to_file
-from nag.numerics.read_only import equal_entries
+from nag.numerics.read_only import Chosen, Entries, equal_entries, read_index
 
 Record = TypeVar("Record")
 # Rows whose values are worked out at once.
@@ -142,7 +142,7 @@ class ArrayTable:
         return replace(table, **whole)  # type: ignore[type-var]
 
 
-class RecordTable(ArrayTable, Sequence[Record]):
+class RecordTable(ArrayTable, Entries[Record]):
     """A table whose rows are read as records, each made when it is asked for.
 
     It equals any sequence of equal records.
@@ -156,20 +156,13 @@ class RecordTable(ArrayTable, Sequence[Record]):
     def __getitem__(self, index: int) -> Record: ...
 
     @overload
-    def __getitem__(self, index: slice | list[int] | np.ndarray) -> Self: ...
+    def __getitem__(self, index: Chosen) -> Self: ...
 
-    def __getitem__(self, index: int | slice | list[int] | np.ndarray) -> Record | Self:
-        if isinstance(index, slice):
-            return self.select_rows(index)  # type: ignore[arg-type]
-        if isinstance(index, list | np.ndarray) and np.ndim(index):
-            return self.select_rows(np.asarray(index, dtype=None if len(index) else int))
-        try:
-            return self.record(range(len(self))[index])  # type: ignore[index]
-        except IndexError:
-            raise IndexError(f"index {index} of {len(self)}, counted from 0") from None
-        except TypeError:
-            said = f"{index!r} is no index; give a whole number, a slice, or an array of either"
-            raise TypeError(said) from None
+    def __getitem__(self, index: int | Chosen) -> Record | Self:
+        chosen = read_index(index, len(self))
+        if isinstance(chosen, int):
+            return self.record(chosen)
+        return self.select_rows(chosen)  # type: ignore[arg-type]
 
     def __iter__(self) -> Iterator[Record]:
         return map(self.record, range(len(self)))

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
-from typing import Any, TypeAlias, TypeVar, overload
+from typing import Any, Protocol, TypeAlias, TypeVar, overload
 
 import numpy as np
+
+from nag.algebra.given import value_text
 
 # Arrays of results by what is in them.
 ComplexArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
@@ -16,6 +18,16 @@ ByteArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.int8]]
 BooleanArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
 
+class Column(Protocol):
+    """A column of a table, as pandas has it."""
+
+    @property
+    def ndim(self) -> int: ...
+    def to_numpy(self) -> np.ndarray: ...
+
+
+# Of a sequence some entries: a slice, places, or a truth value for each.
+Chosen: TypeAlias = slice | Sequence[int] | np.ndarray | Column
 Item = TypeVar("Item")
 
 
@@ -80,7 +92,65 @@ def fix_fields(made: Any, done: bool = False) -> None:
             fix_fields(value, done)
 
 
-class Several(FixedArrays, Sequence[Item]):
+class Entries(Sequence[Item]):
+    """A sequence whose entries are compared whole, arrays in them by value."""
+
+    def __contains__(self, item: object) -> bool:
+        return any(equal_entries(each, item) for each in self)
+
+    def index(self, value: object, start: int = 0, stop: int | None = None) -> int:
+        """The place of the first entry that equals a value, from 0 on.
+
+        Raises:
+            ValueError: if there is none.
+        """
+        places = range(len(self))[start:stop]
+        for i, each in enumerate(self):
+            if i in places and equal_entries(each, value):
+                return i
+        raise ValueError(f"{value_text(value)} is none of the {len(self)}")
+
+    def count(self, value: object) -> int:
+        """How many entries equal a value."""
+        return sum(equal_entries(each, value) for each in self)
+
+
+def read_index(index: Any, count: int) -> int | slice | IntegerArray:
+    """What is chosen of so many: one, counted from 0, a slice, or places in an array.
+
+    Args:
+        index: a whole number or a slice; a list, an array or a column of whole numbers, or of as
+            many truth values as there are.
+
+    Raises:
+        TypeError: if it is something else.
+        IndexError: if there is none of that number, or not as many truth values.
+    """
+    if isinstance(index, slice):
+        return index
+    if isinstance(index, list) or getattr(index, "ndim", 0) == 1:
+        given = np.asarray(index, dtype=None if len(index) else int)
+        if given.ndim == 1 and all(isinstance(each, bool) for each in given.tolist()):
+            if len(given) not in (0, count):
+                raise IndexError(f"{len(given)} truth values for {count}; give one for each")
+            return np.flatnonzero(given)
+        if given.ndim == 1 and given.dtype.kind in "iu":
+            return np.array([_place_of(i, count) for i in given.tolist()], dtype=int)
+    try:
+        return _place_of(index, count)
+    except TypeError:
+        said = f"{value_text(index)} is no index; give a whole number, a slice, or a list or an "
+        raise TypeError(f"{said}array of whole numbers or of truth values") from None
+
+
+def _place_of(index: Any, count: int) -> int:
+    try:
+        return range(count)[index]
+    except IndexError:
+        raise IndexError(f"index {index} of {count}, counted from 0") from None
+
+
+class Several(FixedArrays, Entries[Item]):
     """A result that is a sequence of what it holds."""
 
     @property
@@ -98,13 +168,15 @@ class Several(FixedArrays, Sequence[Item]):
     def __getitem__(self, index: int) -> Item: ...
 
     @overload
-    def __getitem__(self, index: slice) -> Sequence[Item]: ...
+    def __getitem__(self, index: Chosen) -> Sequence[Item]: ...
 
-    def __getitem__(self, index: int | slice) -> Item | Sequence[Item]:
-        return self.entries[index]
-
-    def __contains__(self, item: object) -> bool:
-        return any(equal_entries(each, item) for each in self.entries)
+    def __getitem__(self, index: int | Chosen) -> Item | Sequence[Item]:
+        chosen, entries = read_index(index, len(self)), self.entries
+        if isinstance(chosen, np.ndarray):
+            if isinstance(entries, np.ndarray):
+                return fixed_array(entries[chosen])  # type: ignore[return-value]
+            return tuple(entries[i] for i in chosen.tolist())
+        return entries[chosen]
 
 
 def equal_values(one: object, other: object) -> bool:

@@ -16,6 +16,7 @@ from nag.errors import NagError
 from nag.numerics.array_table import RecordTable
 from nag.numerics.read_only import (
     BooleanArray,
+    Chosen,
     ComplexArray,
     FixedArrays,
     IntegerArray,
@@ -506,9 +507,9 @@ class SolveResult(Several[Solution]):
     def __getitem__(self, index: int) -> Solution: ...
 
     @overload
-    def __getitem__(self, index: slice) -> Solutions: ...
+    def __getitem__(self, index: Chosen) -> Solutions: ...
 
-    def __getitem__(self, index: int | slice) -> Solution | Solutions:
+    def __getitem__(self, index: int | Chosen) -> Solution | Solutions:
         return self.table[index]
 
     @overload

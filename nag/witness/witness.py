@@ -237,8 +237,14 @@ class WitnessSet(FixedArrays):
             "status": str(self.status),
         }
 
-    def document(self, variables: Sequence[str]) -> dict[str, Any]:
-        """The component as a JSON object, without what cuts it."""
+    def document(self, variables: Sequence[str] | None = None) -> dict[str, Any]:
+        """The component as a JSON object, without what cuts it.
+
+        Args:
+            variables: names of all coordinates, by default those of its equations.
+        """
+        if variables is None:
+            variables = self._known_system().variables
         orbit: dict[str, Any] = {"size": self.orbit}
         if self.images:
             orbit["images"] = [g.text(variables) for g in self.images]
@@ -553,6 +559,8 @@ class Decomposition(Several[WitnessSet]):
     notes: tuple[str, ...] = field(default=())
     method: str = field(default="", compare=False)
     algebraic: bool = field(default=False, compare=False)
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         check_type(self.system, PolynomialSystem, "system", "a nag.PolynomialSystem")
