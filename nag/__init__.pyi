@@ -153,6 +153,19 @@ Exported: TypeAlias = (
     | Certified
     | RealCurve
 )
+# What is written to a file.
+Writable: TypeAlias = (
+    Exported | Case | Mechanism | Model | Parts | Problem | PolynomialSystem | Equations | File
+)
+# Of the members of a family, by rows, of one parameter by numbers, or by columns with names.
+Values: TypeAlias = (
+    Sequence[Sequence[complex]]
+    | Sequence[complex]
+    | np.ndarray
+    | Mapping[str, Sequence[complex] | np.ndarray]
+    | Table
+    | File
+)
 Decomposed: TypeAlias = Solvable | WitnessSet
 # The name of a point, or its coordinates by name or in order.
 Point: TypeAlias = (
@@ -165,7 +178,7 @@ Start: TypeAlias = Literal[
 ]
 Circuits: TypeAlias = Literal["reference", "all"] | int
 Drives: TypeAlias = tuple[str, RealNumber] | Mapping[str, RealNumber] | Table
-Poses: TypeAlias = Mapping[str, Sequence[RealNumber] | np.ndarray] | Table
+Placements: TypeAlias = Mapping[str, Sequence[RealNumber] | np.ndarray] | Table
 
 def certify(
     given: Decomposed,
@@ -195,7 +208,7 @@ def driven_motion(
     samples: int = 360,
     formulation: Formulation = "auto",
     drive: Drives | None = None,
-    pose: Poses | None = None,
+    pose: Placements | None = None,
     **options: Unpack[Options],
 ) -> DrivenMotion: ...
 def eliminate(
@@ -308,7 +321,7 @@ def motion(
     samples: int = 360,
     formulation: Formulation = "auto",
     drive: Drives | None = None,
-    pose: Poses | None = None,
+    pose: Placements | None = None,
     **options: Unpack[Options],
 ) -> Motion: ...
 def plot(
@@ -403,12 +416,7 @@ def solve(
 def solve_family(
     equations: Solvable,
     parameters: Names | None = None,
-    values: Sequence[Sequence[complex]]
-    | np.ndarray
-    | Mapping[str, Sequence[complex] | np.ndarray]
-    | Table
-    | File
-    | None = None,
+    values: Values | None = None,
     variables: Names | None = None,
     *,
     imaginary: str | None = None,
@@ -453,15 +461,7 @@ def write_report(
     **options: Unpack[Options],
 ) -> MechanismReport: ...
 def write(
-    result: Exported
-    | Case
-    | Mechanism
-    | Model
-    | Parts
-    | Problem
-    | PolynomialSystem
-    | Equations
-    | File,
+    result: Writable,
     path: File,
     *,
     format: str = "auto",

@@ -20,6 +20,13 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args
 
 from nag.algebra.given import (
     ANSWERS,
+    Decomposed,
+    Moving,
+    Names,
+    Point,
+    Solvable,
+    Values,
+    Writable,
     check_choice,
     check_declared,
     check_type,
@@ -79,7 +86,7 @@ Coordinates = Literal["joint", "euler"]
 # Ends of names that files have and equations have not.
 SUFFIXES = (".toml", ".json", ".urdf", ".xml", ".m2", ".sing", ".txt", ".bertini", ".phc")
 # How equations are read: keywords of `problem`, of which each is None by default.
-EQUATION_OPTIONS = {"variables": "Any", "imaginary": "str | None"}
+EQUATION_OPTIONS = {"variables": "Names | None", "imaginary": "str | None"}
 # How a file is read: keywords of `read`, and their defaults.
 FILE_OPTIONS: Mapping[str, Any] = {"set": None, "format": "auto", "hold": (), "at": None}
 # What a case may describe.
@@ -118,8 +125,9 @@ ENDINGS = {
     ".py": "sympy",
 }
 # Endings of what is read, and is neither a case nor equations when it is written.
-NOT_WRITTEN = (".json", ".urdf", ".xml", ".csv", ".npy", ".npz", ".parquet")
-NOT_WRITTEN += (".html", ".svg", ".png", ".pdf")
+NOT_WRITTEN = frozenset(
+    (".json", ".urdf", ".xml", ".csv", ".npy", ".npz", ".parquet", ".html", ".svg", ".png", ".pdf")
+)
 # What is said of a component of an export on which paths fail.
 UNTESTED = "the trace of its points could not be tested"
 
@@ -210,7 +218,7 @@ def _read_export(path: str | os.PathLike[str]) -> Exported | dict[str, Any]:
 
 
 def write(
-    result: Any, path: str | os.PathLike[str], *, format: str = "auto", title: str = ""
+    result: Writable, path: str | os.PathLike[str], *, format: str = "auto", title: str = ""
 ) -> None:
     """Write something to a file that `read` reads.
 
@@ -521,8 +529,8 @@ def _with_options(text: str, said: Mapping[str, Iterable[str]]) -> str:
 @takes_files
 @answers_early
 def decompose(
-    system: Any,
-    variables: Any = None,
+    system: Solvable,
+    variables: Names | None = None,
     *,
     imaginary: str | None = None,
     formulation: str = "auto",
@@ -646,7 +654,7 @@ def _decompose_by(
 @takes_mechanisms
 @takes_run
 def sweep_parameter(
-    given: Any,
+    given: Moving,
     parameter: str,
     values: Sequence[Any],
     *,
@@ -709,7 +717,7 @@ def sweep_parameter(
 @takes_mechanisms
 @takes_run
 def decompose_modes(
-    mechanism: Any,
+    mechanism: Moving,
     *,
     formulation: str = "auto",
     coordinates: Coordinates | None = None,
@@ -749,7 +757,7 @@ def decompose_modes(
 @takes_mechanisms
 @takes_run
 def write_report(
-    given: Any,
+    given: Moving,
     path: str | os.PathLike[str],
     *,
     formulation: str = "auto",
@@ -798,8 +806,8 @@ def write_report(
 @takes_files
 @answers_early
 def solve(
-    system: Any,
-    variables: Any = None,
+    system: Solvable,
+    variables: Names | None = None,
     *,
     imaginary: str | None = None,
     formulation: str = "auto",
@@ -849,8 +857,8 @@ def solve(
 
 @takes_files
 def problem(
-    given: Any,
-    variables: Any = None,
+    given: Solvable,
+    variables: Names | None = None,
     *,
     imaginary: str | None = None,
     formulation: str = "auto",
@@ -911,7 +919,7 @@ def _point(
 
 
 @takes_mechanisms
-def gruebler_kutzbach(mechanism: Any) -> int:
+def gruebler_kutzbach(mechanism: Moving) -> int:
     """Freedoms of all moving bodies minus the conditions of all joints.
 
     A body has 6 freedoms in space and 3 in planar and spherical mechanisms; of a framework the
@@ -942,7 +950,7 @@ def gruebler_kutzbach(mechanism: Any) -> int:
 
 @takes_files
 def model(
-    mechanism: Any,
+    mechanism: Moving,
     formulation: str = "auto",
     modes: Sequence[tuple[str, int]] = (),
     space: Space | None = None,
@@ -996,8 +1004,8 @@ def model(
 @takes_files
 @takes_run
 def local(
-    given: Any,
-    point: Any = None,
+    given: Solvable,
+    point: Point | None = None,
     *,
     formulation: str = "auto",
     run: Run = DEFAULT_RUN,
@@ -1146,7 +1154,11 @@ def component_numbered(found: Decomposition, number: int, place: str = "componen
 @takes_components
 @takes_run
 def member(
-    given: Any, point: Any = None, *, formulation: str = "auto", run: Run = DEFAULT_RUN
+    given: Decomposed,
+    point: Point | None = None,
+    *,
+    formulation: str = "auto",
+    run: Run = DEFAULT_RUN,
 ) -> PointMembership:
     """Which components a point lies on.
 
@@ -1177,7 +1189,7 @@ def member(
 @takes_components
 @takes_run
 def sample(
-    given: Any,
+    given: Decomposed,
     component: int = 1,
     *,
     count: int = 10,
@@ -1223,7 +1235,11 @@ def sample(
 @takes_components
 @takes_run
 def find_real_points(
-    given: Any, component: int | None = None, *, formulation: str = "auto", run: Run = DEFAULT_RUN
+    given: Decomposed,
+    component: int | None = None,
+    *,
+    formulation: str = "auto",
+    run: Run = DEFAULT_RUN,
 ) -> RealPieces:
     """Real points of a component of any dimension, on each connected piece where they are had.
 
@@ -1264,7 +1280,11 @@ def find_real_points(
 @takes_components
 @takes_run
 def find_real_curve(
-    given: Any, component: int | None = None, *, formulation: str = "auto", run: Run = DEFAULT_RUN
+    given: Decomposed,
+    component: int | None = None,
+    *,
+    formulation: str = "auto",
+    run: Run = DEFAULT_RUN,
 ) -> RealCurve:
     """The complete real part of a one-dimensional component.
 
@@ -1319,10 +1339,10 @@ def _one_component(found: Decomposition, number: int | None, dimension: int | No
 @takes_components
 @takes_run
 def singular(
-    given: Any,
+    given: Decomposed,
     component: int | None = None,
     *,
-    free: Any = None,
+    free: Names | None = None,
     formulation: str = "auto",
     run: Run = DEFAULT_RUN,
 ) -> SingularLocus | SingularParameters:
@@ -1408,7 +1428,7 @@ def _variables_of(case: Case) -> tuple[str, ...]:
 @takes_components
 @takes_run
 def intersect(
-    given: Any,
+    given: Decomposed,
     first: int,
     second: int,
     *,
@@ -1444,11 +1464,11 @@ def intersect(
 @takes_components
 @takes_run
 def eliminate(
-    given: Any,
-    onto: Any = None,
+    given: Decomposed,
+    onto: Names | None = None,
     component: int | None = None,
     *,
-    point: Any = None,
+    point: Point | None = None,
     degree: int | None = None,
     polynomial: bool = False,
     formulation: str = "auto",
@@ -1733,10 +1753,10 @@ def place_variables(names: Sequence[str], system: Any) -> tuple[int, ...]:
 @takes_files
 @takes_run
 def solve_family(
-    equations: Any,
-    parameters: Any = None,
-    values: Any = None,
-    variables: Any = None,
+    equations: Solvable,
+    parameters: Names | None = None,
+    values: Values | None = None,
+    variables: Names | None = None,
     *,
     imaginary: str | None = None,
     formulation: str = "auto",
@@ -1898,10 +1918,10 @@ def _family_in(
 @takes_components
 @takes_run
 def plot(
-    given: Any,
+    given: Decomposed,
     path: str | os.PathLike[str],
     *,
-    onto: Any = None,
+    onto: Names | None = None,
     joints: Sequence[str] | str | None = None,
     point: str | None = None,
     graph: bool = False,
@@ -1991,7 +2011,7 @@ def _listed_joints(joints: Any) -> tuple[str, ...]:
 
 @takes_files
 @takes_run
-def check_statements(given: Any = None, *, run: Run = DEFAULT_RUN) -> CheckedStatements:
+def check_statements(given: Moving | None = None, *, run: Run = DEFAULT_RUN) -> CheckedStatements:
     """Test what the founding papers state of a mechanism or a system, or all that they state.
 
     Args:
@@ -2113,7 +2133,7 @@ NOT_CERTIFIED = {
 @takes_files
 @takes_run
 def certify(
-    given: Any, paths: bool = False, *, formulation: str = "auto", run: Run = DEFAULT_RUN
+    given: Decomposed, paths: bool = False, *, formulation: str = "auto", run: Run = DEFAULT_RUN
 ) -> Certified:
     """Prove the points of a result: one zero in a box about each, distinct, and which are real.
 

@@ -19,6 +19,7 @@ import pytest
 from test_pickled_results import RESULTS
 
 import nag
+from nag.algebra import given
 
 ROOT = Path(nag.__file__).parent.parent
 STUB = ast.parse((ROOT / "nag" / "__init__.pyi").read_text("utf-8"))
@@ -110,6 +111,18 @@ def test_mypy_finds_no_any_where_a_type_is_known_and_no_error_in_what_pages_show
     assert [line for line in lines if ": error:" in line] == []
     revealed = [line for line in lines if "Revealed type" in line]
     assert len(revealed) > 100 and [line for line in revealed if "Any" in line] == []
+
+
+def test_help_says_by_name_what_is_asked_about() -> None:
+    aliases = {n.target.id for n in STUB.body if isinstance(n, ast.AnnAssign)}  # type: ignore[union-attr]
+    for name in nag.__all__:
+        value = getattr(nag, name)
+        if inspect.isfunction(value) and value.__module__.startswith("nag."):
+            for each in inspect.signature(value).parameters.values():
+                assert each.annotation != "Any", (name, each.name)
+    for name in ("Solvable", "Decomposed", "Moving", "Names", "Placements", "Values", "Writable"):
+        assert name in aliases and hasattr(given, name)
+    assert inspect.signature(nag.solve).parameters["system"].annotation == "Solvable"
 
 
 def test_signatures_say_the_type_of_every_argument() -> None:

@@ -20,7 +20,15 @@ from typing import Any
 from nag.algebra.bounded import Budget, Value, representable
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.from_sympy import is_sympy, symbol_names, sympy_value
-from nag.algebra.given import GRAPH_GIVEN, check_listed, check_type, is_a, value_text
+from nag.algebra.given import (
+    GRAPH_GIVEN,
+    Equations,
+    Names,
+    check_listed,
+    check_type,
+    is_a,
+    value_text,
+)
 from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, values_with_unit
 from nag.algebra.number import ComplexNumber, Number, is_zero
 from nag.algebra.polynomial import Polynomial
@@ -112,11 +120,11 @@ def exact_vector(values: Any, place: str) -> tuple[Number, ...]:
 
 
 def system(
-    equations: Any,
-    variables: Any = None,
+    equations: Equations,
+    variables: Names | None = None,
     *,
     parameters: Mapping[Any, Any] | None = None,
-    nonzero: Any = (),
+    nonzero: Equations = (),
     groups: Iterable[Iterable[Any]] = (),
     imaginary: str | None = None,
 ) -> PolynomialSystem:

@@ -8,10 +8,22 @@ from inspect import signature
 from math import isfinite
 from numbers import Integral, Real
 from os import PathLike
-from typing import Any
+from typing import Any, TypeAlias
 
 from nag.errors import NagError
 
+# What functions take, by names that help shows: for type checkers they are in the package's stub,
+# which says what each may be.
+Decomposed: TypeAlias = Any
+Drives: TypeAlias = Any
+Equations: TypeAlias = Any
+Moving: TypeAlias = Any
+Names: TypeAlias = Any
+Point: TypeAlias = Any
+Placements: TypeAlias = Any
+Solvable: TypeAlias = Any
+Values: TypeAlias = Any
+Writable: TypeAlias = Any
 # What is asked of an argument by how it is declared.
 _TEXT, _TRUTH = "a text", "True or False"
 DECLARED: Mapping[str, tuple[Any, str]] = {

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nag.algebra.from_python import real_double
+from nag.algebra.given import Drives, Moving, Placements
 from nag.errors import NagError
 from nag.kinematics import MOST_VALUES
 from nag.kinematics.driven import (
@@ -160,14 +161,14 @@ class DrivenMotion(Several[Motion]):
 
 @takes_run
 def driven_motion(
-    mechanism: Any,
+    mechanism: Moving,
     coordinate: str,
     values: Sequence[float],
     *,
     samples: int = SAMPLES,
     formulation: str = "auto",
-    drive: Any = None,
-    pose: Any = None,
+    drive: Drives | None = None,
+    pose: Placements | None = None,
     run: Run = DEFAULT_RUN,
 ) -> DrivenMotion:
     """What a mechanism can do with a joint at one value after another.

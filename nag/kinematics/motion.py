@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
-from nag.algebra.given import check_choice, check_whole
+from nag.algebra.given import Drives, Moving, Placements, check_choice, check_whole
 from nag.decomposition.through import through_points
 from nag.errors import NagError
 from nag.kinematics.driven import (
@@ -469,13 +469,13 @@ def join_tables(tables: Sequence[Mapping[str, np.ndarray]]) -> dict[str, np.ndar
 
 @takes_run
 def motion(
-    mechanism: Any,
+    mechanism: Moving,
     *,
     circuit: Which | int = "reference",
     samples: int = SAMPLES,
     formulation: str = "auto",
-    drive: tuple[str, float] | Mapping[str, float] | None = None,
-    pose: Mapping[str, Sequence[float]] | None = None,
+    drive: Drives | None = None,
+    pose: Placements | None = None,
     run: Run = DEFAULT_RUN,
 ) -> Motion:
     """How a mechanism of one freedom really moves: all joints and bodies along each circuit.

@@ -10,7 +10,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from nag.algebra.from_python import coordinates
-from nag.algebra.given import check_choice, check_size, is_a
+from nag.algebra.given import Moving, check_choice, check_size, is_a
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import quote
@@ -78,7 +78,7 @@ Detail = Literal["local", "through", "components", "curves"]
 
 @takes_run
 def mobility(
-    mechanism: Any,
+    mechanism: Moving,
     point: Sequence[Any] | Mapping[str, Any] | None = None,
     *,
     formulation: str = "auto",

@@ -22,7 +22,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import null_space
-from nag.algebra.given import check_size
+from nag.algebra.given import Moving, check_size
 from nag.algebra.multipliers import order
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -93,7 +93,7 @@ UNITS = tuple(tuple(int(i == j) for j in range(8)) for i in range(8))
 
 @takes_run
 def modes(
-    mechanism: Any,
+    mechanism: Moving,
     platform: str | None = None,
     *,
     budget: float = MODES_BUDGET,
