@@ -372,9 +372,16 @@ def open_file(given: Any, **how: Any) -> Any:
         return read(given, **how)
     for name, value in reading_options(**{**FILE_OPTIONS, **how}).items():
         if value != FILE_OPTIONS[name]:
-            was = f"{type(given).__name__}, not " if not isinstance(given, str) else ""
-            raise NagError(f"{name}: says how a file is read; {was}the name of one is to be given")
+            raise NagError(f"{name}: says how a file is read; {_instead_of_file(given, name)}")
     return given
+
+
+def _instead_of_file(given: Any, name: str) -> str:
+    """What is given where the name of a file would be, and what to do."""
+    if is_a(given, "nag.algebra.system", "PolynomialSystem") or not _is_equations(given):
+        return f"a {type(given).__name__} is given; give the name of the file that it is read from"
+    mend = "; nag.system(equations, parameters={'a': 1}) sets values in them"
+    return f"equations are given{mend if name == 'set' else ', which are no file'}"
 
 
 def names_file(given: Any) -> bool:
@@ -2044,7 +2051,8 @@ def check_statements(given: Moving | None = None, *, run: Run = DEFAULT_RUN) -> 
         found = recognised(case, find_components)
         if found is None:
             known = ", ".join(WITH_CASES)
-            said = f"{case.path}: the papers give no components of it; they do of {known}"
+            place = case.path if case is given else "given"
+            said = f"{place}: the papers give no components of it; they do of {known}"
             raise NagError(said).mended_by("all")
         sections = [
             (found.subject.title, found.subject.statements),

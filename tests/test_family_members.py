@@ -463,3 +463,10 @@ def test_a_column_of_no_parameter_is_told_wherever_the_table_is(tmp_path: Path) 
     for values in (table, pandas.DataFrame(table), file):
         with pytest.raises(nag.NagError, match="'k' is no parameter"):
             nag.solve_family("x^2 = a", "a", values)
+
+
+def test_a_table_may_begin_with_a_mark_of_its_encoding(tmp_path: Path) -> None:
+    table = tmp_path / "values.csv"
+    table.write_text("a\n1\n4\n", encoding="utf-8-sig")
+    for parameters in ("a", None):
+        assert len(nag.solve_family("x^2 = a", parameters, table)) == 2

@@ -268,3 +268,55 @@ def test_names_are_given_in_the_same_ways_everywhere() -> None:
     indexed = nag.system("x[1,2] - y", "x[1,2], y")
     assert indexed.variables == ("x[1,2]", "y")
     assert [str(f) for f in nag.eliminate(indexed, "x[1,2], y").equations] == ["x[1,2] - y"]
+
+
+@pytest.mark.parametrize("point", [b"10", bytearray(b"10"), {1, 2}, (x for x in (1, 1)), "11"])
+def test_a_point_has_numbers_in_an_order_that_can_be_read_again(point: Any) -> None:
+    system, line = nag.system("x - y"), nag.decompose("x - y")
+    for ask in (
+        lambda: nag.member(line, point),
+        lambda: line[0].contains(point),
+        lambda: nag.local_dimension(system, point),
+    ):
+        with pytest.raises(nag.NagError, match=r"point: .* is given; give 2 numbers in a list, or"):
+            ask()
+
+
+def test_symbols_of_one_name_are_one_symbol() -> None:
+    x, real, y = sympy.Symbol("x"), sympy.Symbol("x", real=True), sympy.Symbol("y")
+    message = "two symbols are named 'x', with different assumptions; use one of them throughout"
+    for place, ask in (
+        ("equations[1]", lambda: nag.solve([real - 1, x - y])),
+        ("equations[0]", lambda: nag.solve([real - x])),
+        ("nonzero[0]", lambda: nag.system([real - 1], nonzero=[x])),
+        ("variables", lambda: nag.system([real - 1], [x])),
+        ("parameters", lambda: nag.system([real - y], parameters={x: 1})),
+    ):
+        with pytest.raises(nag.EquationError) as refused:
+            ask()
+        assert str(refused.value) == f"{place}: {message}"
+    assert nag.system([real - 1, real - y], [real, y]).variables == ("x", "y")
+    assert nag.system([real - 1, "x - y"], "x y").variables == ("x", "y")
+
+
+def test_what_is_no_equation_gets_advice_that_mends_it() -> None:
+    x = sympy.Symbol("x")
+    for equation, message in (
+        (sympy.Eq(1, 2), "the equation never holds, as sympy says, so there is no solution; corre"),
+        (sympy.Eq(1, 1), "the equation always holds, as sympy says; leave it out"),
+        (x - 1 == 0, "a truth value is given, as == of Python gives; write Eq"),
+        (x**0.5 - 1, "for the root take a variable w, with the equation w\\^2 = x"),
+        (sympy.sqrt(x) - 1, "for the root take a variable w, with the equation w\\^2 = x"),
+        ("sqrt(x) - 1", "for the root take a variable w, with the equation w\\^2 = x"),
+    ):
+        with pytest.raises(nag.EquationError, match=rf"equations\[1\]: .*{message}"):
+            nag.solve(["x - 1", equation])
+
+
+def test_a_table_of_points_is_refused_with_the_dict_that_it_makes() -> None:
+    frame = pytest.importorskip("pandas").DataFrame([[0, 0], [1, 0], [0, 1]], index=list("ABC"))
+    bars = ["AB", "BC", "CA"]
+    with pytest.raises(nag.MechanismError, match=r"a table is given; .* frame.T.to_dict\('list'\)"):
+        nag.Framework.of(frame, bars)
+    placed = nag.Framework.of(frame.T.to_dict("list"), bars)
+    assert placed == nag.Framework.of({"A": (0, 0), "B": (1, 0), "C": (0, 1)}, bars)

@@ -116,7 +116,19 @@ def test_points_go_by_names_mappings_and_numbers() -> None:
         (lambda: nag.member("x*y"), "which one\\? give a dict, {'x': 1, ...} or 2 num"),
         (lambda: nag.solve_family("cases/rhombus.toml"), "values: none are given"),
         (lambda: nag.solve_family("x^2 - a", values=[[1]]), "parameters: which are they"),
-        (lambda: nag.solve("x^2 - 1", set={"a": 1}), "set: says how a file is read"),
+        (
+            lambda: nag.solve("x^2 - 1", set={"a": 1}),
+            r"set: says how a file is read; equations are given; nag.system\(equations, param",
+        ),
+        (
+            lambda: nag.decompose(nag.system("x"), format="phc"),
+            "format: says how a file is read; a PolynomialSystem is given; give the name of the f",
+        ),
+        (lambda: nag.check_statements("x^2 - 1"), "^given: the papers give no components of it"),
+        (
+            lambda: nag.plot(nag.solve(["x^2 - 1", "y"]), "a.svg", onto="x y"),
+            "onto: there is no component of dimension 1 to draw",
+        ),
         (lambda: nag.certify(3), "system: something of type int is given"),
         (
             lambda: nag.write(nag.local("x*y", (0, 1)), "file.txt"),
@@ -378,7 +390,7 @@ def test_how_a_file_is_read_is_said_in_every_question(tmp_path: Path) -> None:
     assert nag.solve(system=["x^2 - 1"]) == nag.solve(["x^2 - 1"])
     with pytest.raises(nag.NagError, match="hold: is for robots"):
         nag.mobility(CASES / "bennett.toml", hold="B0")
-    with pytest.raises(nag.NagError, match="set: says how a file is read; Case, not the name"):
+    with pytest.raises(nag.NagError, match="set: says how a file is read; a Case is given; give"):
         nag.decompose(kite, set={"b": 2})
 
 

@@ -10,7 +10,7 @@ from typing import NoReturn
 
 from nag.algebra.number import Irrational, Number, Surd, binary, is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
-from nag.algebra.tokens import ExpressionError, quote
+from nag.algebra.tokens import ExpressionError, quote, root_text
 
 MAX_DEGREE = 1_000
 MAX_TERMS = 10_000
@@ -134,7 +134,10 @@ class BoundedArithmetic:
             raise ExpressionError("the exponent is not a whole number; write a whole number")
         if exponent.denominator != 1:
             shown = quote(str(exponent))
-            raise ExpressionError(f"the exponent {shown} is not whole; write sqrt(...) for a root")
+            mend = "write sqrt(...) for a root"
+            if isinstance(base, Polynomial):
+                mend = root_text(exponent.denominator)
+            raise ExpressionError(f"the exponent {shown} is not whole; {mend}")
         k = int(exponent)
         shown = str(k) if abs(k) < 10**30 else "of more than 30 digits"
         if isinstance(base, Polynomial) and k < 0 and self._parts(base) is not None:

@@ -38,6 +38,7 @@ from nag.algebra.tokens import (
     imaginary_text,
     nearest,
     quote,
+    root_text,
     tokenize,
 )
 
@@ -270,7 +271,7 @@ class _Parser:
             self._fail(name, f"{name.text} needs parentheses; write {name.text}(...)")
         value = self._closed(self._next())
         if isinstance(value, Polynomial):
-            mend = "write a constant in it"
+            mend = root_text(2)
             if name.text != "sqrt":
                 mend = "take a cosine and a sine for variables, with the equation c^2 + s^2 = 1"
             self._fail(name, f"{name.text} of a variable is no polynomial; {mend}")

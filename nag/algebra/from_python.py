@@ -11,7 +11,7 @@ import numbers
 import re
 import sys
 from cmath import isfinite
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Complex, Integral, Rational, Real
@@ -19,7 +19,7 @@ from typing import Any
 
 from nag.algebra.bounded import Budget, Value, representable
 from nag.algebra.expression import parse_number, parse_polynomial
-from nag.algebra.from_sympy import is_sympy, symbol_names, sympy_value
+from nag.algebra.from_sympy import is_sympy, symbol_names, symbols_text, sympy_value
 from nag.algebra.given import (
     GRAPH_GIVEN,
     Equations,
@@ -52,6 +52,8 @@ __all__ = ["exact_number", "exact_vector", "system"]
 
 # What iterates, as sequences of equations do, and holds none: results.
 RESULTS = ("nag.numerics.read_only", "Several")
+# What iterates and is no point: it has no numbers, no order, or gives them once.
+NO_POINTS = (str, bytes, bytearray, Set, Iterator)
 # What stands between equations of a list; commas in brackets stand between indices.
 _SEVERAL = re.compile(r"[,;]\s*\S")
 _IN_BRACKETS = re.compile(r"[\[{(][^\[{(\]})]*[\]})]")
@@ -109,7 +111,7 @@ def exact_vector(values: Any, place: str) -> tuple[Number, ...]:
     Raises:
         ExpressionError: if it is no sequence, or holds something else.
     """
-    if isinstance(values, str | bytes | bytearray) or not isinstance(values, Iterable):
+    if isinstance(values, str | bytes | bytearray | Set) or not isinstance(values, Iterable):
         shown = (
             quote(values)
             if isinstance(values, str)
@@ -176,6 +178,11 @@ def system(
         for place, equations in (("equations", given), ("nonzero", apart))
         for i, equation in enumerate(equations)
     ]
+    _check_symbols(
+        *occurring,
+        *((name, "variables") for name in _each(variables)),
+        *((name, "parameters") for name in parameters or ()),
+    )
     check_type(imaginary, str | None, "imaginary", "a letter")
     if imaginary is not None and not is_name(imaginary):
         raise ExpressionError(f"imaginary: {quote(str(imaginary))} is no name; write a letter")
@@ -195,6 +202,32 @@ def system(
         [_group(group, names, f"groups[{i}]") for i, group in enumerate(groups)],
     )
     return adjoin_unit(read.names, *parts) if is_complex else PolynomialSystem(names, *parts)
+
+
+def _each(given: Any) -> list[Any]:
+    """What is given one by one or alone."""
+    return [*given] if isinstance(given, list | tuple) else [given]
+
+
+def _check_symbols(*given: tuple[Any, str]) -> None:
+    """Refuse different symbols of one name in a system: they would be one variable.
+
+    Args:
+        given: expressions and names, each with its place.
+
+    Raises:
+        ExpressionError: if there are such.
+    """
+    known: dict[str, Any] = {}
+    for expression, place in given:
+        if is_sympy(expression):
+            try:
+                own = symbol_names(expression)
+            except ExpressionError as error:
+                raise ExpressionError(f"{place}: {error}") from None
+            for name, symbol in own.items():
+                if known.setdefault(name, symbol) != symbol:
+                    raise ExpressionError(f"{place}: {symbols_text(name)}")
 
 
 def exact_complex(value: Any, place: str, units: Sequence[str] = ("I",)) -> Number | ComplexNumber:
@@ -363,6 +396,11 @@ class _Reader:
                 known = {k: v for k, v in self.values.items() if k not in self.names}
                 unit = None if self.unit is None else self.names[-1]
                 return parse_polynomial(equation, self.names, known, unit=unit)
+            if isinstance(equation, bool):
+                raise ExpressionError(
+                    "a truth value is given, as == of Python gives; write Eq(a, b) of sympy, or a "
+                    "text, 'a = b'"
+                )
             if not is_sympy(equation):
                 return Polynomial.constant(n, parse_number(plain_number(equation)))
             symbol_names(equation)
@@ -437,11 +475,12 @@ def coordinates(
             raise NagError(f"point: no value for {missing[0]!r}; give one for each variable")
         by_place = dict(zip(places, point.values(), strict=True))
         values = [by_place[i] for i in range(n)]
-    elif isinstance(point, Iterable) and not isinstance(point, str):
+    elif isinstance(point, Iterable) and not isinstance(point, NO_POINTS):
         values = list(point)
     else:
         raise NagError(
-            f"point: {value_text(point)} is given; give {n} numbers, or a dict of them by name"
+            f"point: {value_text(point)} is given; give {n} numbers in a list, or a dict of them "
+            "by name"
         )
     if len(values) != n:
         are = "coordinate is" if len(values) == 1 else "coordinates are"

@@ -40,11 +40,16 @@ def symbol_names(value: Any) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for symbol in value.free_symbols:
         if found.setdefault(str(symbol), symbol) != symbol:
-            raise ExpressionError(
-                f"two symbols are named {quote(str(symbol))}, with different assumptions; "
-                "use one of them throughout"
-            )
+            raise ExpressionError(symbols_text(str(symbol)))
     return found
+
+
+def symbols_text(name: str) -> str:
+    """What to say where two symbols have one name."""
+    return (
+        f"two symbols are named {quote(name)}, with different assumptions; use one of them "
+        "throughout"
+    )
 
 
 def sympy_value(
@@ -73,8 +78,11 @@ def sympy_value(
         sides = walk.value(value.lhs, 0), walk.value(value.rhs, 0)
         return walk.arithmetic.add([(1, sides[0]), (-1, sides[1])])
     if value in (sympy.true, sympy.false):
-        always = "always" if value == sympy.true else "never"
-        raise ExpressionError(f"the equation {always} holds, as sympy says; leave it out")
+        if value == sympy.true:
+            raise ExpressionError("the equation always holds, as sympy says; leave it out")
+        raise ExpressionError(
+            "the equation never holds, as sympy says, so there is no solution; correct it"
+        )
     return walk.value(value, 0)
 
 

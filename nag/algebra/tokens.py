@@ -154,6 +154,12 @@ def not_finite_text(name: str, mend: str) -> str:
     return f"{quote(name)} looks like a value that is no finite number; {mend}"
 
 
+def root_text(degree: int) -> str:
+    """What to write for a root of a variable, in which polynomials are none."""
+    shown = str(degree) if degree < 10**30 else "k"
+    return f"for the root take a variable w, with the equation w^{shown} = x"
+
+
 def unit_called(unit: str) -> str:
     """What to write where something else looks like the imaginary unit."""
     return f"it is called {unit!r} here"

@@ -13,7 +13,7 @@ from nag.algebra.given import value_text
 from nag.algebra.number import ComplexNumber, Number, is_zero, number_text
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
-from nag.files.case_table import parse_toml, with_values
+from nag.files.case_table import CaseError, parse_toml, with_values
 from nag.files.cases import Case, case_of_text, parameter_table
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.dh import DHLoop, HalfAngle
@@ -35,7 +35,13 @@ def case_of(given: Any) -> Case:
     if isinstance(given, Case):
         return given
     described = problem_of(given) if is_equations(given) else given
-    return case_of_text(Path("case.toml"), case_text(described))
+    file = Path("case.toml")
+    text = case_text(described)
+    try:
+        return case_of_text(file, text)
+    except CaseError as error:
+        # There is no such file.
+        raise NagError(f"given: {str(error).removeprefix(f'{file}: ')}") from None
 
 
 def case_text(given: Any, title: str = "") -> str:

@@ -43,7 +43,7 @@ def read_member_values(
             _fail(path, f"is larger than {MOST_BYTES >> 30} GB; cut it in parts")
         if file.suffix == ".npy":
             return _read_array(file, len(parameters))
-        with file.open(encoding="utf-8", newline="") as stream:
+        with file.open(encoding="utf-8-sig", newline="") as stream:
             return _read_table(file, csv.reader(stream), parameters, given)
 
 
@@ -57,7 +57,7 @@ def read_member_names(path: str | os.PathLike[str]) -> list[str]:
         return []
     with (
         _refuse_other_files(path),
-        Path(path).open(encoding="utf-8", newline="") as stream,
+        Path(path).open(encoding="utf-8-sig", newline="") as stream,
     ):
         return [name.strip() for name in next(csv.reader(stream), [])]
 

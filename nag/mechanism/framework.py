@@ -94,7 +94,13 @@ class Framework:
         """
         check_listed(bars, "bars", "a list of pairs of names")
         pairs = [_bar_of(bar, i) for i, bar in enumerate(bars)]
-        if isinstance(points, Mapping):
+        if getattr(points, "ndim", 0) == 2:
+            raise FrameworkError(
+                "a table is given; give a dict of places by name, {'A': (0, 0)}: of a frame of "
+                "pandas whose rows are points frame.T.to_dict('list')",
+                "points",
+            )
+        if hasattr(points, "keys"):
             if lengths is not None:
                 raise FrameworkError("the points have places, which fix them", "lengths")
             placed = {str(n): exact_vector(p, f"points[{n!r}]") for n, p in points.items()}

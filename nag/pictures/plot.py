@@ -216,7 +216,9 @@ def _plot_curves(
     from nag.real.shown import answer_text
 
     if not taken:
-        raise NagError("has no component of dimension 1 to draw, and in three variables none of 2")
+        raise NagError(
+            "onto: there is no component of dimension 1 to draw, and in three variables none of 2"
+        )
     curves, rows, notes = [], [], []
     for number, component in taken.items():
         if component.dimension != 1:
