@@ -1980,7 +1980,7 @@ def plot(
 
     onto = None if onto is None else tuple(list_names(onto))
     joints = None if joints is None else _listed_joints(joints)
-    asked = {"onto": onto, "joints": joints, "point": point}
+    asked: dict[str, Any] = {"onto": onto, "joints": joints, "point": point}
     asked |= {"graph": graph, "mechanism": mechanism, "tree": tree}
     kind, target = choose_picture(asked), os.fspath(path)
     if component is not None and kind != "onto":

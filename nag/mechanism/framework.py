@@ -101,6 +101,10 @@ class Framework:
                 "points",
             )
         if hasattr(points, "keys"):
+            # A series of pandas is no mapping.
+            named: Any = points
+            points = dict(named)
+        if isinstance(points, Mapping):
             if lengths is not None:
                 raise FrameworkError("the points have places, which fix them", "lengths")
             placed = {str(n): exact_vector(p, f"points[{n!r}]") for n, p in points.items()}
