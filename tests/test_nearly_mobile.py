@@ -194,6 +194,30 @@ def test_a_table_in_rounded_numbers_gives_a_hint_and_is_nearly_mobile() -> None:
     assert "nor nearly so within 0.001" in general.sentence
 
 
+GOLDBERG = [
+    {"a": "7/5", "alpha": "pi/2"},
+    {"a": "0.471", "alpha": "28.07*pi/180"},
+    {"a": "3/5", "alpha": "36.87*pi/180"},
+    {"a": "4/5", "alpha": "53.13*pi/180"},
+    {"a": "0.471", "alpha": "28.07*pi/180"},
+]
+
+
+def test_a_table_that_rounding_leaves_shaky_is_looked_at_with_a_tolerance() -> None:
+    report = nag.mobility(nag.DHLoop.of(GOLDBERG), tolerance=1e-2)
+    assert report.status == "shaky" and "but nearly does" in report.sentence
+    assert report.near is not None and report.near.nearly_mobile
+    assert [str(x) for x in report.near.linkages] == ["a Goldberg 5R linkage"]
+
+
+def test_a_rounded_table_that_cannot_be_assembled_says_what_to_do_in_both_commands() -> None:
+    rows = [{"a": a, "alpha": t} for a, t in zip((3, "3/2") * 2, ("pi/2", "pi/6") * 2, strict=True)]
+    rows[3]["a"] = "1.501"
+    for ask in (lambda t: nag.mobility(t, tolerance=1e-3), nag.motion):
+        with pytest.raises(NagError, match=r"cannot be assembled.*rounded.*kind = \"mechanism\""):
+            ask(nag.DHLoop.of(rows))
+
+
 def test_a_drawing_in_four_digits_gives_a_hint() -> None:
     lines = [
         ((0, 0, 0), (0, 0, 1)),

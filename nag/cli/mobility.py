@@ -80,8 +80,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--tolerance",
         type=_tolerance,
         metavar="T",
-        help="of a mechanism that is rigid as it is given: whether it nearly moves, its loops "
-        "opening by no more than T radians, and T times its size",
+        help="of a mechanism that does not move as it is given, yet can be assembled: whether it "
+        "nearly moves, its loops opening by no more than T radians, and T times its size",
     )
     parser.add_argument(
         "--curves",
@@ -173,7 +173,7 @@ def _unsaid_rows(options: argparse.Namespace, report: MobilityReport) -> Iterato
     if options.tolerance is not None and report.near is None:
         yield (
             "tolerance",
-            "not looked at: that is for what is rigid as it is given, but for parts that move by "
+            "not looked at: that is for what does not move as it is given, but for parts that move by "
             "themselves, at its reference configuration, or at a real assembly of its parts",
         )
 

@@ -54,7 +54,7 @@ from nag.mechanism.given_rotation import known_multiple
 from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem
-from nag.mechanism.real_assemblies import obstacle, of_real_assemblies
+from nag.mechanism.real_assemblies import no_assembly_text, obstacle, of_real_assemblies
 from nag.mechanism.rods import RodModel
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.read_only import RealArray, Several, equal_values
@@ -917,6 +917,8 @@ def _choose_components(
     if not curves and not notes and not (holding and largest <= 1):
         if largest > 1:
             raise _several_freedoms(problem, largest, where)
+        if problem.parts is not None and not components:
+            raise StillError(no_assembly_text(problem))
         advice = "see nag mobility, with tolerance 1e-3 if its numbers are rounded"
         raise StillError(f"it does not move {where}".rstrip() + f"; {advice}")
     larger = sum(components[i].dimension > 1 for i in own)

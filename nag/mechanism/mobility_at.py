@@ -40,6 +40,7 @@ from nag.mechanism.quaternion import R
 from nag.mechanism.real_assemblies import (
     count_real,
     lines_of_real,
+    no_assembly_text,
     obstacle,
     of_real_assemblies,
     real_assemblies,
@@ -580,9 +581,7 @@ def _in_general(
     found = problem.decompose(run=run)
     components = expand_orbits(found).components
     if found.complete and not components:
-        if forced is not None:
-            raise NoAssembly(f"it cannot be assembled: {forced.text}, and do not fit so")
-        raise NoAssembly("it cannot be assembled, not even with complex coordinates")
+        raise NoAssembly(no_assembly_text(given))
     every = len(components)
     if found.complete and problem.parts is not None and not any(c.dimension for c in components):
         components = _with_real_ones(problem, components, forced)
@@ -615,10 +614,8 @@ def _in_general(
         rests_on=ALL_COMPONENTS if found.complete else "",
     )
     if report.local_dimension == 0:
-        if known is None or known.corank or problem.parts is None:
-            return report
-        if tangent and tolerance is None:
-            # What is shaky gets no hint that it nearly moves.
+        # What is shaky gets no hint that it nearly moves.
+        if known is None or problem.parts is None or (tangent and tolerance is None):
             return report
         return _with_near_motion(report, problem, components, tolerance)
     if of is None:

@@ -516,7 +516,7 @@ def _sentence(report: MobilityReport) -> str:
 
 
 def _nearly(report: MobilityReport) -> str:
-    """What a tolerance adds to a rigid mechanism's sentence."""
+    """What a tolerance adds to the sentence of a mechanism that does not move."""
     return "" if report.near is None else f"; {report.near.sentence}"
 
 
@@ -539,7 +539,7 @@ def _meaning(report: MobilityReport) -> str:
         isolated = "" if report.in_line else isolated
         return (
             "it does not move, but infinitesimally it does, with "
-            f"{count_text(tangent or 0, 'freedom')}{isolated}"
+            f"{count_text(tangent or 0, 'freedom')}{isolated}{_nearly(report)}"
         )
     idle = 0 if report.moving is None else report.moving.idle_count
     apart = report.moving is None and report.free and report.free != mobility

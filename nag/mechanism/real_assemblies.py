@@ -22,6 +22,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.mechanism.assembly import AssemblyModel, Side
+from nag.mechanism.dh import TableModel
 from nag.mechanism.framework_model import (
     FrameworkModel,
     cartesian_model,
@@ -45,6 +46,8 @@ if TYPE_CHECKING:
 # Degrees of components up to which their real points are looked for where random starts lead to
 # none; as many paths as that takes may take a decomposition in real coordinates.
 MOST_DEGREE = 16
+# Hinges from which on a loop closes in general numbers.
+FEWEST_IN_GENERAL = 6
 
 
 def obstacle(parts: AssemblyModel) -> str:
@@ -113,6 +116,26 @@ def _in_line(line: Line, places: Mapping[str, Sequence[Polynomial]]) -> Iterator
         share = (line[other] - line[first]) / length
         for x, y, z in zip(places[first], places[base], places[other], strict=True):
             yield z - x - (y - x) * share
+
+
+def no_assembly_text(problem: Problem) -> str:
+    """What is so of parts without any assembly, complex or real, and what to do if that is rounding.
+
+    Args:
+        problem: of the parts as they are given.
+    """
+    forced = lines_of_real(problem)
+    if forced is not None:
+        return f"it cannot be assembled: {forced.text}, and do not fit so"
+    text = "it cannot be assembled, not even with complex coordinates"
+    # Six conditions close a loop, so that fewer hinges close in special numbers only.
+    if isinstance(problem.parts, TableModel) and len(problem.parts.loop.open) < FEWEST_IN_GENERAL:
+        text += (
+            "; a table of fewer than six hinges that turn rarely closes in rounded numbers: write "
+            'them exactly, as a = "sqrt(2)" and alpha = "pi/6", or give the hinges in one '
+            'assembly, as kind = "mechanism", and ask nag mobility with a tolerance'
+        )
+    return text
 
 
 def tangent_dimension_at(given: Problem, parts: AssemblyModel, point: np.ndarray) -> int:
