@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -316,9 +317,34 @@ def test_what_a_rod_carries_turns_idly_with_it() -> None:
 
 def test_rods_between_bodies_that_are_rigid_together_turn_idly() -> None:
     report = nag.mobility(CASES / "robots" / "hexapod-6-3.toml", detail="local")
-    assert report.sentence.startswith("nothing moves but idly, with 6 freedoms: ")
+    assert report.status == "idle"
+    assert report.sentence.startswith("it is rigid but for 6 rods that turn idly, with 6 freedoms")
     assert report.moving is not None and not report.moving.hanging
     assert report.moving.together == (("base", "platform"),)
+
+
+def test_a_decomposition_says_as_well_that_a_platform_is_rigid_but_for_its_rods(capsys) -> None:
+    assert main(["decompose", str(CASES / "robots" / "hexapod-6-3.toml"), "--quiet"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "rigid at the reference configuration but for 6 rods that turn idly, with 6" in said
+
+
+def test_a_body_on_three_slides_and_a_ball_moves_with_all_freedoms() -> None:
+    ends = ["B", "x", "y", "z", "body"]
+    slides = [
+        joint(f"S{i}", "prismatic", tuple(ends[i : i + 2]), (0, 0, 0), axis)
+        for i, axis in enumerate([(1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    ]
+    ball = Joint("S", "spherical", ("z", "body"), (0, 0, 0))
+    flying, swinging = (
+        Mechanism("B", (*slides, ball)),
+        Mechanism("B", (*slides[:2], replace(ball, bodies=("y", "body")))),
+    )
+    hanging = [nag.mobility(m).moving.hanging for m in (flying, swinging)]
+    assert [[(e.bodies, e.count, e.turns) for e in own] for own in hanging] == [
+        [(("body",), 6, False)],
+        [(("body",), 3, True)],
+    ]
 
 
 def test_a_door_between_parts_that_are_rigid_together_hangs() -> None:

@@ -173,8 +173,8 @@ def _unsaid_rows(options: argparse.Namespace, report: MobilityReport) -> Iterato
     if options.tolerance is not None and report.near is None:
         yield (
             "tolerance",
-            "not looked at: that is for what does not move as it is given, but for parts that move by "
-            "themselves, at its reference configuration, or at a real assembly of its parts",
+            "not looked at: that is for what does not move as it is given, but for parts that move "
+            "by themselves, at its reference configuration, or at a real assembly of its parts",
         )
 
 

@@ -36,6 +36,7 @@ class MobilityStatus(StrEnum):
 
     RIGID = "rigid"
     SHAKY = "shaky"
+    IDLE = "idle"
     MOBILE = "mobile"
     OVERCONSTRAINED = "overconstrained"
     CROSSING = "at a crossing of components"
@@ -292,6 +293,8 @@ class MobilityReport:
             return MobilityStatus.KINEMATOTROPIC
         if len(dimensions) > 1:
             return MobilityStatus.CROSSING
+        if self.moving is not None and self.moving.idle_count == self.tangent_dimension:
+            return MobilityStatus.IDLE
         return MobilityStatus.OVERCONSTRAINED if self.overconstrained else MobilityStatus.MOBILE
 
     @property
@@ -543,7 +546,10 @@ def _meaning(report: MobilityReport) -> str:
         )
     idle = 0 if report.moving is None else report.moving.idle_count
     apart = report.moving is None and report.free and report.free != mobility
-    if report.moving is not None and idle and idle == mobility:
+    if status is MobilityStatus.IDLE and report.moving is not None:
+        freedoms = count_text(idle, "freedom")
+        text = f"it is rigid but for {report.moving.idle_kinds}, with {freedoms}"
+    elif report.moving is not None and idle and idle == mobility:
         text = f"nothing moves but idly, with {count_text(idle, 'freedom')}"
     else:
         text = f"it moves with {count_text((mobility or 0) - report.unreal, 'freedom')}"

@@ -26,6 +26,8 @@ from nag.text.table import count_text, join_words
 
 # Of more units, those between two others are not looked at.
 MOST_UNITS = 60
+# Freedoms of a body that nothing holds, and how many of these are slides.
+FREEDOMS_IN_SPACE, SLIDES_IN_SPACE = 6, 3
 
 
 @dataclass(frozen=True)
@@ -128,6 +130,18 @@ class MovingParts:
     def idle_text(self) -> str:
         """Which parts are idle; empty where none is."""
         return describe_parts(self.idle)
+
+    @property
+    def idle_kinds(self) -> str:
+        """How many parts are idle, by whether they are rods that turn about themselves."""
+        rods = sum(each.turns and each.count == 1 for each in self.idle)
+        others = len(self.idle) - rods
+        texts = [
+            f"{count_text(count, kind)} that {verb}{'s' * (count == 1)} idly"
+            for count, kind, verb in ((rods, "rod", "turn"), (others, "part", "move"))
+            if count
+        ]
+        return join_words(texts)
 
     def rows(self) -> list[tuple[str, str]]:
         """Labelled lines of what there is to be said."""
@@ -294,10 +308,36 @@ def _idle(
         joint = at[0].name if turns and count == 1 and len(at) == 1 else ""
         bodies = tuple(body for k in own for body in units[k])
         meant = _meant_by(bodies[0], mechanism) if len(bodies) == len(at) == 1 else ""
-        part = IdleFreedom(bodies, count, turns, joint, meant)
         beside = {welded[b] for j in at for b in j.bodies if unit_of[b] not in own}
+        if (
+            turns
+            and len(beside) == 1
+            and len(at) == 1
+            and _slides_lead_to(mechanism, at[0], bodies)
+        ):
+            count, turns = FREEDOMS_IN_SPACE, False
+        part = IdleFreedom(bodies, count, turns, joint, meant)
         (hanging if len(beside) == 1 else found).append(part)
     return found, hanging
+
+
+def _slides_lead_to(mechanism: Mechanism, ball: Joint, bodies: Sequence[str]) -> bool:
+    """Whether a ball joint, which bodies hang on, is at the end of slides in all directions.
+
+    Slides and turns then are all displacements, and those of the bodies alone.
+    """
+    if not ball.of_type.turns_about_point:
+        return False
+    axes: list[np.ndarray] = []
+    joint, (end,) = ball, set(ball.bodies) - set(bodies)
+    while end != mechanism.ground:
+        others = [j for j in mechanism.joints if end in j.bodies and j is not joint]
+        if len(others) != 1 or not others[0].of_type.slides_only or others[0].axis is None:
+            break
+        (joint,) = others
+        axes.append(np.array([float(x) for x in joint.axis]))
+        (end,) = set(joint.bodies) - {end}
+    return len(axes) >= SLIDES_IN_SPACE and np.linalg.matrix_rank(np.array(axes)) == SLIDES_IN_SPACE
 
 
 def _parts_between(graph: networkx.Graph, ground: int) -> list[tuple[int, ...]]:

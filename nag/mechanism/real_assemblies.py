@@ -119,7 +119,7 @@ def _in_line(line: Line, places: Mapping[str, Sequence[Polynomial]]) -> Iterator
 
 
 def no_assembly_text(problem: Problem) -> str:
-    """What is so of parts without any assembly, complex or real, and what to do if that is rounding.
+    """That parts have no assembly, not even a complex one, and what to do if that is rounding.
 
     Args:
         problem: of the parts as they are given.

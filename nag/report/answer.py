@@ -68,7 +68,8 @@ def _mobility_rows(
             on = kinds_text(kinds(components))
             largest = max(c.dimension for c in components) + problem.free
             if moves:
-                text = _moves_text(problem, largest, point)
+                reduced = all(c.multiplicity == 1 for c in components)
+                text = _moves_text(problem, largest, point, reduced)
                 text = f"in complex coordinates {text}" if point.unreal else text
                 text += f"{_counted_beside(problem, largest)}; on {on}"
             else:
@@ -94,12 +95,33 @@ def _counted_beside(problem: Problem, mobility: int) -> str:
     return f", {'though ' if surprise else ''}{_counted_text(problem)}"
 
 
-def _moves_text(problem: Problem, mobility: int, point: Through) -> str:
-    """With how many freedoms it moves, and whose those are that the equations leave out."""
+def _moves_text(problem: Problem, mobility: int, point: Through, reduced: bool) -> str:
+    """With how many freedoms it moves, and whose those are that the equations leave out.
+
+    Args:
+        reduced: whether the components through the point are, so that an isolated one is rigid.
+    """
     if not mobility:
         return f"it does not move at {point.name}"
+    rods = _idle_rods(problem)
+    if rods and mobility == problem.free:
+        how = "is rigid" if reduced else "does not move"
+        idle = f"{count_text(rods, 'rod')} that turn{'s' * (rods == 1)} idly"
+        return f"it {how} at {point.name} but for {idle}, with {count_text(mobility, 'freedom')}"
     text = f"it moves with {count_text(mobility, 'freedom')} at {point.name}"
     return text + "".join(f", {count} of them by {who}" for count, who in problem.freedoms_left_out)
+
+
+def _idle_rods(problem: Problem) -> int:
+    """How many rods turn idly, where the equations leave out nothing but that; else 0."""
+    from nag.mechanism.model import Model
+    from nag.mechanism.rods import RodModel
+
+    made = problem.model
+    if not isinstance(made, Model) or not isinstance(made.form, RodModel):
+        return 0
+    rods = len(made.form.rods) + len(made.form.zero_rods)
+    return rods if problem.free == made.form.spins else 0
 
 
 def _degree_rows(decomposition: Decomposition, problem: Problem) -> list[Row]:
