@@ -489,11 +489,18 @@ def read_problem(arguments: argparse.Namespace, *, exports: bool = True) -> tupl
     return case, problem_of_case(case, arguments.formulation or "auto")
 
 
+# What to do with an arm.
+CLOSE_A_LOOP = (
+    "hold its hand to close one: `--hold LINK` of a robot's file, a joint of type \"rigid\" from the "
+    "hand to the ground of a case"
+)
+
+
 def problem_of_case(case: Case, formulation: str = "auto", no_loop: str = "") -> Problem:
     """The problem that a case describes.
 
     Args:
-        no_loop: what to do where a mechanism has no loop.
+        no_loop: what to do where a mechanism has no loop, if there is more than to close one.
 
     Raises:
         UsageError: if it has no such formulation, or nothing to decompose.
@@ -508,7 +515,7 @@ def problem_of_case(case: Case, formulation: str = "auto", no_loop: str = "") ->
     except FormulationError:
         raise only_assembled(case, "--formulation") from None
     except NoLoopError as error:
-        raise UsageError(f"{case.path}: {'; '.join(filter(None, [str(error), no_loop]))}") from None
+        raise UsageError(f"{case.path}: {error}; {no_loop or CLOSE_A_LOOP}") from None
     except MechanismError as error:
         raise UsageError(f"{case.path}: {error}") from None
 
