@@ -10,6 +10,7 @@ import re
 import signal
 import subprocess
 import sys
+import tomllib
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -530,6 +531,27 @@ def test_an_interruption_while_arguments_are_read_is_one_line(
 def test_what_was_asked_is_said_first(name: str, first: str, capsys) -> None:
     assert main(["decompose", str(CASES / f"{name}.toml"), "--quiet"]) == 0
     assert capsys.readouterr().out.splitlines()[2].startswith(first)
+
+
+def test_the_angles_of_the_first_linkage_count_from_the_ground(capsys) -> None:
+    assert main(["init", "linkage"]) == 0
+    links = {link["name"]: link["pins"] for link in tomllib.loads(capsys.readouterr().out)["link"]}
+    assert [links["crank"][0], links["rocker"][0]] == links["base"]
+
+
+def test_where_names_keep_a_loop_open_it_is_said_first(tmp_path, capsys) -> None:
+    joints = (("base", "crank"), ("crank", "rod"), ("rod", "slyder"), ("slider", "base"))
+    rows = [
+        f'{{name = "J{i}", type = "revolute", bodies = ["{a}", "{b}"], point = [{i}, {i % 2}, 0], '
+        "axis = [0, 0, 1]}"
+        for i, (a, b) in enumerate(joints)
+    ]
+    file = tmp_path / "open.toml"
+    kind = 'title = "t"\nkind = "mechanism"\nground = "base"'
+    file.write_text(f"{kind}\njoint = [{', '.join(rows)}]\n")
+    assert main(["mobility", str(file), "--quiet"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "there is no loop: slyder and slider hang on one joint only" in said
 
 
 @pytest.mark.parametrize(

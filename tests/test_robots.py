@@ -309,6 +309,49 @@ def test_commands_take_cases_of_robots(
     assert said in capsys.readouterr().out
 
 
+URDF_ARM = """<robot name="arm"><link name="l0"/><link name="l1"/><link name="l2"/>
+<joint name="j1" type="revolute"><parent link="l0"/><child link="l1"/></joint>
+<joint name="j2" type="revolute"><parent link="l1"/><child link="l2"/>
+<origin xyz="0 0 0.4"/></joint></robot>"""
+MJCF_ARM = """<mujoco><worldbody><body name="b"><joint name="j" type="hinge"/></body></worldbody>
+</mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "said"),
+    [
+        (URDF_ARM, '<child link="l2"', '<child link="l0"', "'j2': its child 'l0' is above it: "),
+        (URDF_ARM, "0.4", "ninety", "'ninety' is no decimal number; write one like 0.5 or 5e-3"),
+        (URDF_ARM, "0.4", "1e400", "whose exponent has two digits at the most"),
+        (URDF_ARM, "0.4", "0." + "3" * 60, "has more than 60 places; write fewer"),
+        (URDF_ARM, "0 0 0.4", "0,0,0.4", "has 1 entry; write 3 numbers, with blanks between them"),
+        (URDF_ARM, "robot", "robt", "(did you mean 'robot'?)"),
+        (MJCF_ARM, "hinge", "revolute", "'revolute' is unknown (did you mean 'hinge'?)"),
+        (MJCF_ARM, "hinge", "prismatic", "'prismatic' is unknown (did you mean 'slide'?)"),
+    ],
+)
+def test_a_fault_of_a_robots_file_is_named_where_it_is_with_what_to_write(
+    text: str, old: str, new: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "arm.xml"
+    path.write_text(text.replace(old, new))
+    assert main(["mobility", str(path)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert said in line
+
+
+def test_a_link_that_floats_moves_with_all_freedoms(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "arm.urdf"
+    path.write_text(URDF_ARM.replace('"j1" type="revolute"', '"j1" type="floating"'))
+    assert main(["mobility", str(path.resolve()), "--quiet"]) == 0
+    assert "l2 turns about j2" in capsys.readouterr().out
+    path.write_text(URDF_ARM.replace('"j2" type="revolute"', '"j2" type="floating"'))
+    assert main(["mobility", str(path.resolve()), "--quiet"]) == 0
+    assert "l2 moves by itself, with 6 freedoms" in capsys.readouterr().out
+
+
 HELD = ["--hold", "l7", "--at", ", ".join(f"{joint} = {v}" for joint, v in ELBOW.items())]
 
 

@@ -491,8 +491,8 @@ def read_problem(arguments: argparse.Namespace, *, exports: bool = True) -> tupl
 
 # What to do with an arm.
 CLOSE_A_LOOP = (
-    "hold its hand to close one: `--hold LINK` of a robot's file, a joint of type \"rigid\" from the "
-    "hand to the ground of a case"
+    'hold its hand to close one: `--hold LINK` of a robot\'s file, a joint of type "rigid" from '
+    "the hand to the ground of a case"
 )
 
 

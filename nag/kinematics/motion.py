@@ -611,8 +611,8 @@ def held_motion(
     counted = found.counted - found.idle_count - found.hanging_count
     if not (found.circuits or found.assemblies or exact) and counted < 0:
         notes.append(
-            "what is held asks for more than there are freedoms, and its numbers are taken as they "
-            "are written: rounded ones leave nothing"
+            "what is held asks for more than there are freedoms: hold fewer joints, or give the "
+            "values of one assembly exactly; rounded ones, as of a table of angles, fit none"
         )
     return replace(with_held(found), notes=tuple(notes))
 

@@ -77,6 +77,10 @@ class DHError(MechanismError):
         self.joint = joint
         self.key = key
 
+    def __str__(self) -> str:
+        row = "" if self.joint is None else f"row {self.joint + 1}"
+        return ": ".join([*filter(None, (row, self.key)), self.message])
+
 
 @dataclass(frozen=True)
 class Row:

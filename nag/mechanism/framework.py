@@ -110,8 +110,9 @@ class Framework:
             placed = {str(n): exact_vector(p, f"points[{n!r}]") for n, p in points.items()}
             for name, place in placed.items():
                 if len(place) != dimension:
+                    other = f", or dimension={len(place)}" if len(place) in (2, 3) else ""
                     raise FrameworkError(
-                        f"{name!r} has {len(place)} coordinates; give {dimension}", "points"
+                        f"{name!r} has {len(place)} coordinates; give {dimension}{other}", "points"
                     )
             return placed_framework(dimension, placed, pairs)
         lengths = () if lengths is None else lengths
@@ -122,7 +123,11 @@ class Framework:
             raise FrameworkError(f"{len(given)} are given for {len(pairs)} bars", "lengths")
         for (first, second), length in zip(pairs, given, strict=True):
             if not length > 0:
-                raise FrameworkError(f"that of {first}-{second} is not positive", "lengths")
+                raise FrameworkError(
+                    f"that of {first}-{second}, {brief_number_text(length)}, is not positive; "
+                    "a bar has a positive length",
+                    "lengths",
+                )
         names = tuple(str(name) for name in points)
         return cls(dimension, names, tuple(pairs), tuple(x * x for x in given))
 

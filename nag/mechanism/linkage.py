@@ -22,7 +22,7 @@ from fractions import Fraction
 from typing import Any
 
 from nag.algebra.from_python import exact_number, exact_vector
-from nag.algebra.given import check_type
+from nag.algebra.given import check_type, value_text
 from nag.algebra.number import Number, is_zero, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -171,7 +171,9 @@ def _link_of(name: str, given: Any) -> Link:
     first, second, length = listed
     distance = exact_number(length, place)
     if not distance > 0:
-        raise LinkageError("is not positive", name, "length")
+        raise LinkageError(
+            f"{value_text(length)} is not positive; a link has a positive length", name, "length"
+        )
     zero = Fraction(0)
     return Link(name, (str(first), str(second)), ((zero, zero), (distance, zero)))
 

@@ -19,7 +19,7 @@ from nag.mechanism.moving_parts import BodyFreedoms, MovingParts
 from nag.mechanism.nearly_mobile import NearMotion
 from nag.numerics.local_dimension import LocalDimension
 from nag.numerics.read_only import equal_values
-from nag.text.table import count_text, html_table, named_line
+from nag.text.table import count_text, html_table, join_words, named_line
 from nag.witness.shown import degree_text
 from nag.witness.witness import WitnessSet
 
@@ -563,6 +563,11 @@ def _meaning(report: MobilityReport) -> str:
         elif apart:
             # What the equations leave out is known before anything else.
             text += f", {report.free_of.replace(' by ', ' of them by ', 1)}"
+    if not report.formulation and report.moving is not None and report.moving.hanging:
+        # Above all where a name is spelled in two ways, so that what was meant to close does not.
+        ends = [part.bodies[0] for part in report.moving.hanging]
+        verb = "hangs" if len(ends) == 1 else "hang"
+        text += f"; there is no loop: {join_words(ends)} {verb} on one joint only"
     if report.overconstrained:
         text += f", though counting predicts {report.gruebler_kutzbach}"
     if report.moving is not None and idle and idle == mobility:

@@ -33,6 +33,12 @@ from nag.mechanism.quaternion import quaternion_of
 
 WORLD = "world"
 TYPES = {"hinge": "revolute", "slide": "prismatic", "ball": "spherical", "free": "floating"}
+# URDF's words for them, and what a case calls them.
+_MEANT = {
+    **{other: own for own, other in TYPES.items()},
+    "continuous": "hinge",
+    "slider": "slide",
+}
 ORIENTATIONS = ("quat", "axisangle", "euler", "xyaxes", "zaxis")
 # What stands for bodies that are not in the file, or made of parts that bend.
 REFUSED = ("include", "composite", "flexcomp", "replicate", "attach")
@@ -212,7 +218,9 @@ def _read_joint(
     )
     name = given.text("name") if "name" in given.attributes else unnamed
     where = line_of(given.file, given.place)
-    kind = "free" if given.tag == "freejoint" else given.choice("type", tuple(TYPES), "hinge")
+    kind = (
+        "free" if given.tag == "freejoint" else given.choice("type", tuple(TYPES), "hinge", _MEANT)
+    )
     axis, zero = None, Fraction(0)
     if kind in ("hinge", "slide"):
         try:

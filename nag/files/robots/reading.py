@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nag.algebra.tokens import nearest
 from nag.files.case_table import CaseError, line_of
 from nag.files.robots import mjcf, urdf
 from nag.files.robots.robot import Robot
@@ -22,7 +23,8 @@ def recognise_robot(file: str, text: str) -> str:
     message = "is no robot: it has no <robot> (URDF) and no <mujoco> (MJCF)"
     if not text.lstrip().startswith("<"):
         raise CaseError(line_of(file, message))
-    parse_xml(file, text).fail(message)
+    root = parse_xml(file, text)
+    root.fail(message + nearest(root.tag, ("robot", "mujoco")))
 
 
 def read_robot(file: str, text: str, format: str = "auto") -> Robot:

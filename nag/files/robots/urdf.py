@@ -6,6 +6,7 @@ which is said.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 
 from nag.algebra.tokens import nearest, quote
@@ -24,6 +25,8 @@ TYPES = {
     "planar": "planar",
 }
 X_AXIS = "1 0 0"
+# Joints of a circle that are named.
+MOST_NAMED = 10
 
 
 def recognise(text: str) -> bool:
@@ -123,8 +126,28 @@ def _ordered(file: str, root: str, joints: list[RobotJoint]) -> list[RobotJoint]
         found += here
         front += [joint.child for joint in here]
     if by_parent:
-        stray = next(iter(by_parent.values()))[0]
+        circle = _circle(joints, next(iter(by_parent.values()))[0])
+        last = max(circle, key=joints.index)
+        after = circle.index(last) + 1
+        circle = [*circle[after:], *circle[:after]]
+        names = ", ".join(quote(joint.name) for joint in circle[:MOST_NAMED])
+        names += ", .." if len(circle) > MOST_NAMED else ""
+        ways = "goes" if len(circle) == 1 else "go"
         raise CaseError(
-            line_of(stray.where, f"joint {quote(stray.name)} does not hang on the root {root!r}")
+            line_of(
+                last.where,
+                f"joint {quote(last.name)}: its child {quote(last.child)} is above it: {names} "
+                f"{ways} round in a circle, not on the root {quote(root)}; name another "
+                'child (a case of kind "robot" closes loops)',
+            )
         )
     return found
+
+
+def _circle(joints: Sequence[RobotJoint], stray: RobotJoint) -> list[RobotJoint]:
+    """The joints of the circle above one that does not hang on the root, parents first."""
+    above = {joint.child: joint for joint in joints}
+    way = [stray]
+    while (parent := above[way[-1].parent]) not in way:
+        way.append(parent)
+    return way[way.index(parent) :][::-1]

@@ -6,7 +6,7 @@ Document types and entities are refused, so that nothing in a file grows or lead
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
@@ -15,6 +15,7 @@ from xml.parsers import expat
 
 from nag.algebra.tokens import nearest, quote
 from nag.files.case_table import CaseError, line_of
+from nag.text.table import count_text
 
 MAX_ELEMENTS = 20_000
 MAX_DEPTH = 100
@@ -75,13 +76,19 @@ class XmlElement:
             self.fail("is empty or holds a control character; write a name", key)
         return value
 
-    def choice(self, key: str, among: Collection[str], default: str) -> str:
-        """An attribute that is one of some words."""
+    def choice(
+        self, key: str, among: Collection[str], default: str, meant: Mapping[str, str] = {}
+    ) -> str:
+        """An attribute that is one of some words.
+
+        Args:
+            meant: which of them others mean, as other formats have them.
+        """
         value = self.attributes.get(key, default).strip()
         if value not in among:
+            hint = f" (did you mean {meant[value]!r}?)" if value in meant else nearest(value, among)
             self.fail(
-                f"{quote(value)} is unknown{nearest(value, among)}; write one of "
-                f"{', '.join(among)}",
+                f"{quote(value)} is unknown{hint}; write one of {', '.join(among)}",
                 key,
             )
         return value
@@ -92,14 +99,22 @@ class XmlElement:
             self.fail(f"is missing; write {count} numbers", key)
         words = self.attributes.get(key, default or "").split()
         if len(words) != count:
-            self.fail(f"has {len(words)} entries; write {count} numbers", key)
+            found = count_text(len(words), "entry", "entries")
+            apart = ", with blanks between them and no commas" if "," in "".join(words) else ""
+            self.fail(f"has {found}; write {count} numbers{apart}", key)
         return tuple(self._number(word, key) for word in words)
 
     def _number(self, word: str, key: str) -> Fraction:
         if "${" in word or "$(" in word:
             self.fail("is an expression of xacro; expand the file with xacro first", key)
-        if len(word) > MAX_NUMBER or _NUMBER.fullmatch(word) is None:
-            self.fail(f"{quote(word)} is no decimal number; write one of 60 places or less", key)
+        if len(word) > MAX_NUMBER:
+            self.fail(f"{quote(word)} has more than {MAX_NUMBER} places; write fewer", key)
+        if _NUMBER.fullmatch(word) is None:
+            self.fail(
+                f"{quote(word)} is no decimal number; write one like 0.5 or 5e-3, whose exponent "
+                "has two digits at the most",
+                key,
+            )
         return Fraction(Decimal(word))
 
 
