@@ -78,7 +78,8 @@ class DHError(MechanismError):
         self.key = key
 
     def __str__(self) -> str:
-        row = "" if self.joint is None else f"row {self.joint + 1}"
+        number: Any = self.joint
+        row = "" if number is None else f"row {number + 1}"
         return ": ".join([*filter(None, (row, self.key)), self.message])
 
 

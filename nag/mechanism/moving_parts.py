@@ -332,10 +332,11 @@ def _slides_lead_to(mechanism: Mechanism, ball: Joint, bodies: Sequence[str]) ->
     joint, (end,) = ball, set(ball.bodies) - set(bodies)
     while end != mechanism.ground:
         others = [j for j in mechanism.joints if end in j.bodies and j is not joint]
-        if len(others) != 1 or not others[0].of_type.slides_only or others[0].axis is None:
+        axis = others[0].axis if len(others) == 1 and others[0].of_type.slides_only else None
+        if axis is None:
             break
         (joint,) = others
-        axes.append(np.array([float(x) for x in joint.axis]))
+        axes.append(np.array([float(x) for x in axis]))
         (end,) = set(joint.bodies) - {end}
     return len(axes) >= SLIDES_IN_SPACE and np.linalg.matrix_rank(np.array(axes)) == SLIDES_IN_SPACE
 
