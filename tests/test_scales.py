@@ -163,3 +163,23 @@ def test_zeros_close_to_each_other_are_told_apart(
 ) -> None:
     answer = decomposed(variables, equations, seed)
     assert answer.complete and kinds(answer) == Counter(true)
+
+
+@pytest.mark.parametrize(
+    ("variables", "equations", "held"),
+    [
+        ("x y", ["1e300*x^2 + 1e-300*y - 1", "x*y - 1e200"], 0),
+        ("x y", ["(1e300*x^2 + 1e-300*y - 1)*(x - 1)", "x*y - 1e200"], 1),
+        ("x", ["1e-200*x - 1e200"], 0),
+    ],
+)
+def test_points_beyond_the_range_of_doubles_are_told_and_not_listed(
+    variables: str, equations: list[str], held: int
+) -> None:
+    given = system(variables, *equations)
+    solved, components = solve(given), decompose(given)
+    assert len(solved.solutions) == len(components.components) == held
+    assert not solved.complete and not components.complete
+    for answer, what in ((solved, "solutions"), (components, "components")):
+        (note,) = answer.notes
+        assert note.startswith(f"there are {what} with coordinates beyond the range of doubles")

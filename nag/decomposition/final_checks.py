@@ -13,6 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
 from nag.numerics.double_ranks import SINGULAR, numerical_corank
+from nag.numerics.doubles import beyond_doubles
 from nag.numerics.zero_values import ON
 from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, CLOSE_AFAR, close_pairs, follow_slice
@@ -38,7 +39,14 @@ def judge_components(
     notes: Sequence[str] = (),
     order: Sequence[int] = (),
 ) -> Decomposition:
-    """A decomposition: complete exactly where every component is confirmed and nothing is noted."""
+    """A decomposition: complete exactly where every component is confirmed and nothing is noted.
+
+    Components with points whose coordinates are no doubles are left out, and noted.
+    """
+    fitting = [c for c in components if np.isfinite(c.points).all()]
+    if len(fitting) < len(components):
+        notes = [*notes, beyond_doubles("components")]
+        components = fitting
     return Decomposition(
         system=system,
         components=tuple(components),

@@ -42,3 +42,11 @@ CLEAR = 1e-6
 NEWTON_STEPS = 12
 # Doubles hold all whole numbers up to this.
 LARGEST_WHOLE = 2**53
+
+
+def beyond_doubles(what: str) -> str:
+    """What to say of solutions or components that were found and that no doubles hold."""
+    return (
+        f"there are {what} with coordinates beyond the range of doubles, 1.8e308; "
+        "write the equations in other units"
+    )

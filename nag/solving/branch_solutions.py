@@ -249,9 +249,13 @@ def _rounded_solution(
     evaluator: Evaluator, x: np.ndarray, multiplicity: int, real: bool
 ) -> Solution:
     """A zero that is known exactly, and was rounded once."""
-    s = np.linalg.svd(evaluator.balanced_jacobian(x), compute_uv=False)
+    condition, jacobian = 1.0, evaluator.balanced_jacobian(x)
     # A multiple zero is a simple one of the polynomial that defines it.
-    condition = float(s[0] / s[-1]) if multiplicity == 1 and s[-1] > 0 else 1.0
+    if multiplicity == 1 and not np.isfinite(jacobian).all():
+        condition = np.inf
+    elif multiplicity == 1:
+        s = np.linalg.svd(jacobian, compute_uv=False)
+        condition = float(s[0] / s[-1]) if s[-1] > 0 else 1.0
     residual = float(evaluator.residuals(x[None]).max(initial=0.0))
     accuracy = float(np.finfo(float).eps / 2)
     return Solution(x, multiplicity, real, residual, accuracy, condition, 16)

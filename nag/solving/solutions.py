@@ -14,6 +14,7 @@ from nag.algebra.to_sympy import to_sympy_point
 from nag.algebra.tokens import list_names
 from nag.errors import NagError
 from nag.numerics.array_table import RecordTable
+from nag.numerics.doubles import beyond_doubles
 from nag.numerics.read_only import (
     BooleanArray,
     Chosen,
@@ -334,6 +335,13 @@ class LargerSets(FixedArrays):
         return notes
 
 
+def _in_range(solutions: Sequence[Solution]) -> Sequence[Solution]:
+    """Those whose coordinates are in the range of doubles."""
+    if all(np.isfinite(s.point).all() for s in solutions):
+        return solutions
+    return [s for s in solutions if np.isfinite(s.point).all()]
+
+
 @dataclass(frozen=True)
 class PathStatistics:
     """Numbers of paths by how they ended, and the steps that all of them took together."""
@@ -441,8 +449,16 @@ class SolveResult(Several[Solution]):
             undecided: end points that may or may not be isolated.
             doubts: notes that speak against a complete list; ``remarks``: other ones.
             whole: whether the list would be complete without them.
+
+        Solutions whose coordinates are no doubles are left out, and make the list incomplete.
         """
         larger = LargerSets.of(system.n) if larger is None else larger
+        fitting, allowed = _in_range(solutions), _in_range(excluded)
+        if undecided is not None:
+            undecided = undecided[np.isfinite(undecided).all(axis=1)]
+        if len(fitting) < len(solutions) or len(allowed) < len(excluded):
+            doubts = [*doubts, beyond_doubles("solutions")]
+        solutions, excluded = fitting, allowed
         return cls(
             system=system,
             solutions=solutions,
