@@ -254,9 +254,9 @@ def test_parameters_may_be_complex_and_of_very_different_sizes() -> None:
         ({"values": [[float("nan")]]}, "values: those of member 1 are not all finite"),
         ({"values": "ab"}, "ab: cannot be read"),
         ({"values": ["a", "b"]}, "values: are no numbers"),
-        ({"equations": ["x^2 - s", "x"]}, "2 equations for 1 unknowns"),
+        ({"equations": ["x^2 - s", "x"]}, "2 equations for 1 unknown: x"),
         ({"parameters": ["t"]}, "parameters: 't' does not occur"),
-        ({"equations": ["x^2 - I*s", "x"], "variables": ["x"]}, "2 equations for 1 unknowns"),
+        ({"equations": ["x^2 - I*s", "x"], "variables": ["x"]}, "2 equations for 1 unknown: x"),
     ],
 )
 def test_what_does_not_fit_is_said(change: dict, message: str) -> None:
@@ -470,3 +470,12 @@ def test_a_table_may_begin_with_a_mark_of_its_encoding(tmp_path: Path) -> None:
     table.write_text("a\n1\n4\n", encoding="utf-8-sig")
     for parameters in ("a", None):
         assert len(nag.solve_family("x^2 = a", parameters, table)) == 2
+
+
+@pytest.mark.parametrize("start", ["auto", "total", "polyhedral", "multihomogeneous"])
+@pytest.mark.parametrize("equations", [["x*y - y*x"], ["x*y - y*x", "y*z - x"]])
+def test_a_family_with_an_equation_that_vanishes_has_no_isolated_solutions(
+    equations: list[str], start: str
+) -> None:
+    found = nag.solve_family(equations, ["x"], [[1], [2]], start=start)
+    assert found.complete.all() and not found.counts.any()

@@ -47,5 +47,5 @@ def test_wrong_numbers_of_parameters_are_refused() -> None:
     solved = solve_generic(LINEAR)
     with pytest.raises(StartError, match="target 1: 1 values for 2 parameters"):
         solve_targets(solved, [(Fraction(1),)])
-    with pytest.raises(ValueError, match="1 equations for 2 unknowns"):
+    with pytest.raises(ValueError, match="1 equation for 2 unknowns"):
         family("x y", "a", "x - a")

@@ -11,6 +11,7 @@ from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import shorten_names
 from nag.errors import NagError
+from nag.text.table import count_text
 
 Terms = Mapping[Exponents, Number | complex]
 
@@ -40,7 +41,8 @@ class Family:
             own = len(self.polynomials) - self.imaginary
             unknowns = self.own_variables
             raise NagError(
-                f"{own} equations for {len(unknowns)} unknowns: {shorten_names(unknowns)}; "
+                f"{count_text(own, 'equation')} for {count_text(len(unknowns), 'unknown')}: "
+                f"{shorten_names(unknowns)}; "
                 "a family has as many of both, so name parameters among them"
             )
         if any(f.n != total for f in self.polynomials):

@@ -123,6 +123,9 @@ def solve_generic(
         return compare_with_count(solved, count, run)
     values = random_values(family, rng)
     target = Target(family.n, family.terms([complex(v) for v in values]))
+    if not all(target.rows):
+        # An equation that vanishes leaves infinitely many solutions, and no start system has these.
+        return _solve_from_rational(family, values, start, run)
     begin, _ = choose(target, start, (), rng, run.threads)
     paths = track(begin.homotopy, begin.points, run.settings, run.threads)
     points = begin.affine(paths.points[paths.where(PathStatus.REGULAR)])
