@@ -12,6 +12,7 @@ import jsonschema
 import numpy as np
 import pytest
 
+import nag
 from nag.cli import main
 from nag.files.export import read_export
 from nag.files.json_schema import schema
@@ -343,3 +344,10 @@ def test_a_family_says_where_its_solutions_can_be_had(
     shown = capsys.readouterr().out
     # The circle of radius sqrt(2) touches x y = 1.
     assert "1 member was solved by itself" in shown and "--points FILE writes" in shown
+
+
+def test_the_point_of_no_coordinates_is_on_the_component_of_no_equation(tmp_path) -> None:
+    export = tmp_path / "export.json"
+    nag.write(nag.decompose(["0"]), export)
+    for where in (["0"], nag.decompose(["0"]), export):
+        assert list(nag.member(where, []).numbers) == [1]

@@ -125,6 +125,9 @@ def with_newton_constant(
 
     Two of Newton's corrections from a point that is a little off: their quotient over the first.
     """
+    if not len(point.words):
+        # The only point of a space without coordinates has no other zero near it.
+        return PointInWords(point.words, 1.0)
     exact = BallPolynomials.of(polynomials, pad_rows(rows, 1 + len(point.words)))
     size, most, bits = 1 + float(np.linalg.norm(point.rounded)), 1.0, bits_of(PROBED)
     centre = point.balls()
