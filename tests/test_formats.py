@@ -16,6 +16,7 @@ import nag
 from nag.algebra.imaginary_unit import adjoin_unit
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import IMAGINARY_UNITS
 from nag.cli import main
 from nag.files.cases import CaseError, read_case
 from nag.files.formats import READ, ROBOTS, WRITTEN, words
@@ -231,6 +232,27 @@ def test_a_mistake_is_told_by_line_and_column(text: str, place: str, reason: str
     assert message.startswith(f"file: {place}: ")
     assert reason in message
     assert "\n" not in message
+
+
+@pytest.mark.parametrize("name", ["π", "Pi"])
+def test_pi_is_the_constant_in_plain_text_unless_it_is_listed(name: str) -> None:
+    text = f"{name}*x^2 + y^2 = 5\nx*y = 2\n"
+    assert read_text(text) == nag.system(["pi*x^2 + y^2 = 5", "x*y = 2"])
+    assert read_text(f"variables x, y, {name}\n{text}").variables == ("x", "y", name)
+
+
+@pytest.mark.parametrize("head", ["variables x, i\nimaginary i", "imaginary i\nvariables x, i"])
+def test_a_variable_of_plain_text_is_not_the_unit_as_well(head: str) -> None:
+    with pytest.raises(CaseError, match=r"column \d+: imaginary: 'i' is taken; write a letter"):
+        read_text(f"{head}\nx^2 - i\n")
+
+
+@pytest.mark.parametrize("unit", IMAGINARY_UNITS)
+def test_plain_text_asks_about_every_name_of_the_unit(unit: str) -> None:
+    with pytest.raises(CaseError, match=f"line 2, column 7: '{unit}' looks like .*'imaginary"):
+        read_text(f"x - y\nx^2 + {unit}\n")
+    assert read_text(f"variables x {unit}\nx^2 + {unit}\n").variables == ("x", unit)
+    assert read_text(f"imaginary {unit}\nx^2 + {unit}\n").imaginary
 
 
 def test_a_format_that_is_asked_for_is_taken(tmp_path: Path) -> None:

@@ -174,6 +174,8 @@ def test_nothing_that_is_given_loads_sympy_or_networkx() -> None:
         (["x^2 + j", "y - x"], r"equations\[0\]: 'j' looks like the imaginary unit"),
         (["x^2 + J", "y - x"], r"equations\[0\]: 'J' looks like the imaginary unit"),
         (["x^2 - 2j"], "'j' looks like"),
+        (["x^2 + ii", "y - x"], r"equations\[0\]: 'ii' looks like the imaginary unit"),
+        (["x^2 - 2im"], "'im' looks like"),
         (["x^2 - 1", 1j], r"equations\[1\]: 1j is complex; only real numbers are read"),
         (["x^2 - 1", np.complex64(2)], r"equations\[1\]: \(2\+0j\) is complex"),
     ],
@@ -241,6 +243,22 @@ def test_a_variable_that_is_listed_may_have_any_letter() -> None:
     assert nag.system(["i^2 + j"], "i j").variables == ("i", "j")
     known = nag.system(["x^2 + I"], parameters={"I": 3})
     assert str(known.polynomials[0]) == str(nag.system(["x^2 + 3"]).polynomials[0])
+
+
+@pytest.mark.parametrize("name", ["π", "Pi"])
+def test_pi_is_the_constant_by_each_of_its_names_unless_it_is_declared(name: str) -> None:
+    texts = [f"{name}*x^2 + y^2 = 5", "x*y = 2"]
+    constant = nag.system(["pi*x^2 + y^2 = 5", "x*y = 2"])
+    assert nag.system(texts) == nag.system(texts, "x y") == constant
+    assert nag.system(texts, ["x", "y", name]).variables == ("x", "y", name)
+    assert nag.system(texts, parameters={name: 3}) == nag.system(["3*x^2 + y^2 = 5", "x*y = 2"])
+    assert nag.system("x = a", parameters={"a": f"{name}/2"}) == nag.system("x = pi/2")
+
+
+def test_a_name_is_not_both_the_unit_and_something_else() -> None:
+    for how in ({"variables": "x i"}, {"parameters": {"i": 2}}):
+        with pytest.raises(nag.EquationError, match=r"^imaginary: 'i' is taken; write a letter"):
+            nag.system(["x^2 - i"], imaginary="i", **how)  # type: ignore[arg-type]
 
 
 def test_one_end_point_lies_on_a_set_and_several_do() -> None:

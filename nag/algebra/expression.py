@@ -33,6 +33,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.tokens import (
     IMAGINARY_UNITS,
     ONLY_REAL,
+    PI_NAMES,
     ExpressionError,
     Token,
     imaginary_text,
@@ -288,7 +289,7 @@ class _Parser:
             return Polynomial.variable(len(self.variables), self.variables[name])
         if name in self.parameters:
             return self.parameters[name]
-        if name == "pi":
+        if name in PI_NAMES:
             return PI
         if self.token.text == "(":
             self._fail(token, f"{quote(name)} is not a function; write sqrt, sin or cos")

@@ -34,6 +34,7 @@ from nag.algebra.number import ComplexNumber, Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import (
+    CONSTANTS,
     IMAGINARY_UNITS,
     ExpressionError,
     imaginary_text,
@@ -45,6 +46,7 @@ from nag.algebra.tokens import (
     nearest,
     not_finite_text,
     quote,
+    taken_text,
 )
 from nag.errors import NagError
 
@@ -138,8 +140,9 @@ def system(
             `nag.PolynomialSystem` is given back as it is.
         variables: their names, or sympy's symbols, in order; a text of names will do. By default
             all names that occur and are no parameters, in alphabetical order (x2 before x10). A
-            variable that is called ``I``, ``i``, ``J`` or ``j`` in a text has to be given, as it
-            might be meant as the imaginary unit.
+            variable that is called ``I``, ``i``, ``ii``, ``im``, ``J`` or ``j`` in a text has to
+            be given, as it might be meant as the imaginary unit, and one that is called ``π`` or
+            ``Pi``, which are ``pi`` else.
         parameters: values of further names, real or complex.
         nonzero: expressions that must not vanish; written like ``equations``.
         groups: groups of variables in which multidegrees are counted, by name or index.
@@ -186,12 +189,13 @@ def system(
     check_type(imaginary, str | None, "imaginary", "a letter")
     if imaginary is not None and not is_name(imaginary):
         raise ExpressionError(f"imaginary: {quote(str(imaginary))} is no name; write a letter")
-    if imaginary is None and variables is not None:
-        imaginary = "I"
-    names = _names(variables, occurring, values, imaginary)
+    asked = imaginary or ("I" if variables is not None else None)
+    names = _names(variables, occurring, values, asked)
+    if imaginary in (*names, *values):
+        raise ExpressionError(f"imaginary: {taken_text(str(imaginary))}")
     if not given and not names:
         raise NagError("equations: none are given; give texts like 'x^2 + y^2 = 1' in a list")
-    unit = imaginary if imaginary not in (*names, *values) else None
+    unit = asked if asked not in (*names, *values) else None
     is_complex = any(isinstance(value, ComplexNumber) for value in values.values()) or any(
         _is_complex(f, unit) for f, _ in occurring
     )
@@ -353,7 +357,7 @@ def _list_names(
         for name in sorted(filter(is_not_finite, names - values.keys())):
             mend = "if it is a variable, list all variables, variables='x y'"
             raise ExpressionError(f"{place}: {not_finite_text(name, mend)}")
-        return names
+        return names - CONSTANTS
     try:
         return symbol_names(equation)
     except ExpressionError as error:

@@ -15,9 +15,13 @@ MAX_LENGTH = 100_000
 MOST_NAMES = 12
 
 FUNCTION_NAMES = ("sqrt", "sin", "cos")
-RESERVED = frozenset(FUNCTION_NAMES) | {"pi"}
+# What pi is called; but for the first one, where nothing else is declared by that name.
+PI_NAMES = ("pi", "π", "Pi")
+RESERVED = frozenset(FUNCTION_NAMES) | {PI_NAMES[0]}
+# Names that are no variables where these are not listed.
+CONSTANTS = RESERVED | {*PI_NAMES}
 # Names that mostly stand for the imaginary unit: taken for variables only where they are listed.
-IMAGINARY_UNITS = ("I", "i", "J", "j")
+IMAGINARY_UNITS = ("I", "i", "J", "j", "ii", "im")
 # How programs print what is no finite number, in any case: variables only where they are listed.
 NOT_FINITE = ("nan", "inf", "infinity")
 ONLY_REAL = "only real numbers are read here"
@@ -158,6 +162,11 @@ def root_text(degree: int) -> str:
     """What to write for a root of a variable, in which polynomials are none."""
     shown = str(degree) if degree < 10**30 else "k"
     return f"for the root take a variable w, with the equation w^{shown} = x"
+
+
+def taken_text(unit: str) -> str:
+    """What to say where the name that the imaginary unit is given is a variable or a parameter."""
+    return f"{quote(unit)} is taken; write a letter of its own"
 
 
 def unit_called(unit: str) -> str:

@@ -24,6 +24,7 @@ from nag.algebra.given import check_type
 from nag.algebra.imaginary_unit import parse_parameter
 from nag.algebra.number import ComplexNumber, Irrational, Number, Surd
 from nag.algebra.tokens import (
+    CONSTANTS,
     IMAGINARY_UNITS,
     ONLY_REAL,
     ExpressionError,
@@ -314,7 +315,7 @@ def read_parameters(
         if unit is None and isinstance(value, ComplexNumber):
             table.fail(name, f"{value} is complex; {ONLY_REAL}")
         names = names_in(value) if isinstance(value, str) else frozenset()
-        for unknown in sorted(names - known):
+        for unknown in sorted(names - known - CONSTANTS):
             if unit is not None and unknown in IMAGINARY_UNITS:
                 mend = f"{unit_called(unit)}; write imaginary = {unknown!r} if it is that"
                 table.fail(name, imaginary_text(unknown, mend))

@@ -25,7 +25,15 @@ from nag.algebra.number import ComplexNumber, Number, brief_number_text
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import NamedPoint, PolynomialSystem
-from nag.algebra.tokens import ONLY_REAL, ExpressionError, is_name, names_in, nearest, quote
+from nag.algebra.tokens import (
+    ONLY_REAL,
+    ExpressionError,
+    is_name,
+    names_in,
+    nearest,
+    quote,
+    taken_text,
+)
 from nag.errors import NagError
 from nag.files.case_table import (
     CaseError,
@@ -623,7 +631,7 @@ def _read_system(top: CaseTable, numbers: _Numbers) -> tuple[PolynomialSystem, F
     if unit not in taken:
         complex_.add(unit)
     elif "imaginary" in top.values:
-        top.fail("imaginary", f"{quote(unit)} is taken; write a letter of its own")
+        top.fail("imaginary", taken_text(unit))
     else:
         unit = name_unit(taken)
     texts = top.texts("equations", "equations")

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 
-from nag.algebra.number import PI
 from nag.algebra.tokens import quote
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
@@ -27,7 +26,6 @@ _RECOGNISED = re.compile(
 _WORD = re.compile(r"\s*([A-Za-z_]+)\b(?!\s*=)")
 _ASSIGNED = re.compile(r"\s*([^\W\d][\w\[\],]*)\s*=(?!=)")
 IMAGINARY = ("I", "i")
-NUMBERS = {"Pi": PI}
 _DECLARED = (
     "variable_group",
     "hom_variable_group",
@@ -164,6 +162,5 @@ def _given(
         tuple(tuple(n.text for n in group) for group in groups),
         tuple(tuple(n.text for n in group) for group in projective),
         IMAGINARY,
-        {name: value for name, value in NUMBERS.items() if name not in {*variables, *assigned}},
         unset=tuple(name.text for name in unset),
     )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from nag.algebra.number import PI
 from nag.algebra.tokens import quote
 from nag.files.case_table import MAX_ENTRIES
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
@@ -91,7 +90,6 @@ def read(source: SourceFile) -> GivenSystem:
         {},
         definitions,
         imaginary=("im",),
-        numbers={} if "π" in variables else {"π": PI},
         unset=tuple(unset),
     )
 

@@ -6,13 +6,14 @@ import re
 
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import (
+    CONSTANTS,
     IMAGINARY_UNITS,
-    RESERVED,
     ExpressionError,
     imaginary_text,
     is_not_finite,
     natural_order,
     not_finite_text,
+    taken_text,
     tokenize,
 )
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
@@ -45,15 +46,20 @@ def read(source: SourceFile) -> GivenSystem:
     lines = [line for line in lines if line.text]
     names: tuple[str, ...] | None = None
     units: tuple[str, ...] | None = None
+    letters: list[Passage] = []
     while lines and (head := _HEAD.match(lines[0].text)):
         line = lines.pop(0)
         listed = line.part(head.end(), len(line.text))
         separator = "," if "," in listed.text else " \t"
-        given = check_names(source, source.statements(listed, separator))
+        passages = source.statements(listed, separator)
+        given = check_names(source, passages)
         if head[1].lower() == "imaginary":
-            units = given
+            units, letters = given, passages
         else:
             names = given
+    for letter in letters:
+        if names is not None and letter.text in names:
+            source.fail(letter.offset, f"imaginary: {taken_text(letter.text)}")
     if names is None:
         occurring = _occurring(source, lines, units or ())
         names = tuple(sorted(occurring, key=natural_order))
@@ -78,7 +84,7 @@ def _occurring(source: SourceFile, lines: list[Passage], units: tuple[str, ...])
             if is_not_finite(token.text):
                 mend = "if it is a variable, begin with a line 'variables ...' that lists it"
                 source.fail(line.offset + token.column - 1, not_finite_text(token.text, mend))
-            if token.text not in RESERVED:
+            if token.text not in CONSTANTS:
                 names.add(token.text)
     return names
 

@@ -115,7 +115,6 @@ class GivenSystem:
         groups: groups of variables.
         patches: groups of homogeneous variables, for each of which an affine patch is chosen.
         imaginary: names of the imaginary unit.
-        numbers: those that the program has a name for.
         nonzero: polynomials that must not vanish at a solution.
         unset: variables that are declared as parameters, and have no value.
     """
@@ -127,7 +126,6 @@ class GivenSystem:
     groups: tuple[tuple[str, ...], ...] = ()
     patches: tuple[tuple[str, ...], ...] = ()
     imaginary: tuple[str, ...] = ()
-    numbers: Mapping[str, Number] = field(default_factory=dict)
     nonzero: tuple[Passage, ...] = ()
     unset: tuple[str, ...] = ()
 
@@ -167,22 +165,19 @@ def read_given(
     units = [u for u in given.imaginary if u not in _names(given)]
     parameters: dict[str, Number | ComplexNumber] = {}
     for name, text in given.parameters.items():
-        known = {**given.numbers, **parameters}
         if values and name in values:
             try:
-                parameters[name] = _given_value(values[name], units, known, budget)
+                parameters[name] = _given_value(values[name], units, parameters, budget)
             except ExpressionError as error:
                 raise CaseError(line_of(source.file, name, str(error))) from None
             continue
         try:
-            parameters[name] = parse_parameter(text.text, units, known, budget)
+            parameters[name] = parse_parameter(text.text, units, parameters, budget)
         except ExpressionError as error:
             source.fail(text.offset + (error.column or 1) - 1, error.reason)
     unit = _unit_name(given, parameters, units)
     names = given.variables if unit is None else (*given.variables, unit)
-    read = _Reading(
-        source, names, {**given.numbers, **values_with_unit(parameters, names)}, budget, unit
-    )
+    read = _Reading(source, names, values_with_unit(parameters, names), budget, unit)
     if unit is not None:
         variable = Polynomial.variable(len(names), len(names) - 1)
         read.known.update(dict.fromkeys(units, variable))
