@@ -1005,6 +1005,19 @@ def test_what_julia_would_work_out_is_named_with_its_place(text: str, said: str)
         read_system_text("file", f"@var x y\n{text}\n", "hc")
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "using HomotopyContinuation; @var x y; f = x^2+y^2-5; g=x*y-2\nsolve([f,g])\n",
+        "using HomotopyContinuation\n@var(x, y)\nsolve([x^2+y^2-5, x*y-2])\n",
+        "x = 1; @polyvar x y # both\nsolve([x^2+y^2-5; x*y-2])\n",
+    ],
+)
+def test_julia_is_told_by_its_variables_wherever_a_statement_begins(text: str) -> None:
+    assert recognise_format(text) == "hc"
+    assert read_text(text) == nag.system(["x^2 + y^2 - 5", "x*y - 2"])
+
+
 @pytest.mark.parametrize("format", WITH_PARAMETERS)
 def test_parameters_without_a_value_are_asked_for_before_anything_else(
     format: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -10,8 +10,11 @@ from nag.files.case_table import MAX_ENTRIES
 from nag.files.formats.source import GivenSystem, Passage, SourceFile, check_names
 
 _COMMENT = re.compile(r"#=.*?(?:=#|\Z)|#[^\n]*", re.DOTALL)
-_VARIABLES = re.compile(r"@(?:poly)?var\s")
-_RECOGNISED = re.compile(r"^[ \t]*@(?:poly)?var\s", re.MULTILINE)
+_VARIABLES = re.compile(r"@(?:poly)?var(?=[\s(])")
+# Statements begin behind a semicolon as well.
+_RECOGNISED = re.compile(rf"(?<![^\s;]){_VARIABLES.pattern}")
+# What a macro takes in parentheses has commas between.
+_IN_PARENTHESES = re.compile(r"\(([^()]*)\)")
 _ITEM = re.compile(r"\S+")
 _RANGE = re.compile(r"(\w+)\[(?:([0-9]{1,6}):)?([0-9]{1,6})\]")
 # A list, maybe given to a function, maybe named.
@@ -150,6 +153,9 @@ def _split_semicolons(source: SourceFile) -> SourceFile:
 def _read_names(source: SourceFile, listed: Passage) -> list[Passage]:
     """The names that ``x y[1:3]`` declares."""
     found = []
+    enclosed = _IN_PARENTHESES.fullmatch(listed.text)
+    if enclosed is not None:
+        listed = Passage(enclosed[1].replace(",", " "), listed.offset + enclosed.start(1))
     for item in _ITEM.finditer(listed.text):
         name = listed.part(*item.span())
         bounds = _RANGE.fullmatch(name.text)
