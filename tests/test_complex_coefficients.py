@@ -14,7 +14,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import nag
+from nag.algebra.from_python import coordinates
 from nag.cli import main
+from nag.cli.witness_input import point_at
 from nag.decomposition import discover
 from nag.files.cases import freed_system
 from nag.real.curve import PieceKind
@@ -758,3 +760,42 @@ def test_every_question_of_equations_takes_the_letter_of_the_unit(ask: Any) -> N
     for known in (system, nag.decompose(system)[0]):
         with pytest.raises(nag.NagError, match=r"^imaginary: is for equations; what is given has"):
             ask(known, imaginary="i")
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1.5-2.25i", 1.5 - 2.25j),
+        ("-0.125i", -0.125j),
+        ("1e+200+0i", 1e200),
+        ("(1.5e-3-2j)", 1.5e-3 - 2j),
+        ("1/2 + 2I", 0.5 + 2j),
+        ("3i/4", 0.75j),
+    ],
+)
+def test_a_coordinate_is_read_as_points_are_printed(
+    text: str, value: complex, tmp_path: Path
+) -> None:
+    at = nag.system("x*y - 2")
+    assert complex(coordinates([text, 1], ["x", "y"])[0]) == value
+    assert complex(point_at(f"x = {text}, y = 1", at)[0]) == value
+    case = tmp_path / "case.toml"
+    case.write_text(
+        'title = "a point"\nkind = "system"\nvariables = ["x"]\nequations = ["x^2 - 1"]\n'
+        f'[[point]]\nname = "p"\nat = {{ x = "{text}" }}\n'
+    )
+    (point,) = nag.read_case(case).points
+    assert complex(point.at[0]) == value
+
+
+def test_the_singular_points_that_are_printed_are_taken_as_points(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "curve.txt"
+    file.write_text("(y^2 + 4)^2 - x^3\n")
+    assert main(["singular", str(file), "--quiet"]) == 0
+    points = re.findall(r"^point +(.*)$", capsys.readouterr().out, re.MULTILINE)
+    assert sorted(points) == ["x = 0, y = -2i", "x = 0, y = 2i"]
+    for point in points:
+        assert main(["local", str(file), "--at", point, "--quiet"]) == 0
+        assert "a singular point" in capsys.readouterr().out

@@ -29,7 +29,13 @@ from nag.algebra.given import (
     is_a,
     value_text,
 )
-from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, values_with_unit
+from nag.algebra.imaginary_unit import (
+    adjoin_unit,
+    name_unit,
+    parse_parameter,
+    values_with_unit,
+    write_out_unit,
+)
 from nag.algebra.number import ComplexNumber, Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -521,7 +527,19 @@ def _names_the_unit(point: Any, variables: Sequence[str]) -> bool:
     return hasattr(point, "__len__") and len(point) == len(variables)
 
 
+def spelled_coordinate(text: str, place: str, units: Sequence[str]) -> Number | ComplexNumber:
+    """The coordinate of a point that a text spells, as an expression or as points are printed.
+
+    Raises:
+        ExpressionError: if it spells none; the message begins with ``place``.
+    """
+    return exact_complex(write_out_unit(text, units[0]), place, units)
+
+
 def _coordinate(value: Any, place: str, units: Sequence[str]) -> Number | complex:
+    if isinstance(value, str):
+        exact = spelled_coordinate(value, place, units)
+        return complex(exact) if isinstance(exact, ComplexNumber) else exact
     if is_sympy(value) and isinstance(value, Real) and not isinstance(value, Rational):
         # Of more digits than a double has it is the decimal that it is written as.
         exact = exact_number(value, place)

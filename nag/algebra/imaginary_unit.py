@@ -8,6 +8,7 @@ exact stays rational; whoever hands out zeros leaves the second set out.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 
 # The name of the unit, of the first that is no other name.
 NAMES = ("I", "imaginary_unit", "imaginary_unit_")
+# A number with the unit behind it.
+_PRINTED = re.compile(r"(?<![\w.])((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)[ijI](?!\w)")
 
 
 def name_unit(taken: Iterable[str]) -> str:
@@ -113,6 +116,17 @@ def parse_parameter(
     whole = reduce_unit(parse_polynomial(text, (name,), values, budget, unit=name))
     real, imaginary = (whole.terms.get((k,), Fraction(0)) for k in range(2))
     return real if is_zero(imaginary) else ComplexNumber(real, imaginary)
+
+
+def write_out_unit(text: str, unit: str) -> str:
+    """A number as it is printed, by this package and by Python, as an expression in the unit.
+
+    There the unit stands right behind its factor, and may be i, j or I.
+
+    >>> write_out_unit("(1.5e-3-2i)", "I")
+    '(1.5e-3-2*I)'
+    """
+    return _PRINTED.sub(rf"\1*{unit}", text)
 
 
 def as_real(system: PolynomialSystem) -> PolynomialSystem:

@@ -256,7 +256,7 @@ def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...
         UsageError: if a variable is unknown, missing or given twice, or a value is no
             number.
     """
-    from nag.algebra.from_python import coordinates, exact_complex
+    from nag.algebra.from_python import coordinates, spelled_coordinate
     from nag.algebra.tokens import nearest, quote, shorten_names
 
     variables = system.own_variables
@@ -275,7 +275,7 @@ def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...
         if name in values:
             raise UsageError(f"--at: {name} is given twice")
         try:
-            exact_complex(value.strip(), name, units)
+            spelled_coordinate(value.strip(), name, units)
         except NagError as error:
             raise UsageError(f"--at: {error}") from None
         values[name] = value.strip()

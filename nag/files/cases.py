@@ -20,7 +20,13 @@ from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.family import Family
 from nag.algebra.fixed_mapping import FixedMapping
 from nag.algebra.given import check_path, reading_options
-from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, values_with_unit
+from nag.algebra.imaginary_unit import (
+    adjoin_unit,
+    name_unit,
+    parse_parameter,
+    values_with_unit,
+    write_out_unit,
+)
 from nag.algebra.number import ComplexNumber, Number, brief_number_text
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
@@ -754,6 +760,8 @@ def _read_coordinate(value: Any, system: PolynomialSystem, numbers: _Numbers) ->
     taken = {*system.own_variables, *numbers.parameters}
     units = [unit for unit in (*system.variables[-1:], "I") if unit not in taken]
     complex_ = {k for k, v in numbers.parameters.items() if isinstance(v, ComplexNumber)}
+    if isinstance(value, str) and units:
+        value = write_out_unit(value, units[0])
     if isinstance(value, str) and names_in(value) & {*units, *complex_}:
         found = parse_parameter(value, units or ["I"], numbers.parameters, numbers.budget)
         return complex(found) if isinstance(found, ComplexNumber) else found
