@@ -763,6 +763,41 @@ def test_every_question_of_equations_takes_the_letter_of_the_unit(ask: Any) -> N
 
 
 @pytest.mark.parametrize(
+    ("root", "value"),
+    [
+        ("sqrt(-3)", "sqrt(3)*I"),
+        ("sqrt(-4)/2", "I"),
+        ("sqrt(-2)*sqrt(-8)", "-4"),
+        ("sqrt(2 - sqrt(5))", "sqrt(sqrt(5) - 2)*I"),
+        ("sqrt(I*I)", "I"),
+    ],
+)
+def test_roots_of_negative_numbers_are_multiples_of_the_unit(
+    root: str, value: str, tmp_path: Path
+) -> None:
+    wanted = nag.system(["x^2 - 2*I^2", f"y - ({value})*x"], "x y")
+    assert nag.system(["x^2 + 2 + 0*I", f"y - {root}*x"], "x y") == wanted
+    assert nag.system(["x^2 + 2", "y - a*x + 0*I"], "x y", parameters={"a": root}) == wanted
+    assert nag.system(["x^2 + 2", f"y - {root}*x"], "x y") == wanted
+    text, case = tmp_path / "roots.txt", tmp_path / "roots.toml"
+    text.write_text(f"variables x y\nx^2 + 2\ny = {root}*x\n")
+    case.write_text(
+        'title = "roots"\nkind = "system"\nvariables = ["x", "y"]\n'
+        f'equations = ["x^2 + 2", "y - {root}*x"]\n'
+    )
+    for file in (text, case):
+        assert nag.read_case(file).system == wanted
+
+
+@pytest.mark.parametrize("function", ["sqrt", "cos"])
+def test_functions_of_complex_numbers_are_refused_as_that(function: str) -> None:
+    with pytest.raises(nag.EquationError, match=f"{function} of a complex number is not worked"):
+        nag.system([f"x - {function}(1 + I)"], "x")
+    with pytest.raises(nag.EquationError, match=f"{function} of a variable is no polynomial"):
+        nag.system([f"x*I - {function}(x)"], "x")
+
+
+@pytest.mark.parametrize(
     ("text", "value"),
     [
         ("1.5-2.25i", 1.5 - 2.25j),

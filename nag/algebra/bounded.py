@@ -103,7 +103,7 @@ class BoundedArithmetic:
     def divide(self, left: Value, right: Value) -> Value:
         """The quotient by a constant."""
         if isinstance(right, Polynomial):
-            parts = self._parts(right)
+            parts = self.parts(right)
             if parts is None:
                 raise ExpressionError(
                     "the divisor contains a variable; multiply the equation by it instead"
@@ -118,7 +118,7 @@ class BoundedArithmetic:
             raise ExpressionError("division by zero; write a divisor that is not zero")
         return self.multiply(left, 1 / right)
 
-    def _parts(self, value: Polynomial) -> tuple[Number, Number] | None:
+    def parts(self, value: Polynomial) -> tuple[Number, Number] | None:
         """The real and the imaginary part of a constant, else None."""
         parts: list[Number] = [Fraction(0), Fraction(0)]
         for e, c in value.terms.items():
@@ -140,7 +140,7 @@ class BoundedArithmetic:
             raise ExpressionError(f"the exponent {shown} is not whole; {mend}")
         k = int(exponent)
         shown = str(k) if abs(k) < 10**30 else "of more than 30 digits"
-        if isinstance(base, Polynomial) and k < 0 and self._parts(base) is not None:
+        if isinstance(base, Polynomial) and k < 0 and self.parts(base) is not None:
             base, k = self.divide(Fraction(1), base), -k
         if isinstance(base, Polynomial):
             if k < 0:

@@ -28,7 +28,16 @@ from nag.algebra.bounded import (
     check_size,
     representable,
 )
-from nag.algebra.number import PI, Irrational, Number, Surd, cosine, sine, square_root
+from nag.algebra.number import (
+    PI,
+    Irrational,
+    Number,
+    Surd,
+    cosine,
+    is_zero,
+    sine,
+    square_root,
+)
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.tokens import (
     IMAGINARY_UNITS,
@@ -267,21 +276,37 @@ class _Parser:
         self._next()
         return value
 
-    def _call(self, name: Token) -> Number:
+    def _call(self, name: Token) -> Value:
         if self.token.text != "(":
             self._fail(name, f"{name.text} needs parentheses; write {name.text}(...)")
         value = self._closed(self._next())
         if isinstance(value, Polynomial):
-            mend = root_text(2)
-            if name.text != "sqrt":
-                mend = "take a cosine and a sine for variables, with the equation c^2 + s^2 = 1"
-            self._fail(name, f"{name.text} of a variable is no polynomial; {mend}")
+            value = self._real_constant(name, value)
+        unit = self.arithmetic.unit
+        if name.text == "sqrt" and unit is not None and value < 0:
+            root = check_size(square_root(-value))
+            return root * Polynomial.variable(len(self.variables), unit)
         try:
             return check_size(_FUNCTIONS[name.text](value))
         except ExpressionError as error:
             self._fail(name, str(error))
         except ValueError as error:
             self._fail(name, f"{error} ({quote(str(value))}); write another one")
+
+    def _real_constant(self, name: Token, value: Polynomial) -> Number:
+        """The number that a function is asked of."""
+        parts = self.arithmetic.parts(value)
+        if parts is None:
+            mend = root_text(2)
+            if name.text != "sqrt":
+                mend = "take a cosine and a sine for variables, with the equation c^2 + s^2 = 1"
+            self._fail(name, f"{name.text} of a variable is no polynomial; {mend}")
+        if not is_zero(parts[1]):
+            mend = "write its value"
+            if name.text == "sqrt":
+                mend += ", or take a variable s for it, with the equation s^2 = ..., for both roots"
+            self._fail(name, f"{name.text} of a complex number is not worked out; {mend}")
+        return parts[0]
 
     def _named(self, token: Token) -> Value:
         name = token.text

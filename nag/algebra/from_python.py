@@ -31,6 +31,7 @@ from nag.algebra.given import (
 )
 from nag.algebra.imaginary_unit import (
     adjoin_unit,
+    has_imaginary_root,
     name_unit,
     parse_parameter,
     values_with_unit,
@@ -203,7 +204,7 @@ def system(
         raise NagError("equations: none are given; give texts like 'x^2 + y^2 = 1' in a list")
     unit = asked if asked not in (*names, *values) else None
     is_complex = any(isinstance(value, ComplexNumber) for value in values.values()) or any(
-        _is_complex(f, unit) for f, _ in occurring
+        _is_complex(f, unit, names, values) for f, _ in occurring
     )
     read = _Reader(names, values, unit, name_unit((*names, *values)) if is_complex else None)
     parts = (
@@ -246,14 +247,14 @@ def exact_complex(value: Any, place: str, units: Sequence[str] = ("I",)) -> Numb
     Raises:
         ExpressionError: if it is none.
     """
-    if isinstance(value, str) and names_in(value) & {*units}:
+    if isinstance(value, str):
         try:
             return parse_parameter(value, units, {}, Budget())
         except ExpressionError as error:
             raise ExpressionError(f"{place}: {error}") from None
     if is_sympy(value) and value.is_number and value.has(sys.modules["sympy"].I):
         parts = value.expand(complex=True).as_real_imag()
-    elif not isinstance(value, str | Real | Decimal) and isinstance(value, Complex):
+    elif not isinstance(value, Real | Decimal) and isinstance(value, Complex):
         parts = value.real, value.imag
     else:
         return exact_number(value, place)
@@ -261,10 +262,15 @@ def exact_complex(value: Any, place: str, units: Sequence[str] = ("I",)) -> Numb
     return real if is_zero(imaginary) else ComplexNumber(real, imaginary)
 
 
-def _is_complex(equation: Any, unit: str | None) -> bool:
+def _is_complex(
+    equation: Any, unit: str | None, names: Sequence[str], values: Mapping[str, Any]
+) -> bool:
     """Whether the imaginary unit occurs in an equation."""
     if isinstance(equation, str):
-        return unit is not None and unit in names_in(equation)
+        occurs = unit is not None and unit in names_in(equation)
+        return occurs or has_imaginary_root(equation, names, values)
+    if isinstance(equation, Complex) and not isinstance(equation, Real):
+        return bool(complex(equation).imag)
     return is_sympy(equation) and equation.has(sys.modules["sympy"].I)
 
 
@@ -401,18 +407,21 @@ class _Reader:
                     f"{place}: a polynomial in {equation.n} variables; {n} are named"
                 )
             return equation
+        if isinstance(equation, bool):
+            raise ExpressionError(
+                f"{place}: a truth value is given, as == of Python gives; write Eq(a, b) of sympy, "
+                "or a text, 'a = b'"
+            )
+        if not isinstance(equation, str) and not is_sympy(equation):
+            number = exact_complex(equation, place)
+            if self.unit is None or not isinstance(number, ComplexNumber):
+                return Polynomial.constant(n, number)
+            return number.real + number.imaginary * self.unit
         try:
             if isinstance(equation, str):
                 known = {k: v for k, v in self.values.items() if k not in self.names}
                 unit = None if self.unit is None else self.names[-1]
                 return parse_polynomial(equation, self.names, known, unit=unit)
-            if isinstance(equation, bool):
-                raise ExpressionError(
-                    "a truth value is given, as == of Python gives; write Eq(a, b) of sympy, or a "
-                    "text, 'a = b'"
-                )
-            if not is_sympy(equation):
-                return Polynomial.constant(n, parse_number(plain_number(equation)))
             symbol_names(equation)
             value = sympy_value(equation, self.known, n, Budget(), self.unit)
         except ValueError as error:

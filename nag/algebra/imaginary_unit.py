@@ -109,13 +109,37 @@ def parse_parameter(
     unit = Polynomial.variable(1, 0)
     values = values_with_unit(known, units[:1])
     used = names_in(text) & {*units, *(n for n, v in known.items() if isinstance(v, ComplexNumber))}
-    if not used:
+    if not used and not has_imaginary_root(text, (), known):
         return parse_number(text, values, budget)
     values |= dict.fromkeys(units[1:], unit)
     name = units[0]
     whole = reduce_unit(parse_polynomial(text, (name,), values, budget, unit=name))
     real, imaginary = (whole.terms.get((k,), Fraction(0)) for k in range(2))
     return real if is_zero(imaginary) else ComplexNumber(real, imaginary)
+
+
+def has_imaginary_root(
+    text: str, variables: Sequence[str], known: Mapping[str, Number | ComplexNumber]
+) -> bool:
+    """Whether the unit occurs in an expression as the root of a negative number.
+
+    Args:
+        known: numbers that have names; complex ones are not looked at.
+    """
+    if "sqrt" not in text:
+        return False
+    unit = name_unit((*variables, *known))
+    real = {
+        name: value
+        for name, value in known.items()
+        if name not in variables and not isinstance(value, ComplexNumber)
+    }
+    try:
+        f = parse_polynomial(text, (*variables, unit), real, unit=unit)
+    except ExpressionError:
+        # Whoever reads it says what is wrong.
+        return False
+    return any(e[-1] for e in f.terms)
 
 
 def write_out_unit(text: str, unit: str) -> str:

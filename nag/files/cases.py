@@ -22,6 +22,7 @@ from nag.algebra.fixed_mapping import FixedMapping
 from nag.algebra.given import check_path, reading_options
 from nag.algebra.imaginary_unit import (
     adjoin_unit,
+    has_imaginary_root,
     name_unit,
     parse_parameter,
     values_with_unit,
@@ -641,7 +642,10 @@ def _read_system(top: CaseTable, numbers: _Numbers) -> tuple[PolynomialSystem, F
     else:
         unit = name_unit(taken)
     texts = top.texts("equations", "equations")
-    is_complex = any(names_in(text) & complex_ for text in texts)
+    is_complex = any(
+        names_in(text) & complex_ or has_imaginary_root(text, variables, numbers.parameters)
+        for text in texts
+    )
     if "family" in top.values:
         family = _read_family(top, numbers, variables, unit, complex_)
         system = family.symmetric.original.at(family.values)
@@ -685,7 +689,10 @@ def _read_family(
     free = family_parameters(table, numbers.parameters)
     names = [*variables, *free]
     texts = top.texts("equations", "equations")
-    is_complex = any(names_in(text) & complex_ - {*free} for text in texts)
+    is_complex = any(
+        names_in(text) & complex_ - {*free} or has_imaginary_root(text, names, numbers.parameters)
+        for text in texts
+    )
     if is_complex:
         names.append(unit)
     equations = _read_equations(top, numbers, names, unit if is_complex else None)

@@ -10,7 +10,13 @@ from typing import Any, NoReturn
 from nag.algebra.bounded import Budget, Value
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.from_python import exact_complex
-from nag.algebra.imaginary_unit import adjoin_unit, name_unit, parse_parameter, values_with_unit
+from nag.algebra.imaginary_unit import (
+    adjoin_unit,
+    has_imaginary_root,
+    name_unit,
+    parse_parameter,
+    values_with_unit,
+)
 from nag.algebra.number import ComplexNumber, Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -257,7 +263,9 @@ def _unit_name(
     """A name for the imaginary unit, if it occurs."""
     complex_ = {n for n, value in parameters.items() if isinstance(value, ComplexNumber)}
     texts = (*given.equations, *given.definitions.values(), *given.nonzero)
-    if not any(names_in(text.text) & {*units, *complex_} for text in texts):
+    named = any(names_in(text.text) & {*units, *complex_} for text in texts)
+    letters = (*given.variables, *given.definitions)
+    if not named and not any(has_imaginary_root(t.text, letters, parameters) for t in texts):
         return None
     return name_unit(_names(given))
 
