@@ -545,6 +545,23 @@ def test_names_that_a_program_does_not_take_are_changed_one_to_one(format: str) 
         assert "x[0]" in read.variables
 
 
+@pytest.mark.parametrize("format", ["bertini", "phc", "m2", "singular", "sympy"])
+def test_letters_of_other_alphabets_are_written_as_a_reader_would_read_them(format: str) -> None:
+    names = {"x₁": "x1", "x₂": "x2", "Δ": "Delta", "δ": "delta", "ä": "a"}
+    system = nag.system([f"{name}^2 - 1" for name in names], [*names])
+    text = write_system(system, format)
+    assert f"names: {', '.join(f'{new} is {old}' for old, new in names.items())}" in text
+    taken = nag.system(["x1 + x₁ - 1", "x1 - 2*x₁"], ["x1", "x₁"])
+    assert re.search(r"names: x1v is x₁$", write_system(taken, format), re.MULTILINE)
+
+
+def test_python_takes_what_is_written_of_names_that_it_does_not_take() -> None:
+    lines: dict[str, object] = {}
+    system = nag.system("x₁^2 - Δ", "x₁ Δ")
+    exec(write_system(system, "sympy"), lines)
+    assert nag.system(lines["equations"], "x₁ Δ") == system
+
+
 def test_python_takes_names_that_are_its_words() -> None:
     system = _awkward_system()
     lines: dict[str, object] = {}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import count
 
@@ -22,6 +23,7 @@ _GREEK = (
     "varsigma sigma tau upsilon phi chi psi omega"
 )
 _LATIN = {chr(0x3B1 + k): name for k, name in enumerate(_GREEK.split())}
+_PLAIN = _LATIN | {c.upper(): name.capitalize() for c, name in _LATIN.items() if name != "varsigma"}
 _NUMBER = re.compile(r"(?<![\w.])[0-9]+")
 # Two whole numbers, the first of which divides nothing itself.
 _FRACTION = re.compile(r"(?<![\w./])([0-9]+)/([0-9]+)(?![\w.])")
@@ -60,7 +62,9 @@ def _plain_names(
     for name in names:
         if name in written:
             continue
-        letters = "".join(_LATIN.get(c.lower(), c) for c in name).replace("'", "p")
+        # Accents fall off, and raised or lowered digits become digits.
+        letters = "".join(_PLAIN.get(c, c) for c in unicodedata.normalize("NFKD", name))
+        letters = "".join(c for c in letters if not unicodedata.combining(c)).replace("'", "p")
         base = _LETTERS.sub("_", letters).strip("_") or "x"
         base = base.replace("_", "") if pattern.fullmatch("a_b") is None else base
         base = base if base[0].isalpha() else f"x{base}"
@@ -262,7 +266,7 @@ def write_singular(system: PolynomialSystem, title: str) -> str:
 
 def write_sympy(system: PolynomialSystem, title: str) -> str:
     """Lines of Python: symbols, and a list of expressions of sympy's."""
-    names = _plain_names(_variables(system), r"[A-Za-z]\w*", _TAKEN | words.SYMPY)
+    names = _plain_names(_variables(system), r"[A-Za-z][A-Za-z0-9_]*", _TAKEN | words.SYMPY)
     written = list(names.values())
     symbols = ", ".join(repr(n) for n in names)
     texts = _texts(system, written, lambda c: _NUMBER.sub(r"S(\g<0>)", number_text(c)), "**", "I")
