@@ -196,13 +196,13 @@ def system(
     check_type(imaginary, str | None, "imaginary", "a letter")
     if imaginary is not None and not is_name(imaginary):
         raise ExpressionError(f"imaginary: {quote(str(imaginary))} is no name; write a letter")
-    asked = imaginary or ("I" if variables is not None else None)
-    names = _names(variables, occurring, values, asked)
+    letter = imaginary or ("I" if variables is not None else None)
+    names = _names(variables, occurring, values, letter)
     if imaginary in (*names, *values):
         raise ExpressionError(f"imaginary: {taken_text(str(imaginary))}")
     if not given and not names:
         raise NagError("equations: none are given; give texts like 'x^2 + y^2 = 1' in a list")
-    unit = asked if asked not in (*names, *values) else None
+    unit = letter if letter not in (*names, *values) else None
     is_complex = any(isinstance(value, ComplexNumber) for value in values.values()) or any(
         _is_complex(f, unit, names, values) for f, _ in occurring
     )
@@ -270,7 +270,7 @@ def _is_complex(
         occurs = unit is not None and unit in names_in(equation)
         return occurs or has_imaginary_root(equation, names, values)
     if isinstance(equation, Complex) and not isinstance(equation, Real):
-        return bool(complex(equation).imag)
+        return bool(equation.imag)
     return is_sympy(equation) and equation.has(sys.modules["sympy"].I)
 
 
@@ -414,9 +414,10 @@ class _Reader:
             )
         if not isinstance(equation, str) and not is_sympy(equation):
             number = exact_complex(equation, place)
-            if self.unit is None or not isinstance(number, ComplexNumber):
-                return Polynomial.constant(n, number)
-            return number.real + number.imaginary * self.unit
+            if isinstance(number, ComplexNumber):
+                assert self.unit is not None
+                return number.imaginary * self.unit + number.real
+            return Polynomial.constant(n, number)
         try:
             if isinstance(equation, str):
                 known = {k: v for k, v in self.values.items() if k not in self.names}

@@ -57,7 +57,7 @@ from nag.files.case_table import (
 )
 from nag.files.formats import READ, ROBOTS
 from nag.mechanism import FORMULATIONS, PLATFORM_ALONE
-from nag.text.table import lines_of, one_line
+from nag.text.table import count_text, lines_of, one_line
 
 if TYPE_CHECKING:
     from nag.algebra.symmetric_family import FamilyMember
@@ -699,8 +699,9 @@ def _read_family(
     if len(equations) != len(variables):
         table.fail(
             None,
-            f"{len(equations)} equations in {len(variables)} variables; a family has as many of "
-            "them, so leave it out",
+            f"{count_text(len(equations), 'equation')} in "
+            f"{count_text(len(variables), 'variable')}; a family has as many of them, so leave it "
+            "out",
         )
     values = [numbers.parameters[name] for name in free]
     parts = [part for v in values for part in (v if isinstance(v, ComplexNumber) else (v,))]
