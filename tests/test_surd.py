@@ -141,3 +141,16 @@ def test_products_of_polynomials_have_the_products_of_their_values(f, g, x, y):
     f, g = Polynomial(2, f), Polynomial(2, g)
     assert (f * g)((x, y)) == f((x, y)) * g((x, y))
     assert parse_polynomial(f.text(("x", "y")), ("x", "y")) == f
+
+
+@given(st.integers(1, 10**6), st.integers(1, 10**6), st.integers(0, 400))
+def test_many_equal_factors_are_divided_out_at_once(a: int, b: int, k: int) -> None:
+    found = split_square(a * 10**k)
+    alone = split_square(a * 10 ** (k % 2))
+    assert found is not None and alone is not None
+    assert found == (alone[0] * 10 ** (k // 2), alone[1])
+
+
+def test_long_numbers_are_not_proved_to_be_prime() -> None:
+    assert split_square(5 * 10**20000 + 10**3) is None
+    assert split_square(5 * 10**20001) == (5 * 10**10000, 2)

@@ -39,8 +39,9 @@ from nag.algebra.root_basis import (
     spanning_roots,
 )
 
-# Small primes are looked for in all radicands; of what is then left larger ones are not factored.
-_SMALL_PRIMES, _LARGEST_FACTORED = 10_000, 10**30
+# Small primes are looked for in all radicands; of what is then left larger ones are not factored,
+# and still larger ones not proved to be prime.
+_SMALL_PRIMES, _LARGEST_FACTORED, _LARGEST_PROVED = 10_000, 10**30, 10**100
 # Bits with which the evaluation of a sum begins; a rational number's error is far below a double's.
 _BITS = 128
 # Of a root in a sum of roots, how often one is taken in the search for it.
@@ -378,19 +379,31 @@ def split_square(n: int) -> tuple[int, int] | None:
     for p in _small_primes():
         if p * p > left:
             break
-        while left % (p * p) == 0:
-            root, left = root * p, left // (p * p)
         if left % p == 0:
-            radicand, left = radicand * p, left // p
+            times, left = _divide_out(left, p)
+            root, radicand = root * p ** (times // 2), radicand * p ** (times % 2)
     whole = isqrt(left)
     if whole * whole == left:
         return root * whole, radicand
-    if left > _LARGEST_FACTORED and not flint.fmpz(left).is_prime():
+    prime = left <= _LARGEST_PROVED and flint.fmpz(left).is_prime()
+    if left > _LARGEST_FACTORED and not prime:
         return None
     for p, k in flint.fmpz(left).factor():
         root *= int(p) ** (int(k) // 2)
         radicand *= int(p) ** (int(k) % 2)
     return root, radicand
+
+
+def _divide_out(n: int, p: int) -> tuple[int, int]:
+    """How often ``p`` divides ``n``, a positive integer, and what is left of it."""
+    powers = [p]
+    while n % powers[-1] == 0:
+        powers.append(powers[-1] ** 2)
+    times = 0
+    for k, power in reversed(list(enumerate(powers))):
+        if n % power == 0:
+            times, n = times + 2**k, n // power
+    return times, n
 
 
 @lru_cache(maxsize=1)

@@ -414,6 +414,8 @@ def _screws(
 
 
 def _unit(axis: np.ndarray) -> np.ndarray:
+    # By a power of two, which rounds nothing, so that no square overflows.
+    axis = np.ldexp(axis, -int(np.frexp(np.abs(axis).max())[1]))
     return axis / np.linalg.norm(axis)
 
 
