@@ -551,7 +551,7 @@ def test_where_names_keep_a_loop_open_it_is_said_first(tmp_path, capsys) -> None
     file.write_text(f"{kind}\njoint = [{', '.join(rows)}]\n")
     assert main(["mobility", str(file), "--quiet"]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "there is no loop: slyder and slider hang on one joint only" in said
+    assert "there is no loop: slyder and slider hang on one joint each" in said
 
 
 @pytest.mark.parametrize(

@@ -563,11 +563,10 @@ def _meaning(report: MobilityReport) -> str:
         elif apart:
             # What the equations leave out is known before anything else.
             text += f", {report.free_of.replace(' by ', ' of them by ', 1)}"
-    if not report.formulation and report.moving is not None and report.moving.hanging:
-        # Above all where a name is spelled in two ways, so that what was meant to close does not.
-        ends = [part.bodies[0] for part in report.moving.hanging]
-        verb = "hangs" if len(ends) == 1 else "hang"
-        text += f"; there is no loop: {join_words(ends)} {verb} on one joint only"
+    ends = [] if report.moving is None else [part.bodies[0] for part in report.moving.hanging]
+    if not report.formulation and len(ends) > 1:
+        # A name that is spelled in two ways leaves two ends; an arm has one.
+        text += f"; there is no loop: {join_words(ends)} hang on one joint each"
     if report.overconstrained:
         text += f", though counting predicts {report.gruebler_kutzbach}"
     if report.moving is not None and idle and idle == mobility:
