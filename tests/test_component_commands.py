@@ -346,8 +346,10 @@ def test_a_family_says_where_its_solutions_can_be_had(
     assert "1 member was solved by itself" in shown and "--points FILE writes" in shown
 
 
-def test_the_point_of_no_coordinates_is_on_the_component_of_no_equation(tmp_path) -> None:
+def test_the_point_of_no_coordinates_is_on_the_component_of_no_equation(tmp_path, capsys) -> None:
     export = tmp_path / "export.json"
     nag.write(nag.decompose(["0"]), export)
     for where in (["0"], nag.decompose(["0"]), export):
         assert list(nag.member(where, []).numbers) == [1]
+    assert main(["member", str(export), "--at", "", "--quiet"]) == 0
+    assert "on 1 of 1 components" in capsys.readouterr().out

@@ -262,7 +262,8 @@ def point_at(text: str, system: PolynomialSystem) -> tuple[Number | complex, ...
     variables = system.own_variables
     units = ("I", *system.variables[len(variables) :])
     values: dict[str, str] = {}
-    for part in text.split(","):
+    # Where there are no variables, nothing is a point.
+    for part in text.split(",") if variables or text.strip() else ():
         name, equals, value = part.partition("=")
         name = name.strip()
         if not equals:
