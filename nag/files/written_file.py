@@ -41,8 +41,9 @@ def remove_temporary(path: str | os.PathLike[str], process: int) -> None:
             left.unlink(missing_ok=True)
 
 
-# What files of these endings hold.
+# What files of these endings hold; others say nothing.
 HELD = {".json": "JSON", ".csv": "table", ".html": "page", ".npz": "arrays", ".parquet": "table"}
+HELD |= {".toml": "case", ".svg": "picture", ".png": "picture", ".pdf": "picture"}
 
 
 def ending_of(path: str | os.PathLike[str]) -> str:
@@ -51,7 +52,7 @@ def ending_of(path: str | os.PathLike[str]) -> str:
 
 
 def check_ending(path: str | os.PathLike[str], endings: Sequence[str]) -> None:
-    """Refuse a file whose ending says that it holds something else; it may have none.
+    """Refuse a file whose ending says that it holds something else.
 
     Args:
         endings: those of what is written, keys of `HELD`.
@@ -60,7 +61,7 @@ def check_ending(path: str | os.PathLike[str], endings: Sequence[str]) -> None:
         TargetError: for another one.
     """
     ending = ending_of(path)
-    if ending and ending not in endings:
+    if ending in HELD and ending not in endings:
         held = " and no ".join(dict.fromkeys(HELD[each] for each in endings))
         names = " or ".join(endings)
         raise TargetError(f"{path}: a file that ends in {ending} holds no {held}; name it {names}")
