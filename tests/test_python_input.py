@@ -246,7 +246,8 @@ def test_a_variable_that_is_listed_may_have_any_letter() -> None:
 def test_an_equation_may_be_a_complex_number_as_it_may_be_a_real_one() -> None:
     assert nag.system(["x^2 - 1", 1 + 2j]).text() == ["x^2 - 1", "2*I + 1", "I^2 + 1"]
     assert nag.system(["x^2 - 1", np.complex64(2)]) == nag.system(["x^2 - 1", 2])
-    assert nag.solve([1 + 2j]).complete and not nag.solve([1 + 2j]).solutions
+    never = nag.solve(["x^2 - 1", 1 + 2j])
+    assert never.complete and not never.solutions
 
 
 @pytest.mark.parametrize("name", ["π", "Pi"])
@@ -300,7 +301,7 @@ def test_a_point_has_numbers_in_an_order_that_can_be_read_again(point: Any) -> N
         lambda: line[0].contains(point),
         lambda: nag.local_dimension(system, point),
     ):
-        with pytest.raises(nag.NagError, match=r"point: .* is given; give 2 numbers in a list, or"):
+        with pytest.raises(nag.NagError, match=r"point: .* (is given|is the name of none); give "):
             ask()
 
 

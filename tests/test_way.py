@@ -71,4 +71,4 @@ def test_the_way_of_a_decomposition_is_one_that_a_reader_can_follow(
     assert [file for file in callers if file in way] == way
     # Nobody need pass through a file that is not listed: each is called by one before it.
     assert all(callers[file] & set(way[:k]) for k, file in enumerate(way) if k)
-    assert "mobility  1" in capsys.readouterr().out
+    assert "mobility  it moves with 1 freedom" in capsys.readouterr().out

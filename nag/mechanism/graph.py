@@ -59,6 +59,18 @@ class Joint:
     axis: Vector | None = None
     second_axis: Vector | None = None
 
+    if TYPE_CHECKING:
+        # What is given is read as exact numbers.
+        def __init__(
+            self,
+            name: str,
+            type: str,
+            bodies: Iterable[str],
+            point: Iterable[Any] | None = ORIGIN,
+            axis: Iterable[Any] | None = None,
+            second_axis: Iterable[Any] | None = None,
+        ) -> None: ...
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "type", SYNONYMS.get(self.type, self.type))
         object.__setattr__(self, "bodies", _as_tuple(self.bodies, "bodies", joint=self.name))
@@ -123,6 +135,12 @@ class Mechanism:
     ground: str
     joints: tuple[Joint, ...]
     bodies: tuple[Body, ...] = ()
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, ground: str, joints: Iterable[Joint], bodies: Iterable[Body] = ()
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         for key, kind in (("joints", Joint), ("bodies", Body)):
