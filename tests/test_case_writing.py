@@ -196,3 +196,11 @@ def test_parts_have_the_names_that_a_case_can_have(part: str, tmp_path: Path) ->
 def test_a_mechanism_has_the_names_that_a_case_can_have(joint: str, body: str) -> None:
     with pytest.raises(nag.MechanismError, match="is no name; write a text in one line"):
         nag.Mechanism("a", (nag.Joint(joint, "revolute", ("a", body), (0, 0, 0), (0, 0, 1)),))
+
+
+def test_a_table_that_cannot_be_read_is_not_written(tmp_path: Path) -> None:
+    row = {"a": 1, "alpha": "pi/3"}
+    loop = nag.DHLoop.of([row, row, {**row, "theta": 1}, {**row, "theta": 2}])
+    with pytest.raises(nag.NagError, match="2 open angles; leave at least three open"):
+        nag.write(loop, tmp_path / "loop.toml")
+    assert not list(tmp_path.iterdir())

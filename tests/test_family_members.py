@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import re
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas
@@ -253,7 +255,7 @@ def test_parameters_may_be_complex_and_of_very_different_sizes() -> None:
         ({"values": 1.0}, r"values: have shape \(\)"),
         ({"values": [[float("nan")]]}, "values: those of member 1 are not all finite"),
         ({"values": "ab"}, "ab: cannot be read"),
-        ({"values": ["a", "b"]}, "values: are no numbers"),
+        ({"values": ["a", "b"]}, "values: column 1: unknown name 'a'"),
         ({"equations": ["x^2 - s", "x"]}, "2 equations for 1 unknown: x"),
         ({"parameters": ["t"]}, "parameters: 't' does not occur"),
         ({"equations": ["x^2 - I*s", "x"], "variables": ["x"]}, "2 equations for 1 unknown: x"),
@@ -479,3 +481,24 @@ def test_a_family_with_an_equation_that_vanishes_has_no_isolated_solutions(
 ) -> None:
     found = nag.solve_family(equations, ["x"], [[1], [2]], start=start)
     assert found.complete.all() and not found.counts.any()
+
+
+@pytest.mark.parametrize("values", [["1/4", "4"], [["1/4"], [4]], {"a": ["1/4", 4.0]}])
+def test_values_may_be_texts_of_numbers(values: Any) -> None:
+    found = nag.solve_family("x^2 = a", "a", values)
+    assert sorted(abs(x[0]) for member in found for x in member) == pytest.approx([0.5, 0.5, 2, 2])
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ([True, False], "values: True or False is among them"),
+        ([[True], [2]], "values: True or False is among them"),
+        (np.array([True]), "values: True or False is among them"),
+        (["1/0"], "values: column 2: division by zero"),
+        ([[1], [1, 2]], "values: are no numbers"),
+    ],
+)
+def test_values_that_are_none_are_refused_in_one_line(values: Any, message: str) -> None:
+    with pytest.raises(nag.NagError, match=re.escape(message)):
+        nag.solve_family("x^2 = a", "a", values)

@@ -16,7 +16,7 @@ from nag.errors import NagError
 from nag.files.case_table import CaseError, parse_toml, with_values
 from nag.files.cases import Case, case_of_text, parameter_table
 from nag.mechanism.assembly import AssemblyModel
-from nag.mechanism.dh import DHLoop, HalfAngle
+from nag.mechanism.dh import DHLoop, HalfAngle, check_open
 from nag.mechanism.framework import Framework
 from nag.mechanism.graph import Mechanism, is_equations
 from nag.mechanism.linkage import Linkage
@@ -206,6 +206,8 @@ def _of_framework(framework: Framework) -> dict[str, Any]:
 
 
 def _of_table(loop: DHLoop) -> dict[str, Any]:
+    if loop.open:
+        check_open(loop)
     rows = []
     for row in loop.rows:
         known = {"name": row.name, "a": _plain(row.a), "d": _plain(row.d)}

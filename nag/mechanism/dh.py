@@ -328,16 +328,25 @@ class DHModel(TableModel):
         return {turn.joint: (c, s) for turn, (c, s) in values.items()}
 
 
+def check_open(loop: DHLoop) -> None:
+    """Make sure that enough angles of a table are open for its loop to be closed.
+
+    Raises:
+        DHError: if fewer than three are.
+    """
+    if len(loop.open) < 3:
+        raise DHError(
+            f"{len(loop.open)} open angles; leave at least three open, or give all of them"
+        )
+
+
 def dh_model(loop: DHLoop) -> DHModel:
     """The closure equations of a table, with two of its open joints eliminated.
 
     Raises:
         DHError: if fewer than three angles are open, or all axes of open joints are one line.
     """
-    if len(loop.open) < 3:
-        raise DHError(
-            f"{len(loop.open)} open angles; leave at least three open, or give all of them"
-        )
+    check_open(loop)
     closure = _choose_closure(loop)
     charts = Charts.of([e.factor for e in closure.kept if e.factor is not None])
     equations = independent_polynomials(closure.polynomials(charts))

@@ -362,9 +362,13 @@ def check_values(
     if hasattr(values, "keys") and np.ndim(values) != 1:
         values = _columns_by_name(family.parameters, values)
     try:
-        array = np.asarray(values, dtype=np.complex128)
+        if _are_truth_values(values):
+            raise NagError("values: True or False is among them; give numbers")
+        array = np.asarray(_without_texts(values), dtype=np.complex128)
     except OverflowError:
         raise NagError("values: are too large; give numbers up to 1e308") from None
+    except NagError:
+        raise
     except (TypeError, ValueError):
         raise NagError("values: are no numbers; give an array of shape (members, k)") from None
     if array.ndim == 1 and k == 1:
@@ -379,6 +383,29 @@ def check_values(
         called = "" if labels is None else f", {labels[wrong[0]]} in the index,"
         raise NagError(f"values: those of member {wrong[0] + 1}{called} are not all finite")
     return array
+
+
+def _are_truth_values(values: Any) -> bool:
+    """Whether one of many values is True or False."""
+    array = np.asarray(values)
+    if array.dtype != object:
+        # Of a list that has others as well NumPy makes numbers.
+        listed = values if isinstance(values, list | tuple) else ()
+        rows = (row if isinstance(row, list | tuple) else (row,) for row in listed)
+        return array.dtype == bool or any(isinstance(x, bool) for row in rows for x in row)
+    return any(isinstance(x, bool) for x in array.ravel().tolist())
+
+
+def _without_texts(values: Any) -> Any:
+    """Values with texts like "1/3" as complex doubles."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "OU":
+        return values
+    numbers = [
+        complex(exact_complex(x, "values")) if isinstance(x, str) else x
+        for x in array.ravel().tolist()
+    ]
+    return np.array(numbers, dtype=object).reshape(array.shape)
 
 
 def read_columns(table: Any) -> dict[str, np.ndarray]:
