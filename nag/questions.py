@@ -29,6 +29,7 @@ from nag.algebra.given import (
     Writable,
     check_choice,
     check_declared,
+    check_one_line,
     check_type,
     check_whole,
     is_a,
@@ -124,10 +125,6 @@ ENDINGS = {
     ".tex": "latex",
     ".py": "sympy",
 }
-# Endings of what is read, and is neither a case nor equations when it is written.
-NOT_WRITTEN = frozenset(
-    (".json", ".urdf", ".xml", ".csv", ".npy", ".npz", ".parquet", ".html", ".svg", ".png", ".pdf")
-)
 # What is said of a component of an export on which paths fail.
 UNTESTED = "the trace of its points could not be tested"
 
@@ -263,8 +260,7 @@ def write(
     check_path(path)
     check_type(format, str, "format", "a text")
     check_type(title, str, "title", "a text")
-    if not title.isprintable():
-        raise NagError("title: holds a line break or a control character; write it in one line")
+    check_one_line(title, "title")
     if names_file(result):
         result = read(result)
     elif _is_equations(result):
@@ -272,10 +268,9 @@ def write(
 
         result = system(result)
     from nag.files.answer_export import is_answer
-    from nag.files.written_file import ending_of
+    from nag.files.written_file import HELD, ending_of
 
     ending = ending_of(path)
-
     moves = any(is_a(result, *kind) for kind in SHOWN_MOVING)
     if moves and ending == ".html" and format == "auto":
         _write_page(result, path, title)
@@ -284,7 +279,7 @@ def write(
         for name, given in (("format", format != "auto"), ("title", bool(title))):
             if given:
                 raise NagError(f"{name}: is for cases and equations; an export has its own")
-        if ending not in ("", ".json"):
+        if ending != ".json" and ending in (*HELD, *ENDINGS):
             other = ", or write the equations alone: nag.write(result.system, path)"
             other = other if any(is_a(result, *kind) for kind in ANSWERS) else ""
             other = ", or .html, a page in which it moves" if moves else other
@@ -300,7 +295,7 @@ def write(
             "JSON, as of nag.decompose or nag.solve, a case, a mechanism, a model, parts or "
             "equations; others are kept by pickle"
         )
-    if format == "auto" and ending in NOT_WRITTEN:
+    if format == "auto" and ending in HELD and ending != ".toml":
         raise NagError(
             f"path: no case and no equations are written to a file that ends in {ending}; name it "
             f".toml or {', '.join(ENDINGS)}"
@@ -1979,7 +1974,7 @@ def plot(
     )
 
     onto = None if onto is None else tuple(list_names(onto))
-    joints = None if joints is None else _listed_joints(joints)
+    joints = None if joints is None else list_joints(joints)
     asked: dict[str, Any] = {"onto": onto, "joints": joints, "point": point}
     asked |= {"graph": graph, "mechanism": mechanism, "tree": tree}
     kind, target = choose_picture(asked), os.fspath(path)
@@ -2005,7 +2000,7 @@ def plot(
     return plot_components(found, kind, onto, title, target, run, chosen)
 
 
-def _listed_joints(joints: Any) -> tuple[str, ...]:
+def list_joints(joints: Any) -> tuple[str, ...]:
     """Joints' names, which may have blanks in them, one by one or in a text with commas between."""
     if isinstance(joints, str):
         joints = joints.split(",") if "," in joints else joints.split()
@@ -2114,10 +2109,10 @@ class Certified:
         return self.all_proved
 
     def __repr__(self) -> str:
-        from nag.numerics.claims import Standing, stands
+        from nag.numerics.claims import Standing, standing_of_field
 
         proved = "all points proved" if self.all_proved else "NOT all proved"
-        complete = Standing.PROVED if self.complete else stands(self.claims, "complete")
+        complete = Standing.PROVED if self.complete else standing_of_field(self.claims, "complete")
         said = "not proved" if complete is Standing.UNSEEN else str(complete)
         return f"<Certified: {proved}; complete: {said}>"
 

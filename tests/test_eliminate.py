@@ -238,7 +238,7 @@ def test_a_double_curve_is_proved_by_a_power(tmp_path) -> None:
             "'w' is not one of the variables; they are x, y",
         ),
         (["y - x^2", "z - x^3"], ["--onto", "x,x"], "a variable is given twice"),
-        (["y - x^2", "z - x^3"], ["--onto", ""], "is not one of the variables"),
+        (["y - x^2", "z - x^3"], ["--onto", ""], "no variable is given"),
         (["y - x^2", "z - x^3"], ["--degree", "0"], "is not between 1 and 100"),
         (["y - x^2", "z - x^3"], ["--degree", "x"], "is not a whole number"),
         (["y - x^2", "z - x^3"], ["--component", "2"], "there is one component"),

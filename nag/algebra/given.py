@@ -134,6 +134,16 @@ def check_choice(value: Any, place: str, known: Sequence[str]) -> None:
         raise NagError(f"{place}: {value_text(value)} is unknown; use {', '.join(known)}")
 
 
+def check_one_line(text: str, name: str) -> None:
+    """Make sure that a text has no line break and no control character.
+
+    Raises:
+        nag.NagError: if it has.
+    """
+    if not text.isprintable():
+        raise NagError(f"{name}: holds a line break or a control character; write it in one line")
+
+
 def check_path(value: Any, place: str = "path") -> None:
     """Make sure that an argument can name a file.
 

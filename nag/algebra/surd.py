@@ -385,8 +385,7 @@ def split_square(n: int) -> tuple[int, int] | None:
     whole = isqrt(left)
     if whole * whole == left:
         return root * whole, radicand
-    prime = left <= _LARGEST_PROVED and flint.fmpz(left).is_prime()
-    if left > _LARGEST_FACTORED and not prime:
+    if left > _LARGEST_PROVED or (left > _LARGEST_FACTORED and not flint.fmpz(left).is_prime()):
         return None
     for p, k in flint.fmpz(left).factor():
         root *= int(p) ** (int(k) // 2)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from nag.algebra.tokens import list_names
 from nag.cli.arguments import (
     UsageError,
     error_in_file,
@@ -105,14 +106,9 @@ def _read_names(text: str | None, system: PolynomialSystem) -> tuple[int, ...] |
     if text is None:
         return None
     try:
-        return place_variables(_listed(text), system)
+        return place_variables(list_names(text), system)
     except NagError as error:
         raise UsageError(f"--{error}").mended_by(error.keyword) from None
-
-
-def _listed(text: str | None) -> list[str]:
-    """The names of ``--onto``."""
-    return [] if text is None else [name.strip() for name in text.split(",")]
 
 
 Labelled = list[tuple[str, str]]
@@ -135,7 +131,7 @@ def _begin(options: argparse.Namespace) -> Begun:
         return read.case, chosen, *_said(chosen)
     case, problem, point = _asked_in(options)
     try:
-        chosen = choose_component(problem, number, point, run, _listed(options.onto))
+        chosen = choose_component(problem, number, point, run, list_names(options.onto or ()))
     except SourceError:
         raise
     except NagError as error:

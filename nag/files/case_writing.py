@@ -9,7 +9,7 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-from nag.algebra.given import value_text
+from nag.algebra.given import check_one_line, value_text
 from nag.algebra.number import ComplexNumber, Number, is_zero, number_text
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
@@ -56,8 +56,7 @@ def case_text(given: Any, title: str = "") -> str:
     Raises:
         NagError: if a case file cannot say it; one line says what.
     """
-    if not (title or getattr(given, "title", "") or "one").isprintable():
-        raise NagError("title: holds a line break or a control character; write it in one line")
+    check_one_line(title or getattr(given, "title", ""), "title")
     if isinstance(given, Case):
         own = _text_of_case(given, title)
         if own is not None:
@@ -83,17 +82,16 @@ def _text_of_case(case: Case, title: str) -> str | None:
     if values["kind"] == "robot":
         # What its file says of the robot may not be there, where the case is written to.
         return None
+    if not title and not case.set:
+        return case.text
     if title:
         values["title"] = title
-    elif not case.set:
-        return case.text
-    if not case.set:
-        return _toml(values)
-    changed = with_values(parameter_table(case.path, values), case.set).values
-    values["parameters"] = {name: _plain(value) for name, value in changed.items()}
-    if not case.truth and case.truth_at_reference is None:
-        # It is not known of other values.
-        values.pop("truth", None)
+    if case.set:
+        changed = with_values(parameter_table(case.path, values), case.set).values
+        values["parameters"] = {name: _plain(value) for name, value in changed.items()}
+        if not case.truth and case.truth_at_reference is None:
+            # It is not known of other values.
+            values.pop("truth", None)
     return _toml(values)
 
 

@@ -233,8 +233,8 @@ class Case:
         return given
 
     @property
-    def modelled(self) -> Mechanism | AssemblyModel | PolynomialSystem:
-        """What is asked about: a mechanism, the model of all ways to assemble it, equations.
+    def problem_source(self) -> Mechanism | AssemblyModel | PolynomialSystem:
+        """What its problem is made of: a mechanism, the model of its assemblies, or equations.
 
         Raises:
             CaseError: if parameters have no values.

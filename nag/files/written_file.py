@@ -43,7 +43,8 @@ def remove_temporary(path: str | os.PathLike[str], process: int) -> None:
 
 # What files of these endings hold; others say nothing.
 HELD = {".json": "JSON", ".csv": "table", ".html": "page", ".npz": "arrays", ".parquet": "table"}
-HELD |= {".toml": "case", ".svg": "picture", ".png": "picture", ".pdf": "picture"}
+HELD |= {".toml": "case", ".urdf": "robot", ".xml": "robot", ".npy": "array"}
+HELD |= dict.fromkeys((".svg", ".png", ".pdf"), "picture")
 
 
 def ending_of(path: str | os.PathLike[str]) -> str:

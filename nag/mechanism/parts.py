@@ -56,7 +56,7 @@ def model_parts(given: Any) -> Any:
         nag.MechanismError: if the parts have no model.
     """
     if is_a(given, "nag.files.cases", "Case"):
-        return given.modelled
+        return given.problem_source
     if is_a(given, "nag.mechanism.framework", "Framework"):
         from nag.mechanism.framework_model import framework_model
 

@@ -227,7 +227,7 @@ def problem_of(
 def _describe_problem(given: Any, formulation: str) -> Problem | None:
     """What describes a problem without being equations; None if these are given."""
     if is_a(given, "nag.files.cases", "Case"):
-        made = problem_of(given.modelled, formulation=formulation)
+        made = problem_of(given.problem_source, formulation=formulation)
         return replace(
             made,
             symmetries=made.symmetries or given.symmetries,

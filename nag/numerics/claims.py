@@ -174,7 +174,7 @@ def nothing_against(claims: Iterable[Claim]) -> bool:
     return all(claim.standing in GOOD for claim in claims)
 
 
-def stands(claims: Iterable[Claim], field: str) -> Standing:
+def standing_of_field(claims: Iterable[Claim], field: str) -> Standing:
     """How it stands that all is true that is said in a field."""
     return combine_standings([claim.standing for claim in claims if claim.field == field])
 

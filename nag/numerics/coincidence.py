@@ -38,8 +38,9 @@ NEAR = 1e-6
 
 # Pairs of neighbours that are looked at together.
 PAIRS = 1 << 11
-# Images of a point under a group that are looked at: of more some are left out.
-MOST_IMAGES = 1 << 10
+# Images of a point under a group that are looked at: of more some are left out, as to find them
+# would take longer than to judge what they are.
+MOST_IMAGES = 1 << 7
 
 # What carries points, shape ``(P, n)``, to others.
 PointMap = Callable[[np.ndarray], np.ndarray]
@@ -235,10 +236,11 @@ def point_orbit(x: np.ndarray, maps: Sequence[PointMap]) -> np.ndarray:
     images = new = x[None]
     while len(new) and len(images) < MOST_IMAGES:
         moved = np.vstack([new.conj(), *(g(new) for g in maps)])
-        kept: list[int] = []
-        for k, z in enumerate(moved):
-            if not coincident(np.vstack([images, moved[kept]]), z, LEAST).any():
-                kept.append(k)
-        new = moved[kept]
+        known = np.vstack([images, moved])
+        first = len(images)
+        kept = [
+            k for k in range(first, len(known)) if not coincident(known[:k], known[k], LEAST).any()
+        ]
+        new = known[kept]
         images = np.vstack([images, new])
     return images

@@ -28,7 +28,7 @@ from nag.numerics.certified_points import (
     distinct_simple,
     points_rows,
 )
-from nag.numerics.claims import CERTIFICATE, Claim, Standing, nothing_against, stands
+from nag.numerics.claims import CERTIFICATE, Claim, Standing, nothing_against, standing_of_field
 from nag.numerics.krawczyk import find_overlaps, tell_real_zeros
 from nag.numerics.point_claims import (
     find_nonvanishing,
@@ -184,7 +184,7 @@ class SolutionsCertificate:
                 if self.solutions_left_out.any():
                     text += ", among them solutions that are said to be excluded"
                 text += f"; there are no more than {number}"
-                if stands(self.claims, "complete") is Standing.EVIDENCE:
+                if standing_of_field(self.claims, "complete") is Standing.EVIDENCE:
                     text += "; on evidence these are all, as many as are counted modulo two primes"
             rows.append(("complete", text))
         rows.append(cost_row([points], seconds))

@@ -84,7 +84,8 @@ class SortedEnds:
 class _Zeros:
     """End points that are zeros, in the scaled variables, with the indices of their paths.
 
-    ``maps``: symmetries of the equations, which carry zeros to zeros as conjugation does.
+    ``find_maps``: finds symmetries of the equations, which carry zeros to zeros as conjugation
+    does; it is called where there is something to be spared.
     """
 
     path: np.ndarray
@@ -92,7 +93,7 @@ class _Zeros:
     accuracy: np.ndarray
     residual: np.ndarray
     regular: np.ndarray
-    maps: tuple[PointMap, ...] = ()
+    find_maps: Callable[[], tuple[PointMap, ...]] = tuple
 
     def regular_indices(self) -> np.ndarray:
         """Indices of the regular ends, which are distinct, as the tracker has seen."""
@@ -111,24 +112,24 @@ class _Zeros:
         """The points, to be asked for by where they are."""
         return SortedPoints.of(self.points)
 
-    def count_near(self) -> np.ndarray:
-        """How many ends are anywhere near each singular one, with it, shape ``(P,)``; else 0.
+    def count_near(self, groups: Sequence[np.ndarray]) -> np.ndarray:
+        """How many ends are anywhere near those of each group, with them, shape ``(P,)``; else 0.
 
         No isolated zero there is of larger multiplicity, if each is the end of as many paths.
         """
         counts = np.zeros(len(self.path), dtype=np.int64)
-        for i in np.flatnonzero(~self.regular).tolist():
-            x = self.points[i]
-            radius = max(ANYWHERE_NEAR, SAFETY * float(self.accuracy[i])) * (1 + np.linalg.norm(x))
-            near = self.sorted_points.near(x, float(radius))
-            counts[i] = np.sum(np.linalg.norm(self.points[near] - x, axis=1) <= radius)
+        for group in groups:
+            x, error = self.points[group[0]], float(self.accuracy[group].max())
+            radius = max(ANYWHERE_NEAR, SAFETY * error) * (1 + float(np.linalg.norm(x)))
+            near = self.sorted_points.near(x, radius)
+            counts[group] = np.sum(np.linalg.norm(self.points[near] - x, axis=1) <= radius)
         return counts
 
     def find_image(self, i: int, among: Collection[int]) -> int | None:
         """The first of some ends, by their indices, that symmetries carry a singular one to."""
         if self.regular[i] or not among:
             return None
-        for image in point_orbit(self.points[i], self.maps)[1:]:
+        for image in point_orbit(self.points[i], self.find_maps())[1:]:
             same = self.sorted_points.coincident(image, float(self.accuracy[i]))
             known = next((k for k in same.tolist() if k in among), None)
             if known is not None:
@@ -168,7 +169,7 @@ def sort_ends(
     evaluator = Evaluator.of(problem.equations, n)
     zeros, lost = _select_zeros(problem, begin, paths, evaluator)
     if np.count_nonzero(~zeros.regular) > FEW_SINGULAR:
-        zeros = replace(zeros, maps=problem.symmetry_maps)
+        zeros = replace(zeros, find_maps=lambda: problem.symmetry_maps)
     rough = problem.on_one_side(lost)
     roughly = "is a zero" if rough == 1 else "are zeros"
     ends = f"{count_text(rough, 'end point')} {roughly} of the equations only roughly"
@@ -183,7 +184,7 @@ def sort_ends(
     groups = [*zeros.regular_indices()[:, None], *zeros.groups()] if each else zeros.groups()
     limits = np.array([path in paths.branches for path in zeros.path.tolist()], dtype=bool)
     whole = begin.complete and not problem.squared
-    most = zeros.count_near() if whole and not problem.added else np.zeros_like(zeros.path)
+    most = zeros.count_near(groups) if whole and not problem.added else np.zeros_like(zeros.path)
     singular = EndJudgements(
         problem.equations,
         *(zeros.points, zeros.accuracy, limits, zeros.path, most),

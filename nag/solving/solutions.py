@@ -13,7 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.to_sympy import to_sympy_point
 from nag.algebra.tokens import list_names
 from nag.errors import NagError
-from nag.numerics.array_table import RecordTable
+from nag.numerics.array_table import RecordTable, map_rows
 from nag.numerics.doubles import beyond_doubles
 from nag.numerics.read_only import (
     BooleanArray,
@@ -335,11 +335,11 @@ class LargerSets(FixedArrays):
         return notes
 
 
-def _in_range(solutions: Sequence[Solution]) -> Sequence[Solution]:
-    """Those whose coordinates are in the range of doubles."""
-    if all(np.isfinite(s.point).all() for s in solutions):
-        return solutions
-    return [s for s in solutions if np.isfinite(s.point).all()]
+def select_finite(solutions: Sequence[Solution], n: int) -> Solutions:
+    """Those in ``n`` coordinates that are all in the range of doubles."""
+    table = Solutions.of(solutions, n)
+    finite = map_rows(lambda some: np.isfinite(some).all(axis=1), table.points)
+    return table if finite.all() else table.select_rows(finite)
 
 
 @dataclass(frozen=True)
@@ -453,7 +453,7 @@ class SolveResult(Several[Solution]):
         Solutions whose coordinates are no doubles are left out, and make the list incomplete.
         """
         larger = LargerSets.of(system.n) if larger is None else larger
-        fitting, allowed = _in_range(solutions), _in_range(excluded)
+        fitting, allowed = (select_finite(each, system.n) for each in (solutions, excluded))
         if undecided is not None:
             undecided = undecided[np.isfinite(undecided).all(axis=1)]
         if len(fitting) < len(solutions) or len(allowed) < len(excluded):

@@ -79,7 +79,7 @@ def read(source: SourceFile) -> GivenSystem:
             source.fail(text.offset + called.start(), message)
     declared_names = check_names(source, names)
     unset = _parameters(source, declared_names, lists[0][1])
-    used = _used_names(equations, definitions) | _named_variables(source)
+    used = _find_used_names(equations, definitions) | _named_variables(source)
     # Others are of no interest to it.
     declared_names = (
         tuple(n for n in declared_names if {n, n.partition("[")[0]} & used or n in unset)
@@ -97,7 +97,7 @@ def read(source: SourceFile) -> GivenSystem:
     )
 
 
-def _used_names(equations: Sequence[Passage], definitions: Mapping[str, Passage]) -> set[str]:
+def _find_used_names(equations: Sequence[Passage], definitions: Mapping[str, Passage]) -> set[str]:
     """The names in equations, and in what these are made of."""
     used, front = set[str](), list(equations)
     while front:
@@ -109,7 +109,9 @@ def _used_names(equations: Sequence[Passage], definitions: Mapping[str, Passage]
 
 def _named_variables(source: SourceFile) -> set[str]:
     """The names that ``variables = ...`` lists."""
-    found = [_names_listed(source.text, given.end()) for given in _OF_SYSTEM.finditer(source.text)]
+    found = [
+        _read_listed_names(source.text, given.end()) for given in _OF_SYSTEM.finditer(source.text)
+    ]
     return set().union(*found)
 
 
@@ -124,15 +126,15 @@ def _parameters(source: SourceFile, variables: Sequence[str], equations: Passage
     starts += [] if third is None else [third.end()]
     found: list[str] = []
     for start in starts:
-        names = _names_listed(source.text, start)
+        names = _read_listed_names(source.text, start)
         for name in [*names]:
             named = re.search(rf"^[ \t]*{name}\s*=(?!=)\s*(?=\[)", source.text, re.MULTILINE)
-            names |= _names_listed(source.text, named.end()) if named else set()
+            names |= _read_listed_names(source.text, named.end()) if named else set()
         found += [v for v in variables if v not in found and {v, v.partition("[")[0]} & names]
     return found
 
 
-def _names_listed(text: str, start: int) -> set[str]:
+def _read_listed_names(text: str, start: int) -> set[str]:
     """The names in what begins at ``start``, to a comma, a line's end or a bracket's."""
     end, depth = start, 0
     while end < len(text) and (depth or text[end] not in ",)\n"):

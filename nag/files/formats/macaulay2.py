@@ -112,7 +112,7 @@ def read(source: SourceFile) -> GivenSystem:
     read = _Statements(source, variables)
     for statement in _statements(source, end + 1):
         read.statement(statement)
-    return GivenSystem(variables, *read.chosen(), imaginary=(*dict.fromkeys(units), "ii"))
+    return GivenSystem(variables, *read.choose_ideal(), imaginary=(*dict.fromkeys(units), "ii"))
 
 
 class _Statements:
@@ -164,7 +164,7 @@ class _Statements:
         if len(used) > 1:
             self._source.fail(right.offset, _SUMS if "+" in right.text else _OPERATIONS)
 
-    def chosen(self) -> tuple[tuple[Passage, ...], dict[str, Passage], dict[str, Passage]]:
+    def choose_ideal(self) -> tuple[tuple[Passage, ...], dict[str, Passage], dict[str, Passage]]:
         """The polynomials of the one ideal or list, no parameters, and what they are made of."""
         source = self._source
         for _, polynomials in self._ideals:
