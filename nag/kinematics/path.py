@@ -333,11 +333,28 @@ def _find_rank_loss(
     curve: Curve, points_at: Callable[[np.ndarray], np.ndarray], place: float, width: float
 ) -> tuple[float, float]:
     """The place within a width where the equations are nearest to losing rank, and how near."""
+    return find_least(lambda places: _second_least(curve, points_at(places)), place, width)
+
+
+def find_least(
+    values_at: Callable[[np.ndarray], np.ndarray],
+    place: float,
+    width: float,
+    last: tuple[float, float] = (-np.inf, np.inf),
+) -> tuple[float, float]:
+    """The place within a width of another where a function is least, and its value there.
+
+    It is looked for about the least of values in steps, and then in smaller ones.
+
+    Args:
+        values_at: at places of shape ``(k,)``, of that shape.
+        last: the last places in both directions.
+    """
     least = np.inf
     for _ in range(NARROWINGS):
-        places = place + np.linspace(-width, width, PLACES)
-        sizes = _second_least(curve, points_at(places))
-        place, least = float(places[sizes.argmin()]), float(sizes.min())
+        places = np.clip(place + np.linspace(-width, width, PLACES), *last)
+        values = values_at(places)
+        place, least = float(places[values.argmin()]), float(values.min())
         width = 2 * width / (PLACES - 1)
     return place, least
 
