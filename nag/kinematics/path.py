@@ -17,6 +17,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.kinematics.poses import Poses, pose_steps
 from nag.kinematics.scene import Scene
 from nag.kinematics.walks import CurveWalk
+from nag.numerics.double_ranks import SINGULAR
 from nag.real.curve import RealCurve
 from nag.real.spherical_chart import SphericalChart
 
@@ -35,9 +36,6 @@ COSINE, LEAST_CHORD = 0.98, 1e-6
 # Second least singular values of the equations, beside their median along a circuit, that may
 # become as small between samples as where other motions meet it.
 PROMISING = 0.3
-# Decides: Second least singular value of the equations, over its median along a circuit, at which
-# other motions meet it: it is brought to 1e-11 there; where they miss it by d it is the root of d.
-SINGULAR = 1e-9
 # How the way between samples is searched for it: places at a time, and how often that is narrowed.
 PLACES, NARROWINGS = 21, 9
 # Points of a motion on each side of a place where rank is lost, in units of how far it is

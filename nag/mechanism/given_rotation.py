@@ -37,7 +37,8 @@ from nag.mechanism.quaternion import R, multiply, norm_squared
 Quaternion = tuple[Number, Number, Number, Number]
 IDENTITY: Quaternion = (Fraction(1), Fraction(0), Fraction(0), Fraction(0))
 
-# Decides: Radians, or parts of the largest entry, by which doubles miss what they stand for.
+# Decides: Radians, or parts of the largest entry, by which doubles miss what they stand for; cosine
+# of the angle between a line's direction and its moment that rounding leaves.
 NEAR = 1e-9
 # Radians that the rational rotation next to an angle may be off: rounding of a double at pi.
 ROUNDED = 4e-16

@@ -23,12 +23,12 @@ from nag.numerics.ball_ranks import regular_block
 from nag.numerics.certified_points import CertifiedPoints, Proof, independent_equations
 from nag.numerics.claims import Standing
 from nag.numerics.deflated_system import vanishing_digits
-from nag.numerics.digits import in_bits
+from nag.numerics.digits import DIGITS, in_bits, written_error
 from nag.numerics.discs import UP, DiscPolynomials, Discs, magnitude
 from nag.numerics.krawczyk import Share, fine_box, sharpen_boxes, work_here
 
-# Decides: Distance in 150 digits from zeros of coordinates that are said to be exact: evidence.
-SAME = 1e-140
+# Distance from zeros of coordinates that are said to be exact: evidence.
+SAME = written_error(DIGITS)
 
 
 def zero_standings(points: CertifiedPoints) -> list[Standing]:
