@@ -93,7 +93,7 @@ class Irrational:
         if isinstance(other, int | Fraction):
             return self if other == 0 else Irrational("+", (self, Fraction(other)))
         (p, core), (q, other_core) = _split(self), _split(other)
-        if core is not None and other_core is not None and _same(core, other_core):
+        if core is not None and other_core is not None and _are_alike(core, other_core):
             return _times(p + q, core)
         total = Irrational("+", (self, other))
         return Fraction(0) if is_zero(total) else total
@@ -258,7 +258,7 @@ def _times(factor: Exact, core: Irrational | None) -> Number:
     return Irrational("*", (factor, core))
 
 
-def _same(left: Number, right: Number) -> bool:
+def _are_alike(left: Number, right: Number) -> bool:
     """Whether two expressions are written the same way."""
     if left is right:
         return True
@@ -266,7 +266,9 @@ def _same(left: Number, right: Number) -> bool:
         return not isinstance(right, Irrational) and left == right
     if not isinstance(right, Irrational):
         return False
-    return left.operation == right.operation and all(map(_same, left.arguments, right.arguments))
+    return left.operation == right.operation and all(
+        map(_are_alike, left.arguments, right.arguments)
+    )
 
 
 def _inverse(value: Number) -> Number:

@@ -277,7 +277,7 @@ def given_quaternion(given: Sequence[Fraction]) -> GivenTurn:
     Raises:
         NagError: if it is zero.
     """
-    entries, within = _cleaned(given)
+    entries, within = _clean_entries(given)
     if not any(entries):
         raise NagError("is zero; a quaternion has a direction")
     axes = [i for i in (1, 2, 3) if entries[i]]
@@ -301,7 +301,7 @@ def given_axis(given: Sequence[Fraction]) -> Vector:
     Raises:
         NagError: if it is zero.
     """
-    entries, within = _cleaned(given)
+    entries, within = _clean_entries(given)
     there = [i for i in range(3) if entries[i]]
     if not there:
         raise NagError("has length zero; it needs a direction")
@@ -320,7 +320,7 @@ def given_axis(given: Sequence[Fraction]) -> Vector:
     return tuple(found)
 
 
-def _cleaned(given: Sequence[Fraction]) -> tuple[tuple[Fraction, ...], Fraction]:
+def _clean_entries(given: Sequence[Fraction]) -> tuple[tuple[Fraction, ...], Fraction]:
     """Entries without what rounding left, and how uncertain they are."""
     largest = max(map(abs, given))
     if not largest:

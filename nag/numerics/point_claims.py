@@ -122,15 +122,15 @@ def _error_standing(boxes: SharpBoxes, i: int, radii: Sequence[float]) -> Standi
         return Standing.UNSEEN
     if not points.boxes.proved[i]:
         return Standing.OPEN
-    found = _within(fine_box(points.boxes, i), points.points[i], radii)
+    found = _standing_within(fine_box(points.boxes, i), points.points[i], radii)
     # Where boxes of doubles are too large, few digits may do.
     for bits in BITS:
         if found is None:
-            found = _within(boxes.box(i, bits), points.points[i], radii)
+            found = _standing_within(boxes.box(i, bits), points.points[i], radii)
     return found or Standing.OPEN
 
 
-def _within(box: FineBox, point: np.ndarray, radii: Sequence[float]) -> Standing | None:
+def _standing_within(box: FineBox, point: np.ndarray, radii: Sequence[float]) -> Standing | None:
     """Whether the zero in a box is within radii of a point; None where the box does not say."""
     with in_bits(2 * BITS[-1]):
         off = [abs(z - complex(p)) for z, p in zip(box.centre, point, strict=True)]
