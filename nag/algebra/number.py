@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from nag.algebra.root_basis import cosine_of_turns
-from nag.algebra.surd import Surd, normal_sum, root_of_fraction, root_of_surd
+from nag.algebra.surd import Surd, natural_power, normal_sum, root_of_fraction, root_of_surd
 from nag.errors import NagError
 
 # Two expressions are taken to be equal when they agree to this many digits; an identity between
@@ -143,14 +143,7 @@ class Irrational:
     def __pow__(self, exponent: int) -> Number:
         if exponent < 0:
             return _inverse(self) ** -exponent
-        result: Number = Fraction(1)
-        base: Number = self
-        while exponent:
-            if exponent & 1:
-                result = base * result
-            exponent >>= 1
-            if exponent:
-                base = base * base
+        result: Number = natural_power(self, exponent)
         return result
 
     def __float__(self) -> float:
