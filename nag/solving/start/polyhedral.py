@@ -179,8 +179,8 @@ def binomial_solutions(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Angles of the coordinates of the solutions of all cells' binomials, and their cells.
 
-    With ``turns`` there is one of those that these carry into each other. All coordinates have absolute value
-    1, like the coefficients. Shapes ``(P, n)`` and ``(P,)``.
+    With ``turns`` there is one of those that these carry into each other. All coordinates have
+    absolute value 1, like the coefficients. Shapes ``(P, n)`` and ``(P,)``.
 
     Raises:
         StartError: if the exponents are too large.
