@@ -227,8 +227,8 @@ def find_orbits(system: GenericSystem, symmetries: Sequence[RowSymmetry]) -> Pat
         if len(pairs) != P or len(np.unique(image)) != P or (image < 0).any():
             return None
         images.append(image)
-    pairs = [np.stack([np.arange(P), image], axis=1) for image in images]
-    chosen, orbit = np.unique(join_labels(P, pairs), return_inverse=True)
+    joined = [np.stack([np.arange(P), image], axis=1) for image in images]
+    chosen, orbit = np.unique(join_labels(P, joined), return_inverse=True)
     sources, signs = np.tile(np.arange(N), (P, 1)), np.ones((P, N), dtype=np.int8)
     level, seen = chosen, np.isin(np.arange(P), chosen)
     # All orbits are carried on from their first points, until no image is new.
