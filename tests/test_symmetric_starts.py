@@ -19,7 +19,12 @@ from nag.solving.start.invariance import (
     list_elements,
 )
 from nag.solving.start.mixed_cells import mixed_cells
-from nag.solving.start.polyhedral import Turns, binomial_solutions, by_degeneration, polyhedral
+from nag.solving.start.polyhedral import (
+    CoordinateTurns,
+    binomial_solutions,
+    by_degeneration,
+    polyhedral,
+)
 from nag.solving.start.target import Target, unit
 from nag.tracking.paths import Ball, PathBranch
 from tests.systems import benchmark, system
@@ -167,7 +172,7 @@ def test_answers_do_not_depend_on_symmetries_of_the_start(
 
 def test_turns_keep_systems_of_their_supports() -> None:
     target, rng = benchmark("cyclic-6").sparsest, np.random.default_rng(5)
-    turns = Turns.of(target.supports)
+    turns = CoordinateTurns.of(target.supports)
     assert turns.elements.shape == (6, 6)
     rows = terms(target.supports, tuple(unit(rng, len(s)) for s in target.supports))
     y = unit(rng, 6)
@@ -179,16 +184,16 @@ def test_turns_keep_systems_of_their_supports() -> None:
 
 def test_supports_that_no_turns_keep_have_the_identity_alone() -> None:
     line = np.array([[0, 0], [1, 0], [0, 1]])
-    assert Turns.of((line, line)).elements.tolist() == [[0, 0]]
+    assert CoordinateTurns.of((line, line)).elements.tolist() == [[0, 0]]
     # Of lower rank: infinitely many turns.
-    assert Turns.of((line[:2], line[:2])).elements.tolist() == [[0, 0]]
+    assert CoordinateTurns.of((line[:2], line[:2])).elements.tolist() == [[0, 0]]
 
 
 def test_turned_solutions_of_binomials_are_all() -> None:
     target, rng = benchmark("cyclic-6").sparsest, np.random.default_rng(6)
     cells = mixed_cells(target.supports, rng)
     coefficients = tuple(unit(rng, len(s)) for s in target.supports)
-    turns = Turns.of(cells.supports)
+    turns = CoordinateTurns.of(cells.supports)
     every, _ = binomial_solutions(cells, coefficients)
     some, owners = binomial_solutions(cells, coefficients, turns)
     assert len(some) * 6 == len(every) == cells.mixed_volume == len(owners) * 6

@@ -175,7 +175,7 @@ def cell_weights(cells: MixedCells) -> np.ndarray:
 
 
 def binomial_solutions(
-    cells: MixedCells, coefficients: Sequence[np.ndarray], turns: Turns | None = None
+    cells: MixedCells, coefficients: Sequence[np.ndarray], turns: CoordinateTurns | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Angles of the coordinates of the solutions of all cells' binomials, and their cells.
 
@@ -237,7 +237,7 @@ def _span(
 
 
 @dataclass(frozen=True, eq=False)
-class Turns:
+class CoordinateTurns:
     """The finite group of turns of the coordinates that keep all systems of given supports.
 
     Turned by its elements, each row is multiplied by a number: the exponents of a row differ by
@@ -252,7 +252,7 @@ class Turns:
     elements: np.ndarray
 
     @classmethod
-    def of(cls, supports: Sequence[np.ndarray]) -> Turns:
+    def of(cls, supports: Sequence[np.ndarray]) -> CoordinateTurns:
         """The group for these supports; of a large one, or an infinite one, the identity alone."""
         n = len(supports)
         identity = cls(1, np.zeros((1, n), dtype=np.int64))
@@ -300,7 +300,7 @@ def by_degeneration(
         return system, 0
     degrees = group_degrees(system.rows, groups)
     homotopy = Homotopy(_single_terms(homogenize_rows(system.rows, n, groups, degrees)))
-    turns, ends, paths = Turns.of(cells.supports), [], 0
+    turns, ends, paths = CoordinateTurns.of(cells.supports), [], 0
     for some in cells.blocks(PATHS_AT_ONCE):
         angles, owners = binomial_solutions(some, coefficients, turns)
         starts = np.exp(1j * np.concatenate([np.zeros((len(angles), 1)), angles], axis=1))
