@@ -283,9 +283,7 @@ def watched_decomposition(measured: Measured) -> ExitStack:
     everywhere(stack, cutting.sharpen, sharpened)
     everywhere(stack, monodromy._two_nearest, nearest)
     stack.enter_context(
-        patch.object(
-            trace.Trace, "_decide_in_digits", around(trace.Trace._decide_in_digits, straight)
-        )
+        patch.object(trace.Trace, "_decided", around(trace.Trace._decided, straight))
     )
     everywhere(stack, splitting.split_points, loops)
     everywhere(stack, splitting._run_loop, turned)

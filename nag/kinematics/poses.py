@@ -35,8 +35,7 @@ def _parts(a: np.ndarray) -> tuple[np.ndarray, ...]:
 
 
 # Decides: Distance in radians and sizes at which two configurations are one: vertices are known to
-# half the digits, others that are special lay beyond 1e-3. Imaginary parts, beside a point, of what
-# rounding may have parted from a double real zero.
+# half the digits, others that are special lay beyond 1e-3.
 SAME = 1e-6
 
 

@@ -23,8 +23,7 @@ from nag.algebra.number import Number, is_zero, square_root
 from nag.mechanism.assembly import Side
 from nag.text.table import join_words
 
-# Relative rounding of sums of lengths in doubles, with much room: within it they are compared
-# exactly.
+# Decides: Relative difference of two lengths in doubles above which they need no exact comparison.
 CLEARLY = 1e-10
 
 

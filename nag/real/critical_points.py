@@ -26,7 +26,6 @@ from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.numerics.coincidence import clusters, conjugates_present, radii_of_balls
 from nag.numerics.doubles import ROUNDED
-from nag.real.closure import coordinates_of_groups
 from nag.real.fibre_table import FibreError
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
@@ -94,10 +93,9 @@ class _Layout:
         """Coordinates of v."""
         return range(len(self.groups) + self.n, self.size)
 
-    @property
-    def coordinates(self) -> tuple[tuple[int, ...], ...]:
-        """Homogeneous coordinates of each group of x."""
-        return coordinates_of_groups(self.groups)
+    def coordinates(self, g: int) -> tuple[int, ...]:
+        """Homogeneous coordinates of a group of x."""
+        return (g, *(len(self.groups) + i for i in self.groups[g]))
 
     def homogenize(self, f: Polynomial, degrees: Sequence[int], v: int | None = None) -> Terms:
         """A polynomial in x of these degrees, times a coordinate of v if one is given."""
@@ -113,7 +111,7 @@ class _Layout:
 
     def compile(self, rows: Sequence[Sequence[tuple[int, Terms]]]) -> CompiledRows:
         """The curve's equations and rows linear in v, as parts of a homotopy."""
-        groups = (*self.coordinates, tuple(self.vector))
+        groups = (*map(self.coordinates, range(len(self.groups))), tuple(self.vector))
         degrees = [(*tops, 0) for tops in self.tops] + [(*own, 1) for own in self.degrees]
         infinity = tuple(range(len(self.groups)))
         parts = tuple(tuple(row) for row in rows)
@@ -169,7 +167,7 @@ def find_critical_points(
         [(0, layout.homogenize(f, tops))] for f, tops in zip(equations, layout.tops, strict=True)
     ]
     for i, (f, own) in enumerate(zip(equations, layout.degrees, strict=True)):
-        forms = [(layout.coordinates[g], c) for (j, g, _), c in factors.items() if j == i]
+        forms = [(layout.coordinates(g), c) for (j, g, _), c in factors.items() if j == i]
         goal: Terms = {}
         for v in range(n):
             goal |= layout.homogenize(f.derivative(v), own, v)
@@ -249,9 +247,11 @@ def _critical_points(layout: _Layout, paths: Paths) -> CriticalPoints:
     if len(paths.where(PathStatus.FAILED)):
         raise FibreError("a path to a critical point failed")
     ended = paths.where(PathStatus.REGULAR, PathStatus.SINGULAR)
-    x = np.empty((len(ended), layout.n), dtype=complex)
-    for group, (dividing, *places) in zip(layout.groups, layout.coordinates, strict=True):
-        x[:, list(group)] = paths.points[ended][:, places] / paths.points[ended][:, [dividing]]
+    count = len(layout.groups)
+    group_of = np.zeros(layout.n, dtype=int)
+    for g, group in enumerate(layout.groups):
+        group_of[list(group)] = g
+    x = paths.points[ended, count : count + layout.n] / paths.points[ended][:, group_of]
     errors = np.maximum(paths.accuracy[ended], ROUNDED)
     if not np.isfinite(x).all() or not np.isfinite(errors).all():
         raise FibreError("a path to a critical point failed")
