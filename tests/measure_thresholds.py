@@ -283,7 +283,9 @@ def watched_decomposition(measured: Measured) -> ExitStack:
     everywhere(stack, cutting.sharpen, sharpened)
     everywhere(stack, monodromy._two_nearest, nearest)
     stack.enter_context(
-        patch.object(trace.Trace, "_decided", around(trace.Trace._decided, straight))
+        patch.object(
+            trace.Trace, "_decide_in_digits", around(trace.Trace._decide_in_digits, straight)
+        )
     )
     everywhere(stack, splitting.split_points, loops)
     everywhere(stack, splitting._run_loop, turned)

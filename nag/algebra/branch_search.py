@@ -204,7 +204,7 @@ class Search:
             pivot = self.choose_pivot(equations)
             if pivot is None:
                 return state
-            reduced = self._substituted(state, *pivot)
+            reduced = self._substitute_image(state, *pivot)
             if reduced is None:
                 return None
             state = reduced
@@ -255,7 +255,7 @@ class Search:
         best = min(found, default=None)
         return None if best is None else (alone[best[3]], best[2])
 
-    def _substituted(self, state: State, p: Irreducible, index: int) -> State | None:
+    def _substitute_image(self, state: State, p: Irreducible, index: int) -> State | None:
         image = self.ring.solve_for(p.f, index)
         images = [*self.generators[:index], image, *self.generators[index + 1 :]]
 
@@ -320,11 +320,11 @@ class Search:
             return kept
         for leaf in reversed(leaves):
             images, zero = self._images(leaf), [product_of(e) for e in leaf.equations]
-            if any(o is not leaf and self._contained(leaf, images, zero, o) for o in kept):
+            if any(o is not leaf and self._is_contained(leaf, images, zero, o) for o in kept):
                 kept.remove(leaf)
         return kept
 
-    def _contained(
+    def _is_contained(
         self, leaf: State, images: Sequence[Any], zero: Sequence[Any], other: State
     ) -> bool:
         for f in [p.f for _, p in other.solved] + [product_of(e) for e in other.equations]:

@@ -219,14 +219,14 @@ class _Parser:
         return parts[0][1] if len(parts) == 1 else self._apply(first, self.arithmetic.add, parts)
 
     def _product(self) -> Value:
-        value = self._signed()
+        value = self._read_signed()
         while self.token.text in ("*", "/"):
             operator = self._next()
             times = self.arithmetic.multiply if operator.text == "*" else self.arithmetic.divide
-            value = self._apply(operator, times, value, self._signed())
+            value = self._apply(operator, times, value, self._read_signed())
         return value
 
-    def _signed(self) -> Value:
+    def _read_signed(self) -> Value:
         sign = 1
         while self.token.text in ("+", "-"):
             sign = sign if self._next().text == "+" else -sign
@@ -239,7 +239,7 @@ class _Parser:
             return base
         operator = self._next()
         self._descend(operator)
-        exponent = self._signed()
+        exponent = self._read_signed()
         self.depth -= 1
         return self._apply(operator, self.arithmetic.power, base, exponent)
 
@@ -248,9 +248,9 @@ class _Parser:
         if token.kind == "number":
             return self._literal(token)
         if token.kind == "name":
-            return self._call(token) if token.text in _FUNCTIONS else self._named(token)
+            return self._call(token) if token.text in _FUNCTIONS else self._read_name(token)
         if token.text == "(":
-            return self._closed(token)
+            return self._read_parentheses(token)
         if token.kind == "end" and self.at == 1:
             raise ExpressionError("the expression is empty; write a number or a polynomial")
         before = self.tokens[self.at - 2]
@@ -265,7 +265,7 @@ class _Parser:
         if self.depth > MAX_NESTING:
             self._fail(token, f"nested more than {MAX_NESTING} deep; name the parts as parameters")
 
-    def _closed(self, opening: Token) -> Value:
+    def _read_parentheses(self, opening: Token) -> Value:
         self._descend(opening)
         value = self._sum()
         self.depth -= 1
@@ -279,7 +279,7 @@ class _Parser:
     def _call(self, name: Token) -> Value:
         if self.token.text != "(":
             self._fail(name, f"{name.text} needs parentheses; write {name.text}(...)")
-        value = self._closed(self._next())
+        value = self._read_parentheses(self._next())
         if isinstance(value, Polynomial):
             value = self._real_constant(name, value)
         unit = self.arithmetic.unit
@@ -308,7 +308,7 @@ class _Parser:
             self._fail(name, f"{name.text} of a complex number is not worked out; {mend}")
         return parts[0]
 
-    def _named(self, token: Token) -> Value:
+    def _read_name(self, token: Token) -> Value:
         name = token.text
         if name in self.variables:
             return Polynomial.variable(len(self.variables), self.variables[name])

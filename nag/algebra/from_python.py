@@ -190,7 +190,7 @@ def system(
     ]
     _check_symbols(
         *occurring,
-        *((name, "variables") for name in _each(variables)),
+        *((name, "variables") for name in _as_list(variables)),
         *((name, "parameters") for name in parameters or ()),
     )
     check_type(imaginary, str | None, "imaginary", "a letter")
@@ -215,7 +215,7 @@ def system(
     return adjoin_unit(read.names, *parts) if is_complex else PolynomialSystem(names, *parts)
 
 
-def _each(given: Any) -> list[Any]:
+def _as_list(given: Any) -> list[Any]:
     """What is given one by one or alone."""
     return [*given] if isinstance(given, list | tuple) else [given]
 

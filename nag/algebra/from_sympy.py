@@ -101,7 +101,7 @@ class _Walk:
         if depth > MAX_NESTING:
             raise ExpressionError(f"nested more than {MAX_NESTING} deep; expand the expression")
         if isinstance(e, sympy.Symbol):
-            return self._named(str(e))
+            return self._find_symbol(str(e))
         if isinstance(e, sympy.Rational):
             return check_size(Fraction(int(e.p), int(e.q)))
         if isinstance(e, sympy.Float):
@@ -145,7 +145,7 @@ class _Walk:
             base, exponent = check_size(square_root(base)), 2 * exponent
         return self.arithmetic.power(base, exponent)
 
-    def _named(self, name: str) -> Value:
+    def _find_symbol(self, name: str) -> Value:
         if name in self.known:
             return self.known[name]
         listed = ", ".join(list(self.known)[:12]) or "none"

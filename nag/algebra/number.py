@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from nag.algebra.root_basis import cosine_of_turns
-from nag.algebra.surd import Surd, normal_sum, root_of_fraction, root_of_surd
+from nag.algebra.surd import Surd, natural_power, normal_sum, root_of_fraction, root_of_surd
 from nag.errors import NagError
 
 # Two expressions are taken to be equal when they agree to this many digits; an identity between
@@ -93,7 +93,7 @@ class Irrational:
         if isinstance(other, int | Fraction):
             return self if other == 0 else Irrational("+", (self, Fraction(other)))
         (p, core), (q, other_core) = _split(self), _split(other)
-        if core is not None and other_core is not None and _same(core, other_core):
+        if core is not None and other_core is not None and _are_alike(core, other_core):
             return _times(p + q, core)
         total = Irrational("+", (self, other))
         return Fraction(0) if is_zero(total) else total
@@ -143,14 +143,7 @@ class Irrational:
     def __pow__(self, exponent: int) -> Number:
         if exponent < 0:
             return _inverse(self) ** -exponent
-        result: Number = Fraction(1)
-        base: Number = self
-        while exponent:
-            if exponent & 1:
-                result = base * result
-            exponent >>= 1
-            if exponent:
-                base = base * base
+        result: Number = natural_power(self, exponent)
         return result
 
     def __float__(self) -> float:
@@ -258,7 +251,7 @@ def _times(factor: Exact, core: Irrational | None) -> Number:
     return Irrational("*", (factor, core))
 
 
-def _same(left: Number, right: Number) -> bool:
+def _are_alike(left: Number, right: Number) -> bool:
     """Whether two expressions are written the same way."""
     if left is right:
         return True
@@ -266,7 +259,9 @@ def _same(left: Number, right: Number) -> bool:
         return not isinstance(right, Irrational) and left == right
     if not isinstance(right, Irrational):
         return False
-    return left.operation == right.operation and all(map(_same, left.arguments, right.arguments))
+    return left.operation == right.operation and all(
+        map(_are_alike, left.arguments, right.arguments)
+    )
 
 
 def _inverse(value: Number) -> Number:

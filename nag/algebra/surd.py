@@ -57,6 +57,18 @@ _MOST_BITS = 10_000
 Exact = Fraction | int
 
 
+def natural_power(base: Any, exponent: int) -> Any:
+    """A number's power, by its squares; the exponent is not negative."""
+    result = Fraction(1)
+    while exponent:
+        if exponent & 1:
+            result = base * result
+        exponent >>= 1
+        if exponent:
+            base = base * base
+    return result
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Surd:
     """A real number that is a sum of rational multiples of roots, and not rational.
@@ -138,14 +150,7 @@ class Surd:
     def __pow__(self, exponent: int) -> Surd | Fraction:
         if exponent < 0:
             return self.inverse() ** -exponent
-        result: Surd | Fraction = Fraction(1)
-        base: Surd | Fraction = self
-        while exponent:
-            if exponent & 1:
-                result = base * result
-            exponent >>= 1
-            if exponent:
-                base = base * base
+        result: Surd | Fraction = natural_power(self, exponent)
         return result
 
     def inverse(self) -> Surd:

@@ -186,20 +186,12 @@ def _run_once(
     options: argparse.Namespace, case: Case, problem: Problem, held: dict[str, Any]
 ) -> CommandAnswer:
     """The motions as they are, or with joints or bodies held."""
-    from nag.files import answer_export
     from nag.kinematics.joint_values import joint_coordinates
     from nag.kinematics.motion import motion
     from nag.kinematics.shown import assembly_rows, drive_text, motion_rows
 
     def document_of(early: Motion) -> dict[str, Any]:
-        return answer_document(options, name_case(case), fields_of(early), False)
-
-    def fields_of(found: Motion) -> dict[str, Any]:
-        return {
-            **answer_export.fields_of(found),
-            "formulation": problem.formulation,
-            "samples": options.samples,
-        }
+        return answer_document(options, name_case(case), _fields(options, problem, early), False)
 
     asked = options.circuit or ("reference" if not held["drive"] else "all")
     found = motion(problem, circuit=asked, **held, run=chosen_run(options, document_of))
@@ -225,7 +217,8 @@ def _run_once(
         blocks.append(assembly_rows(found) if found.assemblies else [])
     elif found.assemblies and joint_coordinates(found.scene):
         blocks += [_hand_rows(found), assembly_rows(found)]
-    answer = answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
+    fields = _fields(options, problem, found)
+    answer = answer_of(options, name_case(case), blocks, tail, fields, found.complete)
     return _with_page(answer, options, bool(found.circuits))
 
 
@@ -237,7 +230,6 @@ def _run_through(
     held: dict[str, Any],
 ) -> CommandAnswer:
     """What is left of a motion with a joint at one value after another."""
-    from nag.files import answer_export
     from nag.kinematics.driven_motion import driven_motion
     from nag.kinematics.shown import (
         continuation_rows,
@@ -252,14 +244,7 @@ def _run_through(
         raise UsageError("--circuit: leave it out where a joint is driven through values")
 
     def document_of(early: DrivenMotion) -> dict[str, Any]:
-        return answer_document(options, name_case(case), fields_of(early), False)
-
-    def fields_of(found: DrivenMotion) -> dict[str, Any]:
-        return {
-            **answer_export.fields_of(found),
-            "formulation": problem.formulation,
-            "samples": options.samples,
-        }
+        return answer_document(options, name_case(case), _fields(options, problem, early), False)
 
     found = driven_motion(problem, *drive, **held, run=chosen_run(options, document_of))
     tail = case.note_rows
@@ -286,8 +271,19 @@ def _run_through(
         rows += [("assemblies", f"{more}; --csv and --json have all")] if more else []
         rows += next((_hand_rows(each) for each in found if each.assemblies), [])
     blocks: list[Any] = [head, driven_rows(found), rows, assemblies]
-    answer = answer_of(options, name_case(case), blocks, tail, fields_of(found), found.complete)
+    fields = _fields(options, problem, found)
+    answer = answer_of(options, name_case(case), blocks, tail, fields, found.complete)
     return _with_page(answer, options, moving)
+
+
+def _fields(
+    options: argparse.Namespace, problem: Problem, found: Motion | DrivenMotion
+) -> dict[str, Any]:
+    """What the document says of motions below its head."""
+    from nag.files.answer_export import fields_of
+
+    how = {"formulation": problem.formulation, "samples": options.samples}
+    return fields_of(found) | how
 
 
 def _hand_rows(found: Motion) -> list[tuple[str, str]]:

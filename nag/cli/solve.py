@@ -83,11 +83,10 @@ def _columns(result: SolveResult, as_table: bool) -> dict[str, Any]:
     """What is known of the solutions by name, points as one array, or each part of a coordinate."""
     import numpy as np
 
-    from nag.solving.solutions import NUMBERS
     from nag.text.table import split_parts
 
     table, names = result.table, result.system.variables
-    numbers = {name: getattr(table, name) for name in NUMBERS}
+    numbers = {name: getattr(table, name) for name in table.numbers}
     if not as_table:
         return {"points": table.points, **numbers, "variables": np.array(names, dtype=str)}
     # As in frames, without the imaginary unit.

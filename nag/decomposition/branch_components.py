@@ -94,7 +94,7 @@ class BranchComponent(GenericPoint):
         return widen_error(self.point, self.witness.accuracy)
 
     def vanishes_in_digits(self, f: Polynomial, image: Polynomial) -> bool | None:
-        multiple = self._isolated and self.witness.multiplicity != 1
+        multiple = self._is_isolated and self.witness.multiplicity != 1
         fibre = None if multiple and self.zeros else self._fibre
         if fibre is None:
             # Doubles do not see that the points are regular, or are of a zero known to 100 digits.
@@ -109,14 +109,14 @@ class BranchComponent(GenericPoint):
         return self.point, LEAST
 
     @property
-    def _isolated(self) -> bool:
+    def _is_isolated(self) -> bool:
         """Whether it is a point that paths ended at."""
         return not self.witness.fibres and not self.witness.dimension
 
     @property
     def _each_known(self) -> bool:
         """Whether it is a point of which the error of each coordinate is known."""
-        return self._isolated and bool(np.ptp(self.witness.radii[0]) > 0)
+        return self._is_isolated and bool(np.ptp(self.witness.radii[0]) > 0)
 
     def place_among(self, equations: Sequence[Polynomial]) -> Place:
         """Where it lies among zeros of others, if it is an isolated point and one of these."""

@@ -184,7 +184,7 @@ class Examined:
         by_cuts = points.fibres(np.concatenate([each.indices for each in classes]))
         own = np.concatenate([indices for _, indices in by_cuts])
         inner = sharpen_points([fibre for fibre, _ in by_cuts], points.exact.only(own))
-        there = [_lifted(fibre, cut.rows, reduction) for fibre in inner.fibres]
+        there = [_lift_fibre(fibre, cut.rows, reduction) for fibre in inner.fibres]
         if not frame.is_plain:
             there = with_fine(there, close)
         if not frame.exact:
@@ -212,7 +212,7 @@ def _on_slice(fibre: Fibre) -> Fibre:
     return replace(fibre, fine=fine)
 
 
-def _lifted(fibre: Fibre, rows: np.ndarray, reduction: Reduction) -> Fibre:
+def _lift_fibre(fibre: Fibre, rows: np.ndarray, reduction: Reduction) -> Fibre:
     """A fibre in the original coordinates, where its slice is ``rows``."""
     points = np.hstack([reduction.frame.points(fibre.x), fibre.points[:, fibre.cut.n :]])
     fine = {i: reduction.lifted_fine(each) for i, each in fibre.fine.items()}

@@ -216,14 +216,14 @@ class _RankDrops:
         start = _times_space(self.component, total - reduced.n, rng)
         found = intersect_equations(product, start, conditions, run=self.run)
         self.paths += found.paths
-        if found.notes and self._solved(conditions):
+        if found.notes and self._keep_isolated_points(conditions):
             return
         self.notes += [*found.notes, *(one.note for one in found.components if one.note)]
         for one in found.components:
             if not one.note:
                 self._judge(found, one)
 
-    def _solved(self, conditions: PolynomialSystem) -> bool:
+    def _keep_isolated_points(self, conditions: PolynomialSystem) -> bool:
         """Keep the component's points where the rank drops, if all such points are isolated ones.
 
         Of a point where many come together, as of a cusp of high order, no regular equations are

@@ -160,7 +160,7 @@ class Trace:
             poor = trace._least_known(indices, digits)
             if poor:
                 trace = trace._found(points, poor, digits)
-            answer = trace._decided(indices)
+            answer = trace._decide_in_digits(indices)
             if answer is not None:
                 return answer, trace
         return None, trace
@@ -204,7 +204,7 @@ class Trace:
         total = sum(d.total << (bits - d.bits) for d in known)
         return _float(max(map(abs, total), default=0), bits)
 
-    def _decided(self, indices: Sequence[int]) -> bool | None:
+    def _decide_in_digits(self, indices: Sequence[int]) -> bool | None:
         known, size = [self.known[i] for i in indices], self._bend(indices)
         bits = max(d.bits for d in known)
         error = sum(d.radius for d in known) + 2.0**-bits * len(known)

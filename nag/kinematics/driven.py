@@ -41,9 +41,6 @@ from nag.numerics.read_only import FixedArrays, RealArray, equal_values
 from nag.text.table import join_words
 from nag.witness.witness import WitnessSet
 
-# Decides: Imaginary parts beside the point of what rounding of 16 digits may have parted from a
-# double real zero: their root, with room.
-BESIDE = 1e-6
 # Places of bodies, and slides, at most: nothing is that far away.
 LARGEST = 1e12
 # Steps that narrow an interval in which a joint has a value, to nothing.
@@ -419,7 +416,7 @@ def find_doubts_of_held(
             f"{noun} {join_words(near)}: all but singular: what is held in rounded numbers may "
             "stand for a place at which it moves, or where two meet"
         )
-    aside = [x for x in points if 0 < np.abs(x.imag).max() < BESIDE * (1 + np.abs(x).max())]
+    aside = [x for x in points if 0 < np.abs(x.imag).max() < SAME * (1 + np.abs(x).max())]
     if any(_is_nearly_singular(problem, x) for x in aside if not _is_among(x.real, known)):
         notes.append(
             "two assemblies that are all but real and singular: what is held in rounded numbers "
@@ -429,7 +426,7 @@ def find_doubts_of_held(
 
 
 def _is_among(x: np.ndarray, known: Sequence[np.ndarray]) -> bool:
-    return any(np.abs(x - y).max() <= BESIDE * (1 + np.abs(y).max()) for y in known)
+    return any(np.abs(x - y).max() <= SAME * (1 + np.abs(y).max()) for y in known)
 
 
 def _is_nearly_singular(problem: Problem, x: np.ndarray) -> bool:

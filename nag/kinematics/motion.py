@@ -35,6 +35,7 @@ from nag.kinematics.path import (
     MeasuredWalk,
     Path,
     are_singular,
+    find_least,
     interpolate_ahead,
     sample_path,
 )
@@ -1141,14 +1142,11 @@ def _reaches(curve: Curve, chart: np.ndarray) -> np.ndarray:
 
 def _least_reach(along: MeasuredWalk, nearest: int) -> float:
     """How near all bodies come, beside the point of a walk where they are nearest."""
-    place, width, last = float(nearest), 1.0, len(along.arc) - 1.0
-    least = np.inf
-    for _ in range(NARROWINGS):
-        places = np.clip(place + np.linspace(-width, width, PLACES), 0.0, last)
-        far = _reaches(along.curve, along.points_at(places))
-        place, least = float(places[far.argmin()]), float(far.min())
-        width = 2 * width / (PLACES - 1)
-    return least
+
+    def reaches_at(places: np.ndarray) -> np.ndarray:
+        return _reaches(along.curve, along.points_at(places))
+
+    return find_least(reaches_at, float(nearest), 1.0, (0.0, len(along.arc) - 1.0))[1]
 
 
 def _leave_reach(along: MeasuredWalk, inside: float, outside: float, limit: float) -> float:

@@ -17,6 +17,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.kinematics.poses import Poses, pose_steps
 from nag.kinematics.scene import Scene
 from nag.kinematics.walks import CurveWalk
+from nag.numerics.double_ranks import SINGULAR
 from nag.real.curve import RealCurve
 from nag.real.spherical_chart import SphericalChart
 
@@ -35,9 +36,6 @@ COSINE, LEAST_CHORD = 0.98, 1e-6
 # Second least singular values of the equations, beside their median along a circuit, that may
 # become as small between samples as where other motions meet it.
 PROMISING = 0.3
-# Decides: Second least singular value of the equations, over its median along a circuit, at which
-# other motions meet it: it is brought to 1e-11 there; where they miss it by d it is the root of d.
-SINGULAR = 1e-9
 # How the way between samples is searched for it: places at a time, and how often that is narrowed.
 PLACES, NARROWINGS = 21, 9
 # Points of a motion on each side of a place where rank is lost, in units of how far it is
@@ -333,11 +331,28 @@ def _find_rank_loss(
     curve: Curve, points_at: Callable[[np.ndarray], np.ndarray], place: float, width: float
 ) -> tuple[float, float]:
     """The place within a width where the equations are nearest to losing rank, and how near."""
+    return find_least(lambda places: _second_least(curve, points_at(places)), place, width)
+
+
+def find_least(
+    values_at: Callable[[np.ndarray], np.ndarray],
+    place: float,
+    width: float,
+    last: tuple[float, float] = (-np.inf, np.inf),
+) -> tuple[float, float]:
+    """The place within a width of another where a function is least, and its value there.
+
+    It is looked for about the least of values in steps, and then in smaller ones.
+
+    Args:
+        values_at: at places of shape ``(k,)``, of that shape.
+        last: the last places in both directions.
+    """
     least = np.inf
     for _ in range(NARROWINGS):
-        places = place + np.linspace(-width, width, PLACES)
-        sizes = _second_least(curve, points_at(places))
-        place, least = float(places[sizes.argmin()]), float(sizes.min())
+        places = np.clip(place + np.linspace(-width, width, PLACES), *last)
+        values = values_at(places)
+        place, least = float(places[values.argmin()]), float(values.min())
         width = 2 * width / (PLACES - 1)
     return place, least
 

@@ -35,7 +35,8 @@ def _parts(a: np.ndarray) -> tuple[np.ndarray, ...]:
 
 
 # Decides: Distance in radians and sizes at which two configurations are one: vertices are known to
-# half the digits, others that are special lay beyond 1e-3.
+# half the digits, others that are special lay beyond 1e-3. Imaginary parts, beside a point, of what
+# rounding may have parted from a double real zero.
 SAME = 1e-6
 
 

@@ -37,7 +37,8 @@ from nag.mechanism.quaternion import R, multiply, norm_squared
 Quaternion = tuple[Number, Number, Number, Number]
 IDENTITY: Quaternion = (Fraction(1), Fraction(0), Fraction(0), Fraction(0))
 
-# Decides: Radians, or parts of the largest entry, by which doubles miss what they stand for.
+# Decides: Radians, or parts of the largest entry, by which doubles miss what they stand for; cosine
+# of the angle between a line's direction and its moment that rounding leaves.
 NEAR = 1e-9
 # Radians that the rational rotation next to an angle may be off: rounding of a double at pi.
 ROUNDED = 4e-16
@@ -276,7 +277,7 @@ def given_quaternion(given: Sequence[Fraction]) -> GivenTurn:
     Raises:
         NagError: if it is zero.
     """
-    entries, within = _cleaned(given)
+    entries, within = _clean_entries(given)
     if not any(entries):
         raise NagError("is zero; a quaternion has a direction")
     axes = [i for i in (1, 2, 3) if entries[i]]
@@ -300,7 +301,7 @@ def given_axis(given: Sequence[Fraction]) -> Vector:
     Raises:
         NagError: if it is zero.
     """
-    entries, within = _cleaned(given)
+    entries, within = _clean_entries(given)
     there = [i for i in range(3) if entries[i]]
     if not there:
         raise NagError("has length zero; it needs a direction")
@@ -319,7 +320,7 @@ def given_axis(given: Sequence[Fraction]) -> Vector:
     return tuple(found)
 
 
-def _cleaned(given: Sequence[Fraction]) -> tuple[tuple[Fraction, ...], Fraction]:
+def _clean_entries(given: Sequence[Fraction]) -> tuple[tuple[Fraction, ...], Fraction]:
     """Entries without what rounding left, and how uncertain they are."""
     largest = max(map(abs, given))
     if not largest:

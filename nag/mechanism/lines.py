@@ -19,14 +19,13 @@ from nag.algebra.from_python import exact_vector
 from nag.algebra.number import Number, is_zero, rounded_fraction
 from nag.errors import MechanismError
 from nag.mechanism.axes import Vector, cross, difference, dot, vanishes
+from nag.mechanism.given_rotation import NEAR
 from nag.mechanism.graph import ORIGIN, Joint, Mechanism
 
 # Steps by which points are moved along axes, beside the longest link, at least; digits that
 # irrational numbers of steps are taken to.
 STEP, DIGITS_OF_STEPS = 4, 40
 UNITS = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
-# Decides: How far direction and moment may be from orthogonal, in numbers that are rounded.
-ROUNDED = 1e-9
 # Decides: Singular values, beside the largest, of directions in which no axis bounds the middle.
 PARALLEL = 1e-6
 # Steps to the middle; after the first one differences are those of near points.
@@ -62,7 +61,7 @@ def _axis(line: Any, index: int) -> tuple[Sequence[Any], Sequence[Any]]:
     product, squared = dot(direction, moment), dot(direction, direction)
     if not is_zero(product):
         size = float(squared) ** 0.5 * float(dot(moment, moment)) ** 0.5
-        if abs(float(product)) > ROUNDED * size:
+        if abs(float(product)) > NEAR * size:
             raise MechanismError(
                 f"lines[{index}]: direction and moment are not orthogonal; the moment is point x "
                 "direction"

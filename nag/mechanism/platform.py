@@ -357,11 +357,11 @@ def _beside_joints(
     """The displacement of what is between the kept joints of a leg, up to a factor."""
     motion = tuple(pose[:4]), tuple(pose[4:])
     if leg.before:
-        motion = dual_multiply(dual_conjugate(displacement(leg.before, values, _same)), motion)
+        motion = dual_multiply(dual_conjugate(displacement(leg.before, values, _as_given)), motion)
     if leg.behind:
-        motion = dual_multiply(motion, dual_conjugate(displacement(leg.behind, values, _same)))
+        motion = dual_multiply(motion, dual_conjugate(displacement(leg.behind, values, _as_given)))
     return [zero + c for part in motion for c in part]
 
 
-def _same(c: Number) -> Number:
+def _as_given(c: Number) -> Number:
     return c

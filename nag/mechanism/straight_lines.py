@@ -23,7 +23,8 @@ from nag.algebra.number import Number, is_zero, square_root
 from nag.mechanism.assembly import Side
 from nag.text.table import join_words
 
-# Decides: Relative difference of two lengths in doubles above which they need no exact comparison.
+# Relative rounding of sums of lengths in doubles, with much room: within it they are compared
+# exactly.
 CLEARLY = 1e-10
 
 

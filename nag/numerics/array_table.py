@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
-from typing import Any, Self, TypeVar, overload
+from typing import Any, ClassVar, Self, TypeVar, overload
 
 import numpy as np
 
@@ -146,7 +146,25 @@ class RecordTable(ArrayTable, Entries[Record]):
     """A table whose rows are read as records, each made when it is asked for.
 
     It equals any sequence of equal records.
+
+    Attributes:
+        numbers: names of the columns that hold a number for each row, and their types, in the order
+            of a record's fields.
     """
+
+    numbers: ClassVar[Mapping[str, type[np.generic]]] = {}
+
+    @classmethod
+    def collect_numbers(cls, records: Sequence[Record]) -> dict[str, np.ndarray]:
+        """The columns of numbers of some records, by name."""
+        return {
+            name: np.array([getattr(record, name) for record in records], dtype=dtype)
+            for name, dtype in cls.numbers.items()
+        }
+
+    def numbers_of_row(self, i: int) -> Iterator[Any]:
+        """The numbers of a row, as Python has them."""
+        return (getattr(self, name)[i].item() for name in self.numbers)
 
     def record(self, i: int) -> Record:
         """The row ``i``, from 0 on."""

@@ -32,7 +32,7 @@ BEYOND = 1e4
 SPREAD = 10.0
 # Decides: Distance of zeros that a point may stand for, in each coordinate where there are several,
 # whose error is not known; of ends of lost paths from what they may lead to, of solutions in two
-# branches that are compared in more digits.
+# branches that are compared in more digits; error of a nearest point where a set may be singular.
 NEAR = 1e-6
 
 

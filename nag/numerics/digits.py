@@ -27,6 +27,11 @@ def bits_of(digits: float) -> int:
     return round((digits + 1) / LOG10_2)
 
 
+def written_error(digits: int) -> float:
+    """Relative error of a number known by so many written digits, of which half `SPARE` are not."""
+    return 10.0 ** (SPARE / 2 - digits)
+
+
 # Digits in which singular points are judged, and what vanishes at zeros of a hundred digits.
 DIGITS = 150
 BITS = bits_of(DIGITS)
@@ -35,8 +40,6 @@ ROUNDING = 5.0
 # Decides: Digits that computing may take: in so many of a hundred two points may differ that are
 # one, and coefficients as small are zero.
 SPARE = 20
-
-
 # Doubles that a number known beyond doubles is the sum of, where paths start from it.
 WORDS = 4
 

@@ -190,11 +190,11 @@ class DiscPolynomials:
         for places in others:
             several = np.flatnonzero(places)
             monomials[several] *= powers[places[several]]
-        found = (self._both @ monomials).T
+        found = (self._values_and_slopes @ monomials).T
         return found[:, : self.rows], found[:, self.rows :].reshape(len(x), self.rows, self.n)
 
     @cached_property
-    def _both(self) -> Any:
+    def _values_and_slopes(self) -> Any:
         return vstack([self.values.matrix, self.slopes.matrix], format="csr")
 
     def _monomials(self, x: Discs) -> Discs:

@@ -22,7 +22,8 @@ from nag.numerics.linear_algebra_threads import limit_scipy
 # below 130, ranks above 1e13.
 GAP = 1e3
 # Decides: Singular values of a balanced Jacobian at a point of a component below which the gap is
-# looked for where a rank is read (`GAP`).
+# looked for where a rank is read (`GAP`). The second least one, over its median along a circuit, at
+# which other motions meet it: where they miss it by d it is the root of d.
 SINGULAR = 1e-9
 # Decides: The same at a point that is known roughly. Above it a zero of as many equations as
 # unknowns needs no confirmation, a joint moves, and a projection keeps a direction; between the

@@ -24,13 +24,13 @@ class RealSums(NamedTuple):
         total = self.high + other.high
         moved = total - self.high
         error = (self.high - (total - moved)) + (other.high - moved)
-        return _renormalized(total, error + (self.low + other.low))
+        return _renormalize(total, error + (self.low + other.low))
 
     def __mul__(self, other: RealSums) -> RealSums:  # type: ignore[override]
         product = self.high * other.high
         (a, b), (c, d) = _halves(self.high), _halves(other.high)
         error = ((a * c - product) + a * d + b * c) + b * d
-        return _renormalized(product, error + (self.high * other.low + self.low * other.high))
+        return _renormalize(product, error + (self.high * other.low + self.low * other.high))
 
     def __neg__(self) -> RealSums:
         return RealSums(-self.high, -self.low)
@@ -73,6 +73,6 @@ def _halves(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return high, values - high
 
 
-def _renormalized(high: np.ndarray, low: np.ndarray) -> RealSums:
+def _renormalize(high: np.ndarray, low: np.ndarray) -> RealSums:
     total = high + low
     return RealSums(total, low - (total - high))

@@ -129,7 +129,7 @@ class RoundsInDoubles:
             jacobian, values = self.evaluator.jacobian(x), self.evaluator.values(x[None])[0]
             return self._place_variables(0.0, np.linalg.solve(jacobian[:, self.columns], values))
         frame = self._frame(x)
-        here = self._chosen(frame, frame.slopes) - self._second(x, frame, frame.step)
+        here = self._select_entries(frame, frame.slopes) - self._second(x, frame, frame.step)
         return frame.step + frame.tangents[:, self.solved] @ np.linalg.solve(
             self._bending(x, frame), here
         )
@@ -155,7 +155,7 @@ class RoundsInDoubles:
         freed[:, self.rows] -= np.linalg.solve(block.T, jacobian[:, self.columns].T).T
         return _Frame(step, tangents, freed, jacobian @ tangents)
 
-    def _chosen(self, frame: _Frame, slopes: np.ndarray) -> np.ndarray:
+    def _select_entries(self, frame: _Frame, slopes: np.ndarray) -> np.ndarray:
         """The entries of the equations' slopes that the second round is about."""
         rows, places = self.entries
         return (frame.freed @ slopes)[rows, places]
@@ -164,7 +164,7 @@ class RoundsInDoubles:
         """The derivatives of these entries along a tangent."""
         h = APART / (float(np.abs(along).max()) or 1.0)
         ahead, behind = (self.evaluator.jacobian(x + s * along) for s in (h, -h))
-        return self._chosen(frame, (ahead - behind) / (2 * h) @ frame.tangents)
+        return self._select_entries(frame, (ahead - behind) / (2 * h) @ frame.tangents)
 
     def _bending(self, x: np.ndarray, frame: _Frame) -> np.ndarray:
         """The derivatives of these entries by the variables that they determine."""

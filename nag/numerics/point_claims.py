@@ -23,12 +23,12 @@ from nag.numerics.ball_ranks import regular_block
 from nag.numerics.certified_points import CertifiedPoints, Proof, independent_equations
 from nag.numerics.claims import Standing
 from nag.numerics.deflated_system import vanishing_digits
-from nag.numerics.digits import in_bits
+from nag.numerics.digits import DIGITS, in_bits, written_error
 from nag.numerics.discs import UP, DiscPolynomials, Discs, magnitude
 from nag.numerics.krawczyk import Share, fine_box, sharpen_boxes, work_here
 
-# Decides: Distance in 150 digits from zeros of coordinates that are said to be exact: evidence.
-SAME = 1e-140
+# Distance from zeros of coordinates that are said to be exact: evidence.
+SAME = written_error(DIGITS)
 
 
 def zero_standings(points: CertifiedPoints) -> list[Standing]:
@@ -122,15 +122,15 @@ def _error_standing(boxes: SharpBoxes, i: int, radii: Sequence[float]) -> Standi
         return Standing.UNSEEN
     if not points.boxes.proved[i]:
         return Standing.OPEN
-    found = _within(fine_box(points.boxes, i), points.points[i], radii)
+    found = _standing_within(fine_box(points.boxes, i), points.points[i], radii)
     # Where boxes of doubles are too large, few digits may do.
     for bits in BITS:
         if found is None:
-            found = _within(boxes.box(i, bits), points.points[i], radii)
+            found = _standing_within(boxes.box(i, bits), points.points[i], radii)
     return found or Standing.OPEN
 
 
-def _within(box: FineBox, point: np.ndarray, radii: Sequence[float]) -> Standing | None:
+def _standing_within(box: FineBox, point: np.ndarray, radii: Sequence[float]) -> Standing | None:
     """Whether the zero in a box is within radii of a point; None where the box does not say."""
     with in_bits(2 * BITS[-1]):
         off = [abs(z - complex(p)) for z, p in zip(box.centre, point, strict=True)]

@@ -17,8 +17,8 @@ from nag.numerics.power_series import SeriesRing
 # entries of the dual space's matrices there: all below -149; of a pivot of the Loewner matrix, of
 # 200 digits.
 ZERO = -100.0
-# Decides: The same of Newton's last step.
-ARRIVED = -125.0
+# The same of Newton's last step: half way from that to all digits.
+ARRIVED = (ZERO - DIGITS) / 2
 # Newton's steps, at most.
 NEWTON_STEPS = 24
 # A longer step (decimal logarithm) leads elsewhere.

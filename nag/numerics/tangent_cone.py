@@ -212,7 +212,7 @@ def tangent_cone(
         names = tuple(f"u{i}" for i in range(len(free)))
         cone = PolynomialSystem(names, forms_of_tangent_space)
         dimension = local_dimension(cone, [0] * len(free), seed=seed).dimension
-    outer = tuple({_within(n, free, e): c for e, c in form.items()} for form in inner)
+    outer = tuple({_place_exponents(n, free, e): c for e, c in form.items()} for form in inner)
     return TangentCone(free, order, outer, tuple(_recognise_forms(linear)), dimension)
 
 
@@ -220,7 +220,7 @@ def _unit(n: int, i: int) -> tuple[int, ...]:
     return tuple(int(j == i) for j in range(n))
 
 
-def _within(n: int, free: Sequence[int], exponents: Sequence[int]) -> tuple[int, ...]:
+def _place_exponents(n: int, free: Sequence[int], exponents: Sequence[int]) -> tuple[int, ...]:
     placed = dict(zip(free, exponents, strict=True))
     return tuple(placed.get(i, 0) for i in range(n))
 

@@ -17,9 +17,9 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import NEAR
-from nag.numerics.digits import BITS
+from nag.numerics.digits import BITS, SPARE, written_error
 from nag.numerics.doubles import EPS, SLACK
-from nag.numerics.precise_point import PrecisePoint
+from nag.numerics.precise_point import POINT_DIGITS, PrecisePoint
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 
 # Decides, measured: Values in doubles, beside their terms, at sharpened points that may be zero:
@@ -40,11 +40,11 @@ def widen_error(x: np.ndarray, accuracy: float) -> float:
 
 # Decides: Coordinates beside the largest that are none.
 NOTHING = 1e-60
-# Decides: Relative error of a zero that is known by its written digits, of a hundred.
-WRITTEN = 1e-90
-# Decides, measured: Decimal logarithm of values beside their terms, of distances and of pivots that
-# are zero at zeros of 100 digits: all values of zeros lay below 5e-87.
-ZERO = -80.0
+# Relative error of a zero that is known by its written digits.
+WRITTEN = written_error(POINT_DIGITS)
+# Decimal logarithm of values beside their terms, of distances and of pivots that are zero at zeros
+# of so many digits: all values of zeros lay below 5e-87.
+ZERO = float(SPARE - POINT_DIGITS)
 # That as a number.
 VANISHES = 10.0**ZERO
 # Bits in which the sizes of terms are added up.

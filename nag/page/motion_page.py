@@ -315,7 +315,7 @@ def _page_data(
             {
                 "name": name,
                 "colour": colours[i],
-                "middle": _rounded(scene.centres[i], shapes.link),
+                "middle": _round_point(scene.centres[i], shapes.link),
                 "shapes": [_shape_data(s, shapes.link) for s in shapes.bodies[i]],
             }
             for i, name in enumerate(scene.bodies)
@@ -401,7 +401,7 @@ def _colours(motion: Motion) -> list[int]:
     return found
 
 
-def _rounded(point: Sequence[float] | np.ndarray, link: float) -> list[float]:
+def _round_point(point: Sequence[float] | np.ndarray, link: float) -> list[float]:
     scale = 10.0 ** np.floor(np.log10(link))
     return [round(float(x) / scale, DECIMALS) * scale for x in point]
 
@@ -409,8 +409,8 @@ def _rounded(point: Sequence[float] | np.ndarray, link: float) -> list[float]:
 def _shape_data(shape: BodyShape, link: float) -> dict[str, Any]:
     return {
         "kind": shape.kind,
-        "at": [_rounded(p, link) for p in shape.at],
-        "sizes": _rounded(shape.sizes, link),
+        "at": [_round_point(p, link) for p in shape.at],
+        "sizes": _round_point(shape.sizes, link),
     }
 
 

@@ -46,7 +46,7 @@ def draw_real_curves(
         arcs: tuple[list[np.ndarray], list[np.ndarray]] = ([], [])
         for edge in curve.edges:
             arcs[_endless(curve, edge)].append(_on_plane(edge.chart[:, list(onto)], turns))
-        marked = [(mark, _of_points(points, onto, turns)) for mark, points in _marked(curve)]
+        marked = [(mark, _of_points(points, onto, turns)) for mark, points in _marks_of(curve)]
         drawn.append(CurvesInStyle(name, arcs[0], marked, arcs[1]))
     if len(axes) > len(PLANE):
         draw_space_curves(drawn, axes, title, path)
@@ -80,7 +80,7 @@ def _of_points(points: np.ndarray, onto: Sequence[int], turns: Sequence[Turn | N
     return _on_plane(chart, turns)
 
 
-def _marked(curve: RealCurve) -> Iterator[tuple[Mark, np.ndarray]]:
+def _marks_of(curve: RealCurve) -> Iterator[tuple[Mark, np.ndarray]]:
     for mark, kind in ((SINGULAR, VertexKind.SINGULAR), (ISOLATED, VertexKind.ISOLATED)):
         points = [v.point for v in curve.vertices if v.kind is kind]
         if points:

@@ -87,8 +87,7 @@ class ProjectiveClosure:
     @property
     def coordinates(self) -> tuple[tuple[int, ...], ...]:
         """The homogeneous coordinates of each group."""
-        count = len(self.groups)
-        return tuple((g, *(count + i for i in own)) for g, own in enumerate(self.groups))
+        return coordinates_of_groups(self.groups)
 
     @cached_property
     def _evaluator(self) -> Evaluator:
@@ -211,6 +210,11 @@ class ProjectiveClosure:
             patches[g] = np.where(self.group_of == g, point, 0)
         s = np.linalg.svd(np.vstack([own, patches]), compute_uv=False)
         return float(s[self.size - 2] / s[0])
+
+
+def coordinates_of_groups(groups: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], ...]:
+    """The homogeneous coordinates of each group: the one that divides it, and its variables'."""
+    return tuple((g, *(len(groups) + i for i in own)) for g, own in enumerate(groups))
 
 
 def homogeneous_norms(system: PolynomialSystem, group: Sequence[int]) -> tuple[Polynomial, ...]:

@@ -26,6 +26,7 @@ from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.numerics.coincidence import clusters, conjugates_present, radii_of_balls
 from nag.numerics.doubles import ROUNDED
+from nag.real.closure import coordinates_of_groups
 from nag.real.fibre_table import FibreError
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
@@ -93,9 +94,10 @@ class _Layout:
         """Coordinates of v."""
         return range(len(self.groups) + self.n, self.size)
 
-    def coordinates(self, g: int) -> tuple[int, ...]:
-        """Homogeneous coordinates of a group of x."""
-        return (g, *(len(self.groups) + i for i in self.groups[g]))
+    @property
+    def coordinates(self) -> tuple[tuple[int, ...], ...]:
+        """Homogeneous coordinates of each group of x."""
+        return coordinates_of_groups(self.groups)
 
     def homogenize(self, f: Polynomial, degrees: Sequence[int], v: int | None = None) -> Terms:
         """A polynomial in x of these degrees, times a coordinate of v if one is given."""
@@ -111,7 +113,7 @@ class _Layout:
 
     def compile(self, rows: Sequence[Sequence[tuple[int, Terms]]]) -> CompiledRows:
         """The curve's equations and rows linear in v, as parts of a homotopy."""
-        groups = (*map(self.coordinates, range(len(self.groups))), tuple(self.vector))
+        groups = (*self.coordinates, tuple(self.vector))
         degrees = [(*tops, 0) for tops in self.tops] + [(*own, 1) for own in self.degrees]
         infinity = tuple(range(len(self.groups)))
         parts = tuple(tuple(row) for row in rows)
@@ -167,7 +169,7 @@ def find_critical_points(
         [(0, layout.homogenize(f, tops))] for f, tops in zip(equations, layout.tops, strict=True)
     ]
     for i, (f, own) in enumerate(zip(equations, layout.degrees, strict=True)):
-        forms = [(layout.coordinates(g), c) for (j, g, _), c in factors.items() if j == i]
+        forms = [(layout.coordinates[g], c) for (j, g, _), c in factors.items() if j == i]
         goal: Terms = {}
         for v in range(n):
             goal |= layout.homogenize(f.derivative(v), own, v)
@@ -247,11 +249,9 @@ def _critical_points(layout: _Layout, paths: Paths) -> CriticalPoints:
     if len(paths.where(PathStatus.FAILED)):
         raise FibreError("a path to a critical point failed")
     ended = paths.where(PathStatus.REGULAR, PathStatus.SINGULAR)
-    count = len(layout.groups)
-    group_of = np.zeros(layout.n, dtype=int)
-    for g, group in enumerate(layout.groups):
-        group_of[list(group)] = g
-    x = paths.points[ended, count : count + layout.n] / paths.points[ended][:, group_of]
+    x = np.empty((len(ended), layout.n), dtype=complex)
+    for group, (dividing, *places) in zip(layout.groups, layout.coordinates, strict=True):
+        x[:, list(group)] = paths.points[ended][:, places] / paths.points[ended][:, [dividing]]
     errors = np.maximum(paths.accuracy[ended], ROUNDED)
     if not np.isfinite(x).all() or not np.isfinite(errors).all():
         raise FibreError("a path to a critical point failed")

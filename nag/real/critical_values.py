@@ -20,9 +20,9 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.digits import bits_of, in_bits, middle
 from nag.real.fibre_table import SPARE, VANISHING, CircleOfFibres, roots_of
 
-# Decides: Share of the digits to which leading coefficients of products over fibres do not vanish;
-# between this and `VANISHING` more digits are taken.
-SOMETHING = 0.4
+# Share of the digits to which leading coefficients of products over fibres do not vanish, as many
+# as those on to `VANISHING` leave; between the two more digits are taken.
+SOMETHING = 1 - VANISHING
 # Imaginary parts, beside one and the zero's size, of zeros that are not real.
 ASIDE = 1e-2
 # Decides: Size of a cluster of zeros beside the distance of the next.

@@ -33,7 +33,7 @@ def even_points(
         points: normalised, neighbours of like signs, shape ``(k, size)``.
     """
     length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
-    kept = _insert_points(closure, points[_thinned(points, KEPT * min(CHORD, length / FEWEST))])
+    kept = _insert_points(closure, points[_thin_points(points, KEPT * min(CHORD, length / FEWEST))])
     chords = np.diff(kept, axis=0)
     sizes = np.linalg.norm(chords, axis=1)
     tangents = _tangents(closure, kept, chords / sizes[:, None])
@@ -90,7 +90,7 @@ def _insert_points(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray
     return points
 
 
-def _thinned(points: np.ndarray, least: float) -> list[int]:
+def _thin_points(points: np.ndarray, least: float) -> list[int]:
     """Indices of points, both ends among them; of those nearer than ``least`` where it turns."""
     chords = np.diff(points, axis=0)
     chords /= np.linalg.norm(chords, axis=1)[:, None]

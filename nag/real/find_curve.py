@@ -320,7 +320,7 @@ class _Projected:
             value = float(_some_value(rng)) * radius
             specials = [ordinary_fibre(tracked, closure, value)]
         beyond = _over_infinity(tracked, closure, tracked.over_infinity, specials)
-        return tracked, [*specials, beyond], _crossed(closure, every)
+        return tracked, [*specials, beyond], _find_crossings(closure, every)
 
     def _in_digits(
         self,
@@ -408,7 +408,7 @@ def _special_fibres(
         zeros = real_zeros(circle, circle.determinants, determinant)
         fibres = [special_fibre(table, closure, zero.value) for zero in zeros]
         found.append([fibre for fibre in fibres if fibre.singular])
-        crossed = _crossed(closure, fibres)
+        crossed = _find_crossings(closure, fibres)
     if len(found) == 2:
         one, other = ([s.pencil[0] for s in each] for each in found)
         if len(one) != len(other) or not np.allclose(one, other, rtol=0, atol=SAME * circle.radius):
@@ -420,7 +420,7 @@ def _special_fibres(
     return [*specials, _over_infinity(table, closure, infinite, specials)], crossed
 
 
-def _crossed(closure: ProjectiveClosure, fibres: Sequence[SpecialFibre]) -> np.ndarray:
+def _find_crossings(closure: ProjectiveClosure, fibres: Sequence[SpecialFibre]) -> np.ndarray:
     """Smooth real points at which the equations are singular, shape ``(k, size)``."""
     points = [
         fibre.points[i].real

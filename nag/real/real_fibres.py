@@ -133,7 +133,7 @@ def infinite_fibre(table: FibreTable, closure: ProjectiveClosure, alike: int) ->
     points = homogeneous_points(closure, fibre)
     together = 10 ** (-FAR_TOGETHER * order)
     clusters = find_clusters(closure.distances(points, points), together, FAR_BETWEEN * together)
-    middles = [_aligned(closure, points[members]).mean(axis=0) for members in clusters]
+    middles = [_align_points(closure, points[members]).mean(axis=0) for members in clusters]
     return join_middles(closure, np.array([1.0, 0.0]), middles, list(map(len, clusters)))
 
 
@@ -184,7 +184,7 @@ def _turned_real(closure: ProjectiveClosure, point: np.ndarray) -> np.ndarray:
     return result
 
 
-def _aligned(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray:
+def _align_points(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray:
     """Points times factors that make them near to the first."""
     result = points.copy()
     for g in range(len(closure.groups)):

@@ -25,7 +25,7 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.intersection import intersect_components
 from nag.errors import ComponentError, StartError
-from nag.numerics.coincidence import coincident
+from nag.numerics.coincidence import NEAR, coincident
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.read_only import RealArray, Several, equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
@@ -56,8 +56,6 @@ from nag.witness.witness import Slice, WitnessSet
 MOST_PATHS = 3000
 # Random points round which Newton's method looks for real ones, of each size.
 PLACES, SIZES = 3, (0.3, 1.0, 3.0)
-# Decides: Error of a nearest point where the set may be singular.
-ROUGHLY = 1e-6
 
 
 class Reality(StrEnum):
@@ -421,7 +419,7 @@ def real_dimension_at(system: PolynomialSystem, component: WitnessSet, x: np.nda
     There the real part has the same dimension; elsewhere it is not known, -1. A nearest point at
     which the set is singular is a multiple solution, and known to fewer digits.
     """
-    there = local_dimension(system, x + 0j, accuracy=ROUGHLY)
+    there = local_dimension(system, x + 0j, accuracy=NEAR)
     smooth = there.tangent_dimension == component.corank
     return component.dimension if smooth else -1
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import flint
 import numpy as np
@@ -87,29 +87,23 @@ class IsolatedZeros(RecordTable[IsolatedZero]):
     precision: np.ndarray
     fine: Mapping[int, PrecisePoint]
 
+    numbers: ClassVar[Mapping[str, type[np.generic]]] = {
+        "multiplicity": np.int64,
+        "residual": np.float64,
+        "accuracy": np.float64,
+        "condition": np.float64,
+        "precision": np.int64,
+    }
+
     @classmethod
     def of(cls, zeros: Sequence[IsolatedZero], n: int) -> IsolatedZeros:
         """Zeros one by one, in ``n`` variables."""
-        return cls(
-            np.array([zero.point for zero in zeros], dtype=complex).reshape(-1, n),
-            np.array([zero.multiplicity for zero in zeros], dtype=np.int64),
-            np.array([zero.residual for zero in zeros], dtype=float),
-            np.array([zero.accuracy for zero in zeros], dtype=float),
-            np.array([zero.condition for zero in zeros], dtype=float),
-            np.array([zero.precision for zero in zeros], dtype=np.int64),
-            {i: zero.fine for i, zero in enumerate(zeros) if zero.fine is not None},
-        )
+        points = np.array([zero.point for zero in zeros], dtype=complex).reshape(-1, n)
+        fine = {i: zero.fine for i, zero in enumerate(zeros) if zero.fine is not None}
+        return cls(points=points, fine=fine, **cls.collect_numbers(zeros))
 
     def record(self, i: int) -> IsolatedZero:
-        return IsolatedZero(
-            self.points[i],
-            int(self.multiplicity[i]),
-            float(self.residual[i]),
-            float(self.accuracy[i]),
-            float(self.condition[i]),
-            int(self.precision[i]),
-            self.fine.get(i),
-        )
+        return IsolatedZero._make((self.points[i], *self.numbers_of_row(i), self.fine.get(i)))
 
     def join(self, zeros: Sequence[IsolatedZero]) -> IsolatedZeros:
         """These, and more after them."""

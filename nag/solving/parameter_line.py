@@ -62,7 +62,7 @@ def parameter_line(
         for e, c in fixed.items():
             parts[0][(*e, *[0] * extra)] = c
         for e, c in f.terms.items():
-            along = _along(complex(c), here, step, e[n : n + k])
+            along = _coefficients_along(complex(c), here, step, e[n : n + k])
             for power, q in enumerate(along[1:]):
                 key = (*e[:n], *[power] * extra)
                 parts[1][key] = parts[1].get(key, 0.0) + q
@@ -82,7 +82,7 @@ def parameter_line(
     return ParameterLine(Homotopy(compiled, A0, A1, ((1.0, 0.0), (0.0, 1.0))), n)
 
 
-def _along(
+def _coefficients_along(
     coefficient: complex, here: np.ndarray, step: np.ndarray, exponents: Sequence[int]
 ) -> np.ndarray:
     """Coefficients in t of ``coefficient * prod((here + t step) ** exponents)``."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, Self, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, overload
 
 import numpy as np
 
@@ -37,15 +37,6 @@ if TYPE_CHECKING:
 
 # Of exported results.
 FORMAT, VERSION = "nag-solutions", 1
-# Fields of `Solution` that are numbers.
-NUMBERS = {
-    "multiplicity": np.int64,
-    "real": np.bool_,
-    "residual": np.float64,
-    "accuracy": np.float64,
-    "condition": np.float64,
-    "precision": np.int64,
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,62 +125,13 @@ class Solution(FixedArrays):
         return solution_text(self)
 
 
-@dataclass(frozen=True, eq=False)
-class Solutions(RecordTable[Solution]):
-    """Isolated solutions: a sequence of `Solution`, kept as columns, shape ``(k,)``.
+class HasSolutions:
+    """What has a table of isolated solutions gives them as other libraries have them."""
 
-    Attributes:
-        points: complex, shape ``(k, n)``.
-        radii: those that are known, by index.
-        variables: names of the coordinates, as of a `Solution`.
-    """
-
-    points: ComplexArray
-    multiplicity: IntegerArray
-    real: BooleanArray
-    residual: RealArray
-    accuracy: RealArray
-    condition: RealArray
-    precision: IntegerArray
-    radii: Mapping[int, RealArray]
-    variables: tuple[str, ...] = ()
-
-    def __post_init__(self) -> None:
-        for name in ("points", *NUMBERS):
-            # Whoever makes the table hands its columns over: they may be large.
-            object.__setattr__(self, name, handed_over(getattr(self, name)))
-        fixed = {i: fixed_array(radii) for i, radii in self.radii.items()}
-        object.__setattr__(self, "radii", MappingProxyType(fixed))
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        columns = {name: getattr(self, name) for name in NUMBERS}
-        return _solutions, (self.points, columns, dict(self.radii), self.variables)
-
-    def _columns(self) -> Iterator[tuple[str, Any]]:
-        return (each for each in super()._columns() if each[0] != "variables")
-
-    def __add__(self, other: Self) -> Self:
-        """Some solutions, and others in the same variables below them."""
-        if isinstance(other, Solutions) and other.variables != self.variables:
-            one, two = (", ".join(each.variables) or "no names" for each in (self, other))
-            raise NagError(f"the solutions do not go together: they are in {one}, and in {two}")
-        return super().__add__(other)
-
-    @classmethod
-    def of(
-        cls, solutions: Sequence[Solution], n: int, variables: tuple[str, ...] = ()
-    ) -> Solutions:
-        """Solutions one by one, in ``n`` coordinates, those of the variables first."""
-        if isinstance(solutions, Solutions):
-            same = solutions.variables == variables
-            return solutions if same else replace(solutions, variables=variables)
-        numbers = {
-            name: np.array([getattr(s, name) for s in solutions], dtype=dtype)
-            for name, dtype in NUMBERS.items()
-        }
-        radii = {i: s.radii for i, s in enumerate(solutions) if s.radii is not None}
-        points = np.array([s.point for s in solutions], dtype=complex).reshape(len(solutions), n)
-        return cls(points=points, radii=radii, variables=variables, **numbers)
+    @property
+    def table(self) -> Solutions:
+        """The isolated solutions as arrays."""
+        raise NotImplementedError
 
     @overload
     def to_numpy(self, real: Literal[False] = False) -> ComplexArray: ...
@@ -209,8 +151,9 @@ class Solutions(RecordTable[Solution]):
         Args:
             real: only of the real ones, as floats.
         """
-        points = self.points[:, : len(self.variables) or None]
-        return points[self.real].real.copy() if real else points.copy()
+        table = self.table
+        points = table.points[:, : len(table.variables) or None]
+        return points[table.real].real.copy() if real else points.copy()
 
     def to_dataframe(self, real: bool = False, *, parts: bool = False) -> pandas.DataFrame:
         """A row for each solution: its coordinates, complex, and what is known of it.
@@ -224,10 +167,11 @@ class Solutions(RecordTable[Solution]):
             nag.NagError: if pandas is not installed, or it is not known what the variables are
                 called.
         """
-        if not self.variables and self.points.shape[1]:
+        table = self.table
+        if not table.variables and table.points.shape[1]:
             raise NagError("to_dataframe: the solutions know no names of variables")
-        table = self.select_rows(self.real) if real else self
-        own = dict(zip(self.variables, self.to_numpy(real=real).T, strict=True))
+        own = dict(zip(table.variables, table.to_numpy(real=real).T, strict=True))
+        table = table.select_rows(table.real) if real else table
         names = ("multiplicity", "real", "residual", "accuracy", "condition")
         columns = named_apart(own, {name: getattr(table, name) for name in names})
         return data_frame(columns, parts)
@@ -238,7 +182,76 @@ class Solutions(RecordTable[Solution]):
         Raises:
             nag.NagError: if sympy is not installed.
         """
-        return [each.to_sympy() for each in self]
+        return [each.to_sympy() for each in self.table]
+
+
+@dataclass(frozen=True, eq=False)
+class Solutions(HasSolutions, RecordTable[Solution]):
+    """Isolated solutions: a sequence of `Solution`, kept as columns, shape ``(k,)``.
+
+    Attributes:
+        points: complex, shape ``(k, n)``.
+        radii: those that are known, by index.
+        variables: names of the coordinates, as of a `Solution`.
+    """
+
+    points: ComplexArray
+    multiplicity: IntegerArray
+    real: BooleanArray
+    residual: RealArray
+    accuracy: RealArray
+    condition: RealArray
+    precision: IntegerArray
+    radii: Mapping[int, RealArray]
+    variables: tuple[str, ...] = ()
+
+    numbers: ClassVar[Mapping[str, type[np.generic]]] = {
+        "multiplicity": np.int64,
+        "real": np.bool_,
+        "residual": np.float64,
+        "accuracy": np.float64,
+        "condition": np.float64,
+        "precision": np.int64,
+    }
+
+    def __post_init__(self) -> None:
+        for name in ("points", *self.numbers):
+            # Whoever makes the table hands its columns over: they may be large.
+            object.__setattr__(self, name, handed_over(getattr(self, name)))
+        fixed = {i: fixed_array(radii) for i, radii in self.radii.items()}
+        object.__setattr__(self, "radii", MappingProxyType(fixed))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        columns = {name: getattr(self, name) for name in self.numbers}
+        return _solutions, (self.points, columns, dict(self.radii), self.variables)
+
+    @property
+    def table(self) -> Solutions:
+        """These."""
+        return self
+
+    def _columns(self) -> Iterator[tuple[str, Any]]:
+        return (each for each in super()._columns() if each[0] != "variables")
+
+    def __add__(self, other: Self) -> Self:
+        """Some solutions, and others in the same variables below them."""
+        if isinstance(other, Solutions) and other.variables != self.variables:
+            one, two = (", ".join(each.variables) or "no names" for each in (self, other))
+            raise NagError(f"the solutions do not go together: they are in {one}, and in {two}")
+        return super().__add__(other)
+
+    @classmethod
+    def of(
+        cls, solutions: Sequence[Solution], n: int, variables: tuple[str, ...] = ()
+    ) -> Solutions:
+        """Solutions one by one, in ``n`` coordinates, those of the variables first."""
+        if isinstance(solutions, Solutions):
+            same = solutions.variables == variables
+            return solutions if same else replace(solutions, variables=variables)
+        radii = {i: s.radii for i, s in enumerate(solutions) if s.radii is not None}
+        points = np.array([s.point for s in solutions], dtype=complex).reshape(len(solutions), n)
+        numbers = cls.collect_numbers(solutions)
+        return cls(points=points, radii=radii, variables=variables, **numbers)
 
     def __repr__(self) -> str:
         from nag.solving.shown import solutions_line
@@ -251,17 +264,8 @@ class Solutions(RecordTable[Solution]):
         return solutions_text(self)
 
     def record(self, i: int) -> Solution:
-        return Solution(
-            self.points[i],
-            int(self.multiplicity[i]),
-            bool(self.real[i]),
-            float(self.residual[i]),
-            float(self.accuracy[i]),
-            float(self.condition[i]),
-            int(self.precision[i]),
-            self.radii.get(i),
-            self.variables,
-        )
+        numbers = self.numbers_of_row(i)
+        return Solution(self.points[i], *numbers, self.radii.get(i), self.variables)
 
 
 def _solutions(
@@ -366,7 +370,7 @@ class PathStatistics:
 
 
 @dataclass(frozen=True, eq=False)
-class SolveResult(Several[Solution]):
+class SolveResult(HasSolutions, Several[Solution]):
     """All isolated solutions of a system that were found.
 
     Attributes:
@@ -527,47 +531,6 @@ class SolveResult(Several[Solution]):
 
     def __getitem__(self, index: int | Chosen) -> Solution | Solutions:
         return self.table[index]
-
-    @overload
-    def to_numpy(self, real: Literal[False] = False) -> ComplexArray: ...
-
-    @overload
-    def to_numpy(self, real: Literal[True]) -> RealArray: ...
-
-    @overload
-    def to_numpy(self, real: bool) -> ComplexArray | RealArray: ...
-
-    def to_numpy(self, real: bool = False) -> ComplexArray | RealArray:
-        """The isolated solutions, complex, shape ``(k, n)``, to be written to.
-
-        As in frames, without the imaginary unit, which is the last variable of a system with
-        complex coefficients.
-
-        Args:
-            real: only the real ones, as floats.
-        """
-        return self.table.to_numpy(real=real)
-
-    def to_dataframe(self, real: bool = False, *, parts: bool = False) -> pandas.DataFrame:
-        """A row for each isolated solution: its coordinates, complex, and what is known of it.
-
-        Args:
-            real: only the real ones, their coordinates as floats.
-            parts: two columns of floats for each coordinate, ``x.real`` and ``x.imag``, which can
-                be written to any file of tables.
-
-        Raises:
-            nag.NagError: if pandas is not installed.
-        """
-        return self.table.to_dataframe(real=real, parts=parts)
-
-    def to_sympy(self) -> list[dict[sympy.Symbol, sympy.Expr]]:
-        """The isolated solutions as sympy has them: values, floats, by symbols.
-
-        Raises:
-            nag.NagError: if sympy is not installed.
-        """
-        return self.table.to_sympy()
 
     def rows(self, most: int | None = None, columns: int | None = None) -> list[list[str]]:
         """Headings, and a row for each solution, the real ones first.

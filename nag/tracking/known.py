@@ -12,24 +12,25 @@ from nag.tracking.paths import Paths
 
 @dataclass(frozen=True, eq=False)
 class PathOrbits:
-    """Paths that permutations of the coordinates carry into each other.
+    """Paths that signed permutations of the coordinates carry into each other.
 
     Attributes:
         chosen: indices of the paths that stand for the others, one of each orbit, shape ``(R,)``.
         orbit: which of these stands for each path, shape ``(P,)``.
-        sources: coordinate ``i`` of path ``p`` is coordinate ``sources[p, i]`` of the path that
-            stands for it, at every t; shape ``(P, N)``.
+        sources, signs: coordinate ``i`` of path ``p`` is ``signs[p, i]`` times coordinate
+            ``sources[p, i]`` of the path that stands for it, at every t; shapes ``(P, N)``.
     """
 
     chosen: np.ndarray
     orbit: np.ndarray
     sources: np.ndarray
+    signs: np.ndarray
 
     def expand(self, paths: Paths, groups: Sequence[Sequence[int]]) -> Paths:
         """All paths, from those chosen; steps count where they were taken."""
         steps = np.zeros(len(self.orbit), dtype=paths.steps.dtype)
         steps[self.chosen] = paths.steps
-        every = paths.select_rows(self.orbit).permute(self.sources, groups)
+        every = paths.select_rows(self.orbit).permute(self.sources, self.signs, groups)
         return replace(every, steps=steps)
 
 

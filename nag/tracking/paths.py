@@ -69,9 +69,9 @@ class Ball:
             for re, im in self.centre
         ]
 
-    def permute(self, sources: np.ndarray) -> Ball:
-        """The same with coordinate ``sources[i]`` in place ``i``."""
-        return Ball(self.centre[sources], self.radii[sources])
+    def permute(self, sources: np.ndarray, signs: np.ndarray) -> Ball:
+        """The same with coordinate ``sources[i]`` in place ``i``, times ``signs[i]``."""
+        return Ball(self.centre[sources] * signs[:, None, None], self.radii[sources])
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,10 +90,12 @@ class PathBranch:
     logs: np.ndarray
     bends: np.ndarray
 
-    def permute(self, sources: np.ndarray, groups: Sequence[Sequence[int]]) -> PathBranch:
-        """The same with coordinate ``sources[i]`` in place ``i``."""
+    def permute(
+        self, sources: np.ndarray, signs: np.ndarray, groups: Sequence[Sequence[int]]
+    ) -> PathBranch:
+        """The same with coordinate ``sources[i]`` in place ``i``, times ``signs[i]``."""
         orders = tuple(self.orders[k] for k in sources)
-        logs, bends = self.logs[sources], self.bends[sources]
+        logs, bends = self.logs[sources] + np.where(signs < 0, 1j * np.pi, 0), self.bends[sources]
         return PathBranch(
             self.winding,
             orders,
@@ -235,13 +237,16 @@ class Paths(ArrayTable):
         steps = np.zeros_like(self.steps)
         return replace(self, points=self.points.conj(), steps=steps, balls=balls)
 
-    def permute(self, sources: np.ndarray, groups: Sequence[Sequence[int]]) -> Paths:
-        """The same with coordinate ``sources[p, i]`` of path ``p`` in place ``i``."""
+    def permute(
+        self, sources: np.ndarray, signs: np.ndarray, groups: Sequence[Sequence[int]]
+    ) -> Paths:
+        """The same with coordinate ``sources[p, i]`` of path ``p`` in place ``i``, with a sign."""
+        balls, branches = self.balls.items(), self.branches.items()
         return replace(
             self,
-            points=np.take_along_axis(self.points, sources, axis=1),
-            balls={p: ball.permute(sources[p]) for p, ball in self.balls.items()},
-            branches={p: b.permute(sources[p], groups) for p, b in self.branches.items()},
+            points=np.take_along_axis(self.points, sources, axis=1) * signs,
+            balls={p: ball.permute(sources[p], signs[p]) for p, ball in balls},
+            branches={p: b.permute(sources[p], signs[p], groups) for p, b in branches},
         )
 
     def __repr__(self) -> str:

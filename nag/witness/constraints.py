@@ -53,7 +53,7 @@ class Constraints:
         Raises:
             ComponentError: if they are not independent there.
         """
-        x = self._checked(point, "point")
+        x = self._check_point(point, "point")
         there = self._natural.points(x[None])
         return self._frame(x)[0] @ self._equations.values(there)[0].real
 
@@ -63,7 +63,7 @@ class Constraints:
         Raises:
             ComponentError: if they are not independent there.
         """
-        return self._frame(self._checked(point, "point"))[1]
+        return self._frame(self._check_point(point, "point"))[1]
 
     def curvature(self, point: np.ndarray, velocity: np.ndarray) -> RealArray:
         """Their second derivatives along a velocity, shape ``(count,)``.
@@ -73,7 +73,7 @@ class Constraints:
         Raises:
             ComponentError: if they are not independent there.
         """
-        x, v = self._checked(point, "point"), self._checked(velocity, "velocity")
+        x, v = self._check_point(point, "point"), self._check_point(velocity, "velocity")
         here, along = self._natural.points(x), v / self._natural.sizes
         series = np.stack([here, along, np.zeros_like(x)], axis=-1)[None]
         second = 2 * self._equations.last_coefficients(series)[0].real
@@ -87,7 +87,7 @@ class Constraints:
     def _equations(self) -> Evaluator:
         return Evaluator.of(self._natural.system(self.system).polynomials, self.system.n)
 
-    def _checked(self, values: np.ndarray, name: str) -> np.ndarray:
+    def _check_point(self, values: np.ndarray, name: str) -> np.ndarray:
         given = np.asarray(values)
         if given.shape != (self.system.n,) or given.dtype.kind not in "iuf":
             raise NagError(f"{name}: give {self.system.n} real numbers")

@@ -64,7 +64,7 @@ class Points:
         fine = dict(self.with_digits(pairs).fine)
         steepest = {i: each.curvature for i, each in fine.items()}
         for pair in pairs:
-            steep = STEEPER * self._size(pair[0]) / max(self._apart(pair, fine), 1e-300)
+            steep = STEEPER * self._size(pair[0]) / max(self._distance_of_pair(pair, fine), 1e-300)
             for i in pair:
                 if i in fine:
                     steepest[i] = max(steepest[i], steep)
@@ -75,7 +75,7 @@ class Points:
         """With more digits of the points of some pairs, where they can be found."""
         fine, nearest = dict(self.fine), dict[int, float]()
         for pair in pairs:
-            apart = self._apart(pair, fine)
+            apart = self._distance_of_pair(pair, fine)
             for i in pair:
                 nearest[i] = min(apart, nearest.get(i, np.inf))
         for i in sorted(nearest.keys() - fine.keys()):
@@ -87,7 +87,7 @@ class Points:
     def _size(self, i: int) -> float:
         return 1 + float(np.linalg.norm(self.x[i]))
 
-    def _apart(self, pair: tuple[int, int], fine: Mapping[int, PointInWords]) -> float:
+    def _distance_of_pair(self, pair: tuple[int, int], fine: Mapping[int, PointInWords]) -> float:
         i, j = pair
         return distance(self.x[i], fine.get(i), self.x[j], fine.get(j))
 

@@ -38,8 +38,8 @@ SPREAD = 0.5
 MOST_STEPS = 60
 # Decides: Part of the distance that can still be gained, at a nearest point.
 STATIONARY = 1e-10
-# Decides: The same at a point that may be a nearest one, and is said to be almost.
-ALMOST = 1e-5
+# The same at a point that may be a nearest one, and is said to be almost: to half those digits.
+ALMOST = STATIONARY**0.5
 # Part of such a step that is the last one tried; and directions along the component, beside the
 # longest, in which the variables do not change.
 SHORTEST, STILL = 1e-6, 1e-10

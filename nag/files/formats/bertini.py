@@ -82,7 +82,7 @@ def read(source: SourceFile) -> GivenSystem:
             declared[kind].append(source.statements(listed, ","))
             continue
         _assign(source, statement, assigned)
-    return _given(source, declared, assigned)
+    return _collect_system(source, declared, assigned)
 
 
 def _input_section(source: SourceFile) -> Passage:
@@ -125,7 +125,7 @@ def _assign(source: SourceFile, statement: Passage, assigned: dict[str, Passage]
     return name
 
 
-def _given(
+def _collect_system(
     source: SourceFile, declared: dict[str, list[list[Passage]]], assigned: dict[str, Passage]
 ) -> GivenSystem:
     projective = declared["hom_variable_group"]

@@ -122,7 +122,7 @@ def assemble(
     """
     if len(robot.joints) + len(robot.closures) > MAX_JOINTS:
         fail(file, f"has more than {MAX_JOINTS} joints; that is the most that is read")
-    moved, taken = _moved(robot, file, values)
+    moved, taken = _move_joints(robot, file, values)
     frames = _frames(robot, moved)
     joints, floating = [], []
     for joint in robot.joints:
@@ -135,7 +135,7 @@ def assemble(
         joints.append(_joint(joint.name, joint.type, bodies, frame.placed(joint.point), axis))
     zero = _frames(robot, {}) if moved else frames
     closing = [_closing(closure, frames, zero) for closure in robot.closures]
-    joints += _merged([joint for joint, _ in closing])
+    joints += _merge_joints([joint for joint, _ in closing])
     joints += [_held(robot, file, link, k) for k, link in enumerate(hold, 1)]
     notes = list(robot.notes)
     for joint, frame in floating:
@@ -171,7 +171,7 @@ def _joint(
     return Joint(name, type, bodies, point, axis, second_axis)
 
 
-def _moved(
+def _move_joints(
     robot: Robot, file: str, values: Mapping[str, str | Number]
 ) -> tuple[dict[str, GivenFrame], list[Taken]]:
     """How joints have moved that are not where the file draws them, in their own frames."""
@@ -286,7 +286,7 @@ def _closing(
     return joint, open_by
 
 
-def _merged(joints: Sequence[Joint]) -> list[Joint]:
+def _merge_joints(joints: Sequence[Joint]) -> list[Joint]:
     """Closures; points of two links that are held together are a hinge if two, a weld if more."""
     found: list[Joint] = []
     for joint in joints:

@@ -64,7 +64,7 @@ def read(file: str, text: str) -> Robot:
         root.fail(f"one link is the child of no joint, the root; here that is {said}")
     title = root.attributes.get("name", "").strip()
     title = title if title and title.isprintable() else "a robot"
-    return Robot(title, roots[0], tuple(_ordered(file, roots[0], joints)))
+    return Robot(title, roots[0], tuple(_order_joints(file, roots[0], joints)))
 
 
 def _joint(element: XmlElement, links: dict[str, XmlElement]) -> RobotJoint:
@@ -115,7 +115,7 @@ def _joint(element: XmlElement, links: dict[str, XmlElement]) -> RobotJoint:
     return RobotJoint(name, TYPES[kind], *ends, place, where, axis, taken=taken, limited=limited)
 
 
-def _ordered(file: str, root: str, joints: list[RobotJoint]) -> list[RobotJoint]:
+def _order_joints(file: str, root: str, joints: list[RobotJoint]) -> list[RobotJoint]:
     """The joints from the root on."""
     by_parent: dict[str, list[RobotJoint]] = {}
     for joint in joints:

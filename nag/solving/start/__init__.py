@@ -2,11 +2,11 @@
 
 Read in this order, bottom-up: `target` (a system made ready, and what a start system is); the kinds
 `total_degree` on `interchange` (one path for all that are its images), `multihomogeneous`,
-`polyhedral` on `mixed_cells`, and `monodromy`, both on `coefficient_monodromy`, which runs
-`monodromy_loops`; `choice` (the kind that is asked for, or has the least work). Two begin
-elsewhere, and are no kinds: `isotropic`, which takes systems to turns in loops
-(`nag.solving.solve.by_turns`), and `family_monodromy`, the same loops, on `scalings`, for members
-of families (`nag.solving.parameter`, `--start parameter`).
+`polyhedral` on `mixed_cells` and `invariance` (coefficients that symmetries keep), and
+`monodromy`, both on `coefficient_monodromy`, which runs `monodromy_loops`; `choice` (the kind that
+is asked for, or has the least work). Two begin elsewhere, and are no kinds: `isotropic`, which
+takes systems to turns in loops (`nag.solving.solve.by_turns`), and `family_monodromy`, the same
+loops, on `scalings`, for members of families (`nag.solving.parameter`, `--start parameter`).
 
 To add a start system, write a file whose function makes a `target.StartSystem` of a
 `target.Target`; name the kind in `KINDS`, in the enum ``start`` of

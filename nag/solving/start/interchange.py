@@ -61,7 +61,7 @@ class Interchange:
         chosen = np.flatnonzero((first == roots).all(axis=1))
         order = np.argsort(key[chosen], kind="stable")
         orbit = order[np.searchsorted(key[chosen][order], key)]
-        return PathOrbits(chosen, orbit, sources)
+        return PathOrbits(chosen, orbit, sources, np.ones((P, 1), dtype=np.int8))
 
 
 def interchange(target: Target, rows: Sequence[int], free: Sequence[int]) -> Interchange:

@@ -17,8 +17,11 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import count
+from math import lcm, prod
 
+import flint
 import numpy as np
 
 from nag.errors import StartError
@@ -29,11 +32,18 @@ from nag.solving.start.coefficient_monodromy import (
     find_by_loops,
     start_at,
 )
+from nag.solving.start.invariance import (
+    close_under,
+    find_invariant,
+    find_orbits,
+    find_row_symmetries,
+)
 from nag.solving.start.mixed_cells import MixedCells
 from nag.solving.start.target import StartSystem, Target, group_degrees, homogenize_rows
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.known import KnownOfPaths
 from nag.tracking.settings import find_settings
 from nag.tracking.track import track_regular
 
@@ -44,6 +54,12 @@ LENGTH = 10.0
 PATHS_AT_ONCE = 8192
 # Largest determinant and entry of an adjugate that doubles give exactly.
 LARGEST = 1 << 40
+# So many paths take more time than symmetries to be looked for.
+MANY = 2048
+# So many solutions show whether coefficients are generic.
+PILOT = 256
+# The largest group of turns that is used.
+MOST_TURNS = 4096
 # Arc of the start system's coefficients round those of the target, in turns.
 WIDTH = 1 / 3
 
@@ -53,6 +69,7 @@ def polyhedral(
 ) -> StartSystem:
     """The homotopy from random coefficients, whose solutions come from the mixed cells.
 
+    The coefficients are such as symmetries of the target keep, if these have as many solutions.
     What toric paths do not reach is looked for by monodromy.
 
     Raises:
@@ -61,7 +78,12 @@ def polyhedral(
     volume = cells.mixed_volume
     if volume > MOST_PATHS:
         raise StartError(f"polyhedral: {volume} paths; at most {MOST_PATHS} are tracked")
-    system, spent = by_degeneration(cells, _near(target, rng), threads)
+    near = _near(target, rng)
+    if volume >= MANY:
+        start = _symmetric(target, cells, near, threads)
+        if start is not None:
+            return start
+    system, spent = by_degeneration(cells, near, threads)
     reached = len(system.points)
     detail = f"its solutions by {spent} toric paths"
     if 0 < reached < volume:
@@ -73,6 +95,34 @@ def polyhedral(
             "found"
         )
     return start_at("polyhedral", target, system, detail, 1.0)
+
+
+def _symmetric(
+    target: Target, cells: MixedCells, near: Sequence[np.ndarray], threads: int
+) -> StartSystem | None:
+    """The homotopy from coefficients that symmetries keep; None if there are no such symmetries.
+
+    Nor where such coefficients leave fewer solutions than the mixed volume.
+    """
+    step = -(-cells.mixed_volume // PILOT)
+    some = replace(cells, edges=cells.edges[::step], volumes=cells.volumes[::step])
+
+    def is_generic(coefficients: tuple[np.ndarray, ...]) -> bool:
+        found, _ = by_degeneration(some, coefficients, threads)
+        return len(found.points) == some.mixed_volume
+
+    generators = find_row_symmetries(target)
+    coefficients, symmetries = find_invariant(target.supports, near, generators, is_generic)
+    if not symmetries:
+        return None
+    system, spent = by_degeneration(cells, coefficients, threads)
+    system = close_under(system, symmetries, cells.mixed_volume)
+    orbits = find_orbits(system, symmetries)
+    if len(system.points) != cells.mixed_volume or orbits is None:
+        return None
+    detail = f"its solutions by {spent} toric paths; symmetries leave {len(orbits.chosen)} of them"
+    start = start_at("polyhedral", target, system, detail, 1.0)
+    return replace(start, known=KnownOfPaths(orbits=orbits))
 
 
 def _near(target: Target, rng: np.random.Generator) -> tuple[np.ndarray, ...]:
@@ -125,11 +175,12 @@ def cell_weights(cells: MixedCells) -> np.ndarray:
 
 
 def binomial_solutions(
-    cells: MixedCells, coefficients: Sequence[np.ndarray]
+    cells: MixedCells, coefficients: Sequence[np.ndarray], turns: CoordinateTurns | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Angles of the coordinates of the solutions of all cells' binomials, and their cells.
 
-    All coordinates have absolute value 1, like the coefficients. Shapes ``(P, n)`` and ``(P,)``.
+    With ``turns`` there is one of those that these carry into each other. All coordinates have
+    absolute value 1, like the coefficients. Shapes ``(P, n)`` and ``(P,)``.
 
     Raises:
         StartError: if the exponents are too large.
@@ -156,15 +207,22 @@ def binomial_solutions(
     first = (inverse @ right[:, :, None])[:, :, 0]
     angles, owners = [np.zeros((0, n))], [np.zeros(0, dtype=np.int64)]
     for k, volume in enumerate(volumes.tolist()):
-        turns = _span(adjugate[k].T % volume, volume)
-        angles.append(first[k] + 2 * np.pi / volume * turns)
-        owners.append(np.full(volume, k))
+        kept = np.zeros((1, n), dtype=np.int64) if turns is None else turns.modulo(volume)
+        _, cosets = _span(adjugate[k].T % volume, volume, kept)
+        angles.append(first[k] + 2 * np.pi / volume * cosets)
+        owners.append(np.full(len(cosets), k))
     return np.concatenate(angles), np.concatenate(owners)
 
 
-def _span(generators: np.ndarray, modulus: int) -> np.ndarray:
-    """All sums of the ``generators`` modulo ``modulus``, each once, shape ``(count, n)``."""
-    group = np.zeros((1, generators.shape[1]), dtype=np.int64)
+def _span(
+    generators: np.ndarray, modulus: int, subgroup: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """All sums of the ``generators`` and elements of a ``subgroup``, modulo ``modulus``, each once.
+
+    And one of each coset of the subgroup. Shapes ``(count, n)``.
+    """
+    group = subgroup
+    cosets = np.zeros((1, generators.shape[1]), dtype=np.int64)
     for g in generators:
         if len(group) == modulus:
             break
@@ -172,8 +230,53 @@ def _span(generators: np.ndarray, modulus: int) -> np.ndarray:
         multiples = [np.zeros_like(g)]
         while tuple(((multiples[-1] + g) % modulus).tolist()) not in known:
             multiples.append((multiples[-1] + g) % modulus)
-        group = ((group[None] + np.array(multiples)[:, None]) % modulus).reshape(-1, len(g))
-    return group
+        more = np.array(multiples)[:, None]
+        group = ((group[None] + more) % modulus).reshape(-1, len(g))
+        cosets = ((cosets[None] + more) % modulus).reshape(-1, len(g))
+    return group, cosets
+
+
+@dataclass(frozen=True, eq=False)
+class CoordinateTurns:
+    """The finite group of turns of the coordinates that keep all systems of given supports.
+
+    Turned by its elements, each row is multiplied by a number: the exponents of a row differ by
+    whole numbers of turns.
+
+    Attributes:
+        order: the least common multiple of the orders of its elements.
+        elements: angles in units of ``1 / order`` of a turn, the identity first, shape ``(m, n)``.
+    """
+
+    order: int
+    elements: np.ndarray
+
+    @classmethod
+    def of(cls, supports: Sequence[np.ndarray]) -> CoordinateTurns:
+        """The group for these supports; of a large one, or an infinite one, the identity alone."""
+        n = len(supports)
+        identity = cls(1, np.zeros((1, n), dtype=np.int64))
+        rows = np.concatenate([np.zeros((0, n), dtype=np.int64), *(s - s[:1] for s in supports)])
+        lattice = flint.fmpz_mat(np.unique(rows, axis=0).tolist())
+        if lattice.rank() < n:
+            return identity
+        form = lattice.hnf().table()[:n]
+        if prod(int(row[i]) for i, row in enumerate(form)) > MOST_TURNS:
+            return identity
+        inverse = (flint.fmpq_mat(flint.fmpz_mat(form)) ** -1).table()
+        order = lcm(*(int(c.q) for row in inverse for c in row))
+        generators = np.array([[int(c * order) % order for c in row] for row in inverse]).T
+        return cls(order, _span(generators, order, identity.elements)[0])
+
+    def modulo(self, modulus: int) -> np.ndarray:
+        """The elements' angles in units of ``1 / modulus`` of a turn."""
+        return self.elements * modulus // self.order
+
+    def of_points(self, points: np.ndarray) -> np.ndarray:
+        """All images of points in projective coordinates, shape ``(P m, 1 + n)``."""
+        factors = np.exp(2j * np.pi / self.order * self.elements)
+        factors = np.concatenate([np.ones((len(factors), 1)), factors], axis=1)
+        return (points[:, None] * factors).reshape(-1, points.shape[1])
 
 
 def by_degeneration(
@@ -197,15 +300,16 @@ def by_degeneration(
         return system, 0
     degrees = group_degrees(system.rows, groups)
     homotopy = Homotopy(_single_terms(homogenize_rows(system.rows, n, groups, degrees)))
-    ends, paths = [], 0
+    turns, ends, paths = CoordinateTurns.of(cells.supports), [], 0
     for some in cells.blocks(PATHS_AT_ONCE):
-        angles, owners = binomial_solutions(some, coefficients)
+        angles, owners = binomial_solutions(some, coefficients, turns)
         starts = np.exp(1j * np.concatenate([np.zeros((len(angles), 1)), angles], axis=1))
         weights = LENGTH * cell_weights(some)[owners]
         ends.append(track_regular(homotopy, starts, find_settings("fast"), threads, weights))
         paths += len(starts)
-    points, errors = join_columns([e.points for e in ends]), join_columns([e.errors for e in ends])
-    distinct = distinct_points(points, errors, paths)
+    points = turns.of_points(join_columns([e.points for e in ends]))
+    errors = np.repeat(join_columns([e.errors for e in ends]), len(turns.elements))
+    distinct = distinct_points(points, errors, len(points))
     return system.holding(distinct.points, distinct.radii), paths
 
 
