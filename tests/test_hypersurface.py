@@ -50,6 +50,28 @@ def test_ends_are_as_many_as_the_product_of_the_degrees(
     assert counted == (regular, singular, infinite) and ends.counts.failed == 0
 
 
+@pytest.mark.parametrize(
+    ("equation", "finite_ones", "infinite"),
+    [
+        ("x - 1", 0, 2),  # Touches at (1, 0).
+        ("x*y", 2, 2),  # Also at (0, 1) and (0, -1).
+        ("y - 1/10^20", 2, 0),
+        ("x - 1 + 1/10^20", 2, 0),  # At y of about 1.4e-10.
+    ],
+)
+@pytest.mark.parametrize("seed", range(3))
+def test_ends_at_a_variable_that_must_not_vanish_count_as_infinite_and_small_ones_do_not(
+    equation: str, finite_ones: int, infinite: int, seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    flag = random_rows(rng, 2, 2)
+    gamma = complex(unit_complex(rng))
+    ends = intersect(fibre(CIRCLE, flag[0]), curve(equation), gamma, TRACKER, nonzero=(1,))
+    counted = (int(ends.finite.sum()), ends.counts.at_infinity, ends.counts.failed)
+    assert counted == (finite_ones, infinite, 0)
+    assert (ends.x[ends.finite, 1] != 0).all()
+
+
 def test_what_lies_on_the_hypersurface_stays_and_the_rest_is_cut() -> None:
     rng = np.random.default_rng(8)
     flag = random_rows(rng, 2, 2)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.number import square_root
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.polynomial import Polynomial, find_nonzero_variables
 from nag.algebra.system import PolynomialSystem
 
 N = 3
@@ -72,6 +72,22 @@ def test_degrees_add_under_multiplication(f, g):
 def test_identified_variables_take_the_same_value(f, p):
     identified = f.with_variables(2, (1, 0, 1))
     assert identified([p[0], p[1]]) == f([p[1], p[0], p[1]])
+
+
+@given(st.lists(polynomials, max_size=3), st.lists(st.integers(-3, 3), min_size=N, max_size=N))
+def test_variables_that_equations_keep_from_zero_vanish_at_no_zero(rows, p):
+    found = find_nonzero_variables((f.terms for f in rows), N)
+    assert list(found) == sorted(set(found))
+    if all(f(p) == 0 for f in rows):
+        assert all(p[i] for i in found)
+
+
+def test_a_variable_is_kept_from_zero_by_a_constant_and_multiples_of_it() -> None:
+    x, y, z = Polynomial.variables(N)
+    assert find_nonzero_variables([(x * y * (x + z) - 1).terms], N) == (0, 1)
+    assert find_nonzero_variables([(x * y).terms, (y * z + x - 1).terms, {}], N) == ()
+    assert find_nonzero_variables([(z + z * x - 2).terms, (x * z + 1).terms], N) == (0, 2)
+    assert find_nonzero_variables([Polynomial.constant(N, 1).terms], N) == ()
 
 
 def test_degree_of_constants_and_of_zero():

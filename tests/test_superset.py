@@ -165,3 +165,18 @@ def test_a_point_is_on_larger_sets_if_it_is_on_one_whatever_others_leave_open(
 @pytest.mark.parametrize(("failed", "said"), [(1, "1 path failed"), (2, "2 paths failed")])
 def test_paths_that_failed_are_counted_in_words(failed: int, said: str) -> None:
     assert Superset({}, PathCounts(9, failed), ()).doubts == [f"{said}; points may be missing"]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_where_a_variable_vanishes_that_vanishes_at_no_solution_is_no_step_to_one(
+    seed: int,
+) -> None:
+    rng = np.random.default_rng(seed)
+    names = ("x*(x - y)*(z - x)", "y^2*(z - 2)*(x - z)", "x*y*z^2 - 1/10^9")
+    equations = polynomials("x y z", *names)
+    found = witness_superset(equations, {3: [whole_space(random_rows(rng, 3, 3))]}, rng, Run())
+    assert not found.notes and not found.counts.failed and found.counts.at_infinity > 0
+    # The plane x = z meets the last one in a curve; the line x = y, z = 2 meets it in two points.
+    assert {d: sum(map(len, fibres)) for d, fibres in found.fibres.items()} == {1: 4, 0: 2}
+    two = np.vstack([fibre.x for fibre in found.fibres[0]])
+    assert np.abs(4 * two[:, 0] ** 2 - 1e-9).max() < 1e-22

@@ -39,6 +39,19 @@ Parts = dict[Root, dict[Exponents, int]]
 FEW_PRODUCTS = 8
 
 
+def find_nonzero_variables(rows: Iterable[Mapping[Exponents, Any]], n: int) -> tuple[int, ...]:
+    """The variables that equations say vanish at none of their zeros, ascending.
+
+    Those of which all terms of one equation but its constant are multiples.
+    """
+    found: set[int] = set()
+    for row in rows:
+        others = [e for e in row if any(e)]
+        if others and row.get((0,) * n):
+            found |= {i for i in range(n) if i not in found and all(e[i] for e in others)}
+    return tuple(sorted(found))
+
+
 def multiply_terms(
     first: Mapping[Exponents, Any], second: Mapping[Exponents, Any]
 ) -> dict[Exponents, Any]:

@@ -69,13 +69,16 @@ class HypersurfaceSection:
         return sum(int(ends.failed.sum()) for ends in self.ends.get(d, ()))
 
 
-def intersect(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> SliceEnds:
+def intersect(
+    fibre: Fibre, f: Polynomial, gamma: complex, run: Run, nonzero: Sequence[int] = ()
+) -> SliceEnds:
     """The ends of the paths from a fibre's points, none of them on f, to the hypersurface f = 0.
 
-    They are on all rows of the fibre's slice but the last one.
+    They are on all rows of the fibre's slice but the last one. Paths to where a variable of
+    ``nonzero`` vanishes count as paths to infinity.
     """
     if fibre.fine:
-        return _intersect_close(fibre, f, gamma, run)
+        return _intersect_close(fibre, f, gamma, run, nonzero)
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
     total, after = cut.n + cut.aux, cut.extended(f)
     if not cut.polynomials and len(fibre) == 1 and f.algebraic and degree <= MOST_ROOTS:
@@ -96,7 +99,8 @@ def intersect(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> SliceEnd
     starts = np.concatenate(
         [np.repeat(fibre.points, degree, axis=0), u_start.reshape(-1, 1)], axis=1
     )
-    homotopy, points = Homotopy(compiled, a0, a1), homogeneous(starts)
+    infinity = (*compiled.infinity, *(1 + i for i in nonzero))
+    homotopy, points = Homotopy(compiled, a0, a1, infinity=infinity), homogeneous(starts)
     paths = track(homotopy, points, settings=run.settings, threads=run.threads)
     return ends_of_paths(paths, after, fibre.rows[:-1])
 
@@ -124,7 +128,9 @@ def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:
     return compile_rows(rows, n=total + 1)
 
 
-def _intersect_close(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> SliceEnds:
+def _intersect_close(
+    fibre: Fibre, f: Polynomial, gamma: complex, run: Run, nonzero: Sequence[int]
+) -> SliceEnds:
     """`intersect` where some points are close to others: their paths are tracked in more digits.
 
     The slices that stay turn with ``gamma`` as well, which leaves them as they are.
@@ -143,18 +149,29 @@ def _intersect_close(fibre: Fibre, f: Polynomial, gamma: complex, run: Run) -> S
     target[d - 1, -1] = 1
     starts = [start for i in indices for start in with_roots(fibre.fine[i], f)]
     homotopy = moving_rows(_with_power(cut, f), source, target, gamma)
+    infinity = (*homotopy.infinity, *(1 + i for i in nonzero))
+    homotopy = replace(homotopy, infinity=infinity)
     close = track_close_points(homotopy, starts, after, fibre.rows[:-1], run, endgame=True)
     places = {
         k: (own[:, None] * degree + np.arange(degree)).ravel()
         for k, own in enumerate((plain, indices))
     }
-    return join_ends(places, (intersect(rest, f, gamma, run), close))
+    return join_ends(places, (intersect(rest, f, gamma, run, nonzero), close))
 
 
 def hypersurface_section(
-    sets: Mapping[int, Sequence[Fibre]], f: Polynomial, rng: np.random.Generator, run: Run
+    sets: Mapping[int, Sequence[Fibre]],
+    f: Polynomial,
+    rng: np.random.Generator,
+    run: Run,
+    nonzero: Sequence[int] = (),
 ) -> HypersurfaceSection:
-    """All points of sets, by dimension, where ``f`` vanishes, and how many paths led there."""
+    """All points of sets, by dimension, where ``f`` vanishes, and how many paths led there.
+
+    Args:
+        nonzero: variables that do not vanish at the zeros that are looked for; ends of paths where
+            one does are left out.
+    """
     gamma = complex(unit_complex(rng))
     kept: dict[int, list[Fibre]] = {}
     ends: dict[int, list[SliceEnds]] = {}
@@ -167,6 +184,6 @@ def hypersurface_section(
             if on.any():
                 kept.setdefault(d, []).append(fibre.only(on))
             if d > 0 and f.degree > 0 and not on.all():
-                new = intersect(fibre.only(~on), f, gamma, run)
+                new = intersect(fibre.only(~on), f, gamma, run, nonzero)
                 ends.setdefault(d - 1, []).append(new)
     return HypersurfaceSection(kept, ends)

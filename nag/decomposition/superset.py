@@ -12,7 +12,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.polynomial import Polynomial, find_nonzero_variables
 from nag.decomposition.ends import SingularEnds, collect
 from nag.decomposition.hypersurface import HypersurfaceSection, hypersurface_section
 from nag.numerics.coincidence import coincident
@@ -105,13 +105,15 @@ class _Outcome:
 class _Stage:
     """How sets are to meet a polynomial, where ``before`` vanish on them and ``avoid`` must not.
 
-    ``after`` are the equations that they will meet later.
+    ``after`` are the equations that they will meet later. ``units``: variables that, as some of the
+    equations say, vanish at none of their zeros.
     """
 
     before: tuple[Polynomial, ...]
     after: tuple[Polynomial, ...]
     found: Superset
     avoid: tuple[Polynomial, ...]
+    units: tuple[int, ...]
     rng: np.random.Generator
     run: Run
 
@@ -140,7 +142,7 @@ class _Stage:
         return best, mixing, counts
 
     def outcome(self, f: Polynomial, deflate: bool) -> tuple[_Outcome, PathCounts]:
-        crossed = hypersurface_section(self.found.fibres, f, self.rng, self.run)
+        crossed = hypersurface_section(self.found.fibres, f, self.rng, self.run, self.units)
         found, spent = self.superset(f, crossed, deflate)
         return _Outcome(f, crossed, found), PathCounts(crossed.counts.tracked) + spent
 
@@ -226,10 +228,12 @@ def witness_superset(
     counts, notes, points = PathCounts(), [], 0
     found = Superset(sets, counts, ())
     mixing = False
+    rows = [f.terms for f in (*known, *equations)]
+    units = find_nonzero_variables(rows, equations[0].n) if equations else ()
     for k, f in enumerate(equations):
         run.tell("intersecting", k, len(equations))
         before, after = (*known, *equations[:k]), tuple(equations[k + 1 :])
-        stage = _Stage(before, after, found, tuple(nonzero), rng, run)
+        stage = _Stage(before, after, found, tuple(nonzero), units, rng, run)
         best, mixing, spent = stage.best(f, mixing)
         found = best.superset
         equations[k] = best.polynomial

@@ -51,7 +51,8 @@ class Homotopy(SentByContent):
             ``(a, b) = factors[p]``.
         A0, A1: linear rows ``(A0 + t A1) x``, complex, shape ``(k, N)``.
         factors: one pair for each part; default ``(1, 0)``: rows that do not depend on t.
-        infinity: coordinates whose vanishing means that a point is at infinity.
+        infinity: coordinates whose vanishing means that a point is at infinity, or, of a variable
+            that vanishes at no zero of the target, that it counts as one that is.
         digits: decimal digits of the coefficients from which those of the rows were worked out
             exactly; None: they are the rows' own.
         members: factors instead of those, of many homotopies of the same rows, which are tracked

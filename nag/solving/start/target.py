@@ -11,7 +11,7 @@ import numpy as np
 
 from nag.algebra.combinations import of_fewest_terms
 from nag.algebra.number import Number
-from nag.algebra.polynomial import Exponents, Polynomial
+from nag.algebra.polynomial import Exponents, Polynomial, find_nonzero_variables
 from nag.errors import NagError
 from nag.numerics.array_table import map_rows
 from nag.numerics.doubles import EPS, UNIT
@@ -75,7 +75,7 @@ class Target:
         scales = variable_scales(polynomials, n)
         given = tuple(scaled_terms(f, scales) for f in polynomials)
         rows = independent_rows(given)
-        in_torus = _have_no_zero_coordinates(rows, n)
+        in_torus = len(find_nonzero_variables(rows, n)) == n
         return cls(n, rows, tuple(scales.tolist()), natural, digits, given, in_torus)
 
     def scaled(self, f: Polynomial) -> Polynomial:
@@ -167,19 +167,6 @@ class Target:
         return tuple(
             np.array(sorted({*row, *more}), dtype=np.int64).reshape(-1, self.n) for row in self.rows
         )
-
-
-def _have_no_zero_coordinates(rows: Iterable[Terms], n: int) -> bool:
-    """Whether rows say so of all their zeros: a constant and multiples of a variable never vanish.
-
-    Not where the variable does.
-    """
-    free = set(range(n))
-    for row in rows:
-        if row.get((0,) * n):
-            others = [e for e in row if any(e)]
-            free -= {i for i in free if others and all(e[i] for e in others)}
-    return not free
 
 
 class StackedExponents(NamedTuple):
