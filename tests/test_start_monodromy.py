@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from evaluated import values
-from systems import benchmark
+from systems import benchmark, system
 
 from nag.errors import StartError
 from nag.solving.start import monodromy as module
@@ -45,7 +45,7 @@ def all_points(name: str, seed: int) -> tuple[Pencil, GenericSystem]:
     return pencil, system
 
 
-@pytest.mark.parametrize("name", ["cyclic-5", "griewank-osborne", "planar-3-rpr", "katsura-6"])
+@pytest.mark.parametrize("name", ["caprasse", "griewank-osborne", "planar-3-rpr", "katsura-6"])
 def test_the_search_ends_with_all_solutions_by_the_trace_alone(name: str) -> None:
     each, rng = benchmark(name), np.random.default_rng(2)
     start = monodromy(each, rng, 1)
@@ -57,7 +57,7 @@ def test_the_search_ends_with_all_solutions_by_the_trace_alone(name: str) -> Non
     assert "trace" in start.detail
 
 
-@pytest.mark.parametrize("name", ["cyclic-5", "griewank-osborne", "planar-3-rpr"])
+@pytest.mark.parametrize("name", ["caprasse", "griewank-osborne", "planar-3-rpr"])
 def test_the_trace_of_all_is_linear_and_that_of_fewer_is_not(name: str) -> None:
     pencil, system = all_points(name, 1)
     assert trace_is_linear(pencil, system.points, np.random.default_rng(5), 1)
@@ -96,6 +96,21 @@ def test_without_an_irreducible_curve_the_mixed_volume_says_how_many() -> None:
     start = monodromy(each, rng, 1)
     assert len(start.points) == 6
     assert "mixed volume" in start.detail
+    # All of its equations but one are forms, and forms of four degrees define lines.
+    cyclic = benchmark("cyclic-5")
+    assert irreducible_row(cyclic.supports, rng) is None
+    assert len(monodromy(cyclic, rng, 1).points) == 70
+
+
+def test_a_curve_that_falls_apart_for_one_degree_in_all_terms_is_not_irreducible() -> None:
+    # In x y z = 1 no coordinate vanishes, so that the supports are without the origin: a form in x
+    # and y is a product of linear ones.
+    given = system("x y z", "x*y*z - 1", "x^2 + y^2", "x + 2*y + 3*z - 1")
+    each = Target.of(given.polynomials, 3)
+    assert each.in_torus
+    assert irreducible_row(each.supports, np.random.default_rng(0)) is None
+    for seed in range(12):
+        assert len(monodromy(each, np.random.default_rng(seed), 1).points) == 6
 
 
 def test_a_system_without_generic_solutions_has_no_paths() -> None:

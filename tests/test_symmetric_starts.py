@@ -219,6 +219,14 @@ def test_equations_say_where_no_coordinate_vanishes(
     assert Target.of(system("x y", *equations).polynomials, 2).in_torus is inside
 
 
+@pytest.mark.parametrize("start", ["polyhedral", "monodromy"])
+def test_equations_that_depend_on_each_other_leave_no_isolated_zeros(start: str) -> None:
+    # No coordinate vanishes, and one row is zero.
+    given = system("x y z", "x*y*z - 1", "x + y", "3*x + 3*y")
+    assert Target.of(given.polynomials, 3).in_torus
+    assert len(solve(given, start=start).solutions) == 0
+
+
 def test_signs_are_those_of_balls_and_branches() -> None:
     sources, signs = np.array([0, 2, 1]), np.array([1, -1, 1], dtype=np.int8)
     centre = np.arange(12.0).reshape(3, 2, 2)

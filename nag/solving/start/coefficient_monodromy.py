@@ -1,8 +1,8 @@
 """All solutions of a system with generic coefficients, by monodromy from some of them.
 
-For supports that hold the origin the solutions of all systems form one irreducible set, so that
-loops of coefficients lead from any solution of one system to any other (Duff, Hill, Jensen, Lee,
-Leykin & Sommars, Solving polynomial systems via homotopy continuation and monodromy, 2019).
+The solutions without zero coordinates of all systems of the same supports form one irreducible set,
+so that loops of coefficients lead from any solution of one system to any other (Duff, Hill, Jensen,
+Lee, Leykin & Sommars, Solving polynomial systems via homotopy continuation and monodromy, 2019).
 Whatever is found is a solution, even where a path was lost; only how many there are must be known.
 """
 
@@ -40,7 +40,7 @@ class GenericSystem:
     """A system with generic coefficients, and solutions of it.
 
     Attributes:
-        supports: one for each equation, each with the origin, shape ``(terms, n)``.
+        supports: one for each equation, shape ``(terms, n)``.
         coefficients: those of each support's points.
         points: distinct solutions in projective coordinates of unit norm, shape ``(P, 1 + n)``.
         errors: their relative errors, shape ``(P,)``.

@@ -59,7 +59,7 @@ class Pencil:
     """A pencil in one of the equations.
 
     Attributes:
-        supports: of the equations, each with the origin, shape ``(terms, n)``.
+        supports: of the equations, shape ``(terms, n)``.
         row: the equation that is ``f + s g``.
         coefficients: of all equations, in this one of ``f``.
         direction: coefficients of ``g``.
@@ -94,16 +94,19 @@ class Pencil:
 def irreducible_row(supports: Sequence[np.ndarray], rng: np.random.Generator) -> int | None:
     """An equation without which the others define an irreducible curve, if there is one.
 
-    For generic coefficients, and supports with the origin, the curve is irreducible if the
+    For generic coefficients the curve is irreducible in the torus if the differences within the
     supports of any k of the others span more than k dimensions (Khovanskii, Newton polytopes and
     irreducible components of complete intersections, 2016). By Rado's theorem that holds if
     random vectors of their spans, two of any one of them, are independent.
     """
     n = len(supports)
+    # A common factor of an equation's monomials, which supports without the origin may have, or
+    # their common degree says nothing of the curve.
+    differences = [(s - s[:1]).astype(object) for s in supports]
 
     def in_span(i: int) -> list[int]:
         weights = np.rint(2.0**LONG * rng.normal(size=len(supports[i])))
-        return (weights.astype(np.int64).astype(object) @ supports[i].astype(object)).tolist()
+        return (weights.astype(np.int64).astype(object) @ differences[i]).tolist()
 
     degrees = [int(s.sum(axis=1).max()) for s in supports]
     # A row of high degree gains the fewest solutions by a form that is linear.

@@ -1,7 +1,8 @@
 """Polyhedral start systems: the supports of the target with random coefficients.
 
 Bernstein's theorem says how many solutions such a system has: the mixed volume. The supports
-hold the origin, so that the paths lead to solutions with vanishing coordinates as well.
+hold the origin, so that the paths lead to solutions with vanishing coordinates as well; only where
+equations tell that there are no such, they are those of the target alone.
 
 They are solved by toric degenerations. For a mixed cell with edges ``a_i b_i`` and inner normal
 ``alpha``, the system whose coefficient at ``a`` is ``c_a exp(-w_a t)``,

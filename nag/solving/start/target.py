@@ -161,12 +161,11 @@ class Target:
 
         With the origin, coefficients chosen at random have constant terms, and solutions with
         coordinates that vanish are limits of solutions without such (Li & Wang 1996). Where there
-        are none, the origin is left out.
+        are none, the origin is left out. A row without terms counts as a constant.
         """
-        more = () if self.in_torus else ((0,) * self.n,)
-        return tuple(
-            np.array(sorted({*row, *more}), dtype=np.int64).reshape(-1, self.n) for row in self.rows
-        )
+        origin = ((0,) * self.n,)
+        more = () if self.in_torus else origin
+        return tuple(np.array(sorted({*row, *more} or origin), np.int64) for row in self.rows)
 
 
 class StackedExponents(NamedTuple):
