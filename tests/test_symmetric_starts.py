@@ -182,6 +182,15 @@ def test_turns_keep_systems_of_their_supports() -> None:
         assert np.allclose(np.abs(factors), 1, atol=1e-12)
 
 
+@pytest.mark.parametrize("powers", [(2, 2), (2, 6), (4, 6), (3, 1)])
+def test_turns_of_powers_are_products_of_those_of_each(powers: tuple[int, int]) -> None:
+    support = np.concatenate([np.zeros((1, 2), dtype=np.int64), np.diag(powers)])
+    turns = CoordinateTurns.of((support, support))
+    # Most of these groups are not cyclic: they have more elements than the order of any.
+    assert len(np.unique(turns.elements, axis=0)) == powers[0] * powers[1] == len(turns.elements)
+    assert not ((turns.elements * powers) % turns.order).any()
+
+
 def test_supports_that_no_turns_keep_have_the_identity_alone() -> None:
     line = np.array([[0, 0], [1, 0], [0, 1]])
     assert CoordinateTurns.of((line, line)).elements.tolist() == [[0, 0]]

@@ -209,23 +209,24 @@ def binomial_solutions(
     angles, owners = [np.zeros((0, n))], [np.zeros(0, dtype=np.int64)]
     for k, volume in enumerate(volumes.tolist()):
         kept = np.zeros((1, n), dtype=np.int64) if turns is None else turns.modulo(volume)
-        _, cosets = _span(adjugate[k].T % volume, volume, kept)
+        _, cosets = _span(adjugate[k].T % volume, volume, volume, kept)
         angles.append(first[k] + 2 * np.pi / volume * cosets)
         owners.append(np.full(len(cosets), k))
     return np.concatenate(angles), np.concatenate(owners)
 
 
 def _span(
-    generators: np.ndarray, modulus: int, subgroup: np.ndarray
+    generators: np.ndarray, modulus: int, size: int, subgroup: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """All sums of the ``generators`` and elements of a ``subgroup``, modulo ``modulus``, each once.
 
-    And one of each coset of the subgroup. Shapes ``(count, n)``.
+    And one of each coset of the subgroup. Shapes ``(size, n)``, as so many sums there are, and
+    ``(count, n)``.
     """
     group = subgroup
     cosets = np.zeros((1, generators.shape[1]), dtype=np.int64)
     for g in generators:
-        if len(group) == modulus:
+        if len(group) == size:
             break
         known = {tuple(x) for x in group.tolist()}
         multiples = [np.zeros_like(g)]
@@ -262,12 +263,13 @@ class CoordinateTurns:
         if lattice.rank() < n:
             return identity
         form = lattice.hnf().table()[:n]
-        if prod(int(row[i]) for i, row in enumerate(form)) > MOST_TURNS:
+        size = prod(int(row[i]) for i, row in enumerate(form))
+        if size > MOST_TURNS:
             return identity
         inverse = (flint.fmpq_mat(flint.fmpz_mat(form)) ** -1).table()
         order = lcm(*(int(c.q) for row in inverse for c in row))
         generators = np.array([[int(c * order) % order for c in row] for row in inverse]).T
-        return cls(order, _span(generators, order, identity.elements)[0])
+        return cls(order, _span(generators, order, size, identity.elements)[0])
 
     def modulo(self, modulus: int) -> np.ndarray:
         """The elements' angles in units of ``1 / modulus`` of a turn."""
