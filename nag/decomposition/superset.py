@@ -105,8 +105,7 @@ class _Outcome:
 class _Stage:
     """How sets are to meet a polynomial, where ``before`` vanish on them and ``avoid`` must not.
 
-    ``after`` are the equations that they will meet later. ``units``: variables that, as some of the
-    equations say, vanish at none of their zeros.
+    ``after`` are the equations that they will meet later. ``units``: the variables in ``avoid``.
     """
 
     before: tuple[Polynomial, ...]
@@ -228,12 +227,15 @@ def witness_superset(
     counts, notes, points = PathCounts(), [], 0
     found = Superset(sets, counts, ())
     mixing = False
+    variables = Polynomial.variables(equations[0].n) if equations else ()
     rows = [f.terms for f in (*known, *equations)]
-    units = find_nonzero_variables(rows, equations[0].n) if equations else ()
+    never_zero = (variables[i] for i in find_nonzero_variables(rows, len(variables)))
+    avoid = tuple(dict.fromkeys((*nonzero, *never_zero)))
+    units = tuple(i for i, x in enumerate(variables) if x in avoid)
     for k, f in enumerate(equations):
         run.tell("intersecting", k, len(equations))
         before, after = (*known, *equations[:k]), tuple(equations[k + 1 :])
-        stage = _Stage(before, after, found, tuple(nonzero), units, rng, run)
+        stage = _Stage(before, after, found, avoid, units, rng, run)
         best, mixing, spent = stage.best(f, mixing)
         found = best.superset
         equations[k] = best.polynomial

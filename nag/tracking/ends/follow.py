@@ -49,7 +49,8 @@ class States:
     ``found``: regular ends; ``limits``: others, or where they are tried as regular ones first.
     ``straight``: 0 where Newton's method at t = 0 is of no use; ``rough``: 1 where ``safe`` is
     known to the digits of doubles only; ``regular``: where the first trial needs no proof;
-    ``last``: the limits that were looked at last; ``most``: steps;
+    ``last``: the limits that were looked at last; ``affine``: those
+    that are infinite only if a variable vanishes there, which is not known; ``most``: steps;
     ``met``: 1 for coordinates that have exceeded their rounding errors;
     ``starts``: points at t = 1, of those that have gone on from others; ``close``: whether other
     paths run beside these.
@@ -75,6 +76,7 @@ class States:
     limits: dict[int, Limit]
     found: dict[int, np.ndarray]
     last: dict[int, Limit]
+    affine: dict[int, Limit]
     most: np.ndarray
     starts: np.ndarray | None = None
     close: bool = False
@@ -109,6 +111,7 @@ class States:
             *whole,
             np.zeros((P, N)),
             np.zeros((P, N)),
+            {},
             {},
             {},
             {},
@@ -423,11 +426,14 @@ def _limit(
     known, t, w = states.known_coordinates(path), states.t[path, 0], int(states.winding[path])
     limit = limits.of(states.where[path], found, known, states.t[path], w)
     need = needs[(w & -w).bit_length() - 1]
+    if limit is not None and limit.residual <= need and limits.is_affine(limit):
+        states.affine[path] = limit
     noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
     before = states.last.get(path)
     if limit is not None and limit.residual <= need and limits.exists(limit, noise):
         if limits.is_believed(limit, before, need):
             states.limits[path] = limit
+            states.affine.pop(path, None)
             if limit.winding > 1:
                 return end_run.LIMIT
             # No branch point at t = 0: Newton's method is tried at the limit before it counts.
@@ -471,11 +477,13 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
             own = float(states.errors[path].max())
             accuracy[path] = max(ROUNDING, own, _affine_error(homotopy, states, path))
             balls[path] = Ball(states.found[path], states.errors[path])
-        elif states.outcome[path] == end_run.LIMIT:
-            limit = states.limits[path]
+        elif states.outcome[path] == end_run.LIMIT or path in states.affine:
+            # Where it is not known whether a variable vanishes, others judge the end as a point.
+            open_ended = states.outcome[path] != end_run.LIMIT
+            limit = states.affine[path] if open_ended else states.limits[path]
             points[path], states.winding[path] = limit.point, limit.winding
             branches[path] = PathBranch(limit.winding, limit.orders, limit.branch, limit.bends)
-            finite = _is_finite(homotopy, states, path)
+            finite = open_ended or _is_finite(homotopy, states, path)
             status[path] = PathStatus.SINGULAR if finite else PathStatus.AT_INFINITY
             accuracy[path] = max(ROUNDING, BEYOND * limit.tail)
         elif path in states.last:

@@ -97,6 +97,13 @@ class Limits:
     def _fine(self) -> InitialForms:
         return InitialForms(self.terms, FINE)
 
+    def is_affine(self, limit: Limit) -> bool:
+        """Whether a limit counts as one at infinity only as some variable vanishes there."""
+        known = limit.point != 0
+        homotopy = self.terms.homotopy
+        counted, infinite = known[list(homotopy.infinity)], known[list(homotopy.rows.infinity)]
+        return bool(infinite.all() and not counted.all())
+
     def is_believed(self, limit: Limit, before: Limit | None, need: float) -> bool:
         """Whether a branch that seems to lead to infinity does so from nearer as well.
 
