@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import product
+from math import factorial
+from types import SimpleNamespace
+from typing import Annotated, NamedTuple
 
 import flint
 import numpy as np
@@ -12,12 +15,17 @@ from random_small import far_system
 
 import nag
 from nag.algebra.polynomial import Polynomial
+from nag.machine_code.lanes import scratch
+from nag.machine_code.records import Reals
 from nag.tracking.compiled import compile_rows
+from nag.tracking.ends import end_run
 from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.follow import Unfinished, follow
 from nag.tracking.ends.inclusion import prove_end
 from nag.tracking.ends.initial_forms import FINE, InitialForms
 from nag.tracking.ends.limits import Limits, digits_of_evidence
+from nag.tracking.ends.records import composition
+from nag.tracking.ends.runs import MAX_WINDING, TAIL
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.paths import NEVER, Paths, PathStatus
@@ -80,6 +88,42 @@ def test_orders_of_branches_to_infinity_are_rational(a: int, b: int) -> None:
     assert len(paths.where(PathStatus.REGULAR)) == b
     assert len(paths.where(PathStatus.AT_INFINITY)) == a
     assert len(paths.where(PathStatus.FAILED)) == 0
+
+
+class _OneSeries(NamedTuple):
+    logs: Annotated[Reals, "2 terms"]
+    base_sizes: Annotated[Reals, "1"]
+    base_weights: Annotated[Reals, "1"]
+    measures: Annotated[Reals, "2"]
+
+
+@pytest.mark.parametrize("small", [1.0, 1e-9, 1e-12])
+@pytest.mark.parametrize("w", [1, 2, 3, 5, 7])
+def test_fractional_powers_with_small_coefficients_still_make_the_winding_number(
+    w: int, small: float
+) -> None:
+    order, lanes, number = 14, 8, 60
+    t = 10.0 ** -np.arange(9.0, 9 + lanes)
+    exponents = np.arange(1, number) / w
+    sizes = np.where(exponents % 1 == 0, 1.0, small)
+    phases = np.exp(2j * np.pi * np.random.default_rng(1).random(number - 1))
+    room = scratch(_OneSeries, terms=order + 1).record
+    for k in range(order + 1):
+        # Taylor coefficients of the sum in the logarithm of t.
+        terms = sizes * phases * exponents**k / factorial(k) * t[:, None] ** exponents
+        room.logs[2 * lanes * k :][:lanes] = terms.sum(axis=1).real
+        room.logs[2 * lanes * k + lanes :][:lanes] = terms.sum(axis=1).imag
+    room.base_sizes[:], room.base_weights[:] = 1.0, 0.5
+    equations = SimpleNamespace(N=1, logarithm=composition(order).ravel())
+    batch = SimpleNamespace(order=order, tail=TAIL, max_winding=MAX_WINDING)
+    end_run._best_winding(equations, room, batch)
+    tails, found = room.measures[:lanes], room.measures[lanes : 2 * lanes]
+    assert (tails < TAIL).all()
+    if small > 1e-12:
+        assert (found == w).all()
+    else:
+        # What is left out of a series in t is no more than its tail would be.
+        assert set(found.tolist()) <= {1.0, float(w)}
 
 
 @pytest.mark.parametrize("m", [2, 3, 5])

@@ -39,6 +39,9 @@ LOSING = 1e-3
 # Size of the next terms of a series at t = 0 from which on Newton's method is tried there, in parts
 # of those of the last trial.
 TRIAL, SMALLER = 1e-2, 0.1
+# Decides: Part of the tail of a series that converges that a finer one's must be for its winding
+# number to count instead.
+BETTER = 1e-2
 # Steps, in the logarithm of t, that get a path nowhere; so often in a row they were shortened; and
 # where t leaves the range of doubles.
 SHORTEST, MOST_REJECTED, LAST_T = 1e-7, 25, 1e-280
@@ -287,14 +290,16 @@ def _advance(z, s, r, lane, b, best, winding):
 def _best_winding(s, r, b):
     """The w with the smallest tail in each lane, and that tail, into the first measures.
 
-    A power series in t^(1/w) is one for the multiples of w as well: the first one will do.
+    A power series in t^(1/w) is one for the multiples of w as well: the first one will do, unless
+    another one converges far better. So near the end any series may seem to converge.
     """
     best = splat(1e300)
     chosen = splat(0.0)
     enough = splat(b.tail)
+    better = splat(BETTER)
     for w in range(1, b.max_winding + 1):
         tail = tails(s, r, b.order, float(w))
-        tail = select_less(enough, best, tail, best)
+        tail = select_less(enough, best, tail, select_less(tail, better * best, tail, best))
         chosen = select_less(tail, best, splat(float(w)), chosen)
         best = select_less(tail, best, tail, best)
     store(r.measures, 0, best)
