@@ -18,7 +18,7 @@ from nag.witness import membership
 from nag.witness.close_to_sets import NearbyZeros
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut, Equations
-from nag.witness.fibres import Fibre, whole_space
+from nag.witness.fibres import Fibre, SliceEnds, whole_space
 from nag.witness.membership import Membership
 from nag.witness.slices import random_rows
 from nag.witness.witness import PathCounts
@@ -180,3 +180,23 @@ def test_where_a_variable_vanishes_that_vanishes_at_no_solution_is_no_step_to_on
     assert {d: sum(map(len, fibres)) for d, fibres in found.fibres.items()} == {1: 4, 0: 2}
     two = np.vstack([fibre.x for fibre in found.fibres[0]])
     assert np.abs(4 * two[:, 0] ** 2 - 1e-9).max() < 1e-22
+
+
+@pytest.mark.parametrize(
+    ("names", "excluded", "unclear"),
+    [
+        (("(x - 1)^2", "x*y"), True, 0),
+        (("(x - 1)^2", "y - x/10^20"), False, 0),  # A double zero beside y = 0.
+        (("(x - 1)^2", "(y - x/10^30)*(y - 2*x/10^30)"), False, 0),
+        (("(x - 1)^2", "y*(y - x/10^40)"), True, 1),  # One of the two that the end may be.
+        (("(x - 1)^2 + 1/100", "y - 1"), True, 1),  # Nothing is known to vanish there.
+    ],
+)
+def test_singular_ends_are_left_out_in_silence_only_where_digits_say_so(
+    names: tuple[str, ...], excluded: bool, unclear: int
+) -> None:
+    cut, found = Cut(2, 0, tuple(polynomials("x y", *names))), np.ones(1, dtype=bool)
+    points, rows = np.array([[1, 1e-20j]]), np.zeros((0, 3), dtype=complex)
+    end = SliceEnds(cut, rows, points, found, ~found, ~found, np.full(1, 1e-14))
+    out, doubtful = ends.find_excluded([Polynomial.variable(2, 1)], end)
+    assert (out.tolist(), doubtful) == ([excluded], unclear)

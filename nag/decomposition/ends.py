@@ -14,7 +14,8 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import NEAR, SAFETY, clusters, coincident
 from nag.numerics.doubles import ROUNDED
-from nag.numerics.zero_values import NONZERO, ON, possible_zeros, vanishes_at
+from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.numerics.zero_values import NONZERO, ON, vanishes_at
 from nag.tracking.run import Run
 from nag.witness.close_to_sets import NearbyZeros, find_nearby_zeros, is_among_points
 from nag.witness.confirm import find_vanishing
@@ -122,14 +123,15 @@ def find_excluded(nonzero: Sequence[Polynomial], ends: SliceEnds) -> tuple[np.nd
         unclear += True not in answers and None in answers
     singular = np.flatnonzero(result & ~ends.regular)
     # The least accurate first: what it may stand for, others of its place may as well.
-    doubtful: dict[int, bool] = {}
+    known: dict[int, bool | None] = {}
     for i in singular[np.argsort(-ends.accuracy[singular], kind="stable")].tolist():
-        twin = _twin(ends, i, doubtful, real=not len(rows))
-        known = doubtful.get(twin) if twin is not None else None
-        if known is None:
-            known = _lies_beside_excluded(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
-        doubtful[i] = known
-    return result, unclear + sum(doubtful.values())
+        twin = _twin(ends, i, known, real=not len(rows))
+        if twin is None:
+            known[i] = _is_excluded(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
+        else:
+            known[i] = known[twin]
+        result[i] = known[i] is not False
+    return result, unclear + sum(answer is None for answer in known.values())
 
 
 def _twin(ends: SliceEnds, i: int, others: Iterable[int], real: bool) -> int | None:
@@ -147,17 +149,28 @@ def _twin(ends: SliceEnds, i: int, others: Iterable[int], real: bool) -> int | N
     return None
 
 
-def _lies_beside_excluded(
+def _is_excluded(
     nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, z: np.ndarray, accuracy: float
-) -> bool:
-    """Whether an isolated zero that ``z`` may be lies beside what is excluded, and not on it.
+) -> bool | None:
+    """Whether the zero that a singular end is lies on what is excluded; None where that is open.
 
-    Ill-conditioned zeros pass for singular ones, and may be so close to it that doubles can neither
-    tell them from it nor hold a cut that makes them regular.
+    Ill-conditioned zeros pass for singular ones, and may be so close to it that doubles cannot tell
+    them from it: the digits of the zero do. Of several zeros that the end may be it is known where
+    it is the same of all.
     """
     slices, rng = pad_rows(rows, 1 + len(z)), np.random.default_rng(0)
-    zeros = possible_zeros(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices, True)
-    return not all(any(vanishes_at(zero, g) for g in nonzero) for zero in zeros)
+    end = analyse(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices, True)
+    if end.place is Place.UNDECIDED:
+        return None
+    zeros = end.nearby if end.place is Place.CLUSTER else (end,)
+    answers = {_one_vanishes(nonzero, zero) for zero in zeros}
+    return answers.pop() if len(answers) == 1 else None
+
+
+def _one_vanishes(polynomials: Sequence[Polynomial], zero: SingularEnd) -> bool | None:
+    """Whether one of some polynomials vanishes at a zero; None where that is not known."""
+    answers = {vanishes_at(zero, g) for g in polynomials}
+    return True if True in answers else None if None in answers else False
 
 
 @dataclass(frozen=True, eq=False)
