@@ -200,3 +200,12 @@ def test_singular_ends_are_left_out_in_silence_only_where_digits_say_so(
     end = SliceEnds(cut, rows, points, found, ~found, ~found, np.full(1, 1e-14))
     out, doubtful = ends.find_excluded([Polynomial.variable(2, 1)], end)
     assert (out.tolist(), doubtful) == ([excluded], unclear)
+
+
+def test_a_variable_that_equations_keep_from_zero_may_be_smaller_than_digits_tell() -> None:
+    cut, found = Cut(2, 0, polynomials("x y", "x - 10^30", "y - 1/10^90")), np.ones(1, dtype=bool)
+    points, rows = np.array([[1e30, 1e-90 + 0j]]), np.zeros((0, 3), dtype=complex)
+    end = SliceEnds(cut, rows, points, found, found, ~found, np.full(1, 1e-15))
+    y = Polynomial.variable(2, 1)
+    assert ends.find_excluded([y], end, [y])[0].tolist() == [False]
+    assert sum(map(len, ends.collect([end], [y], [y]).fibres)) == 1

@@ -48,11 +48,14 @@ class Candidates:
     lost: list[tuple[Cluster, int]]
 
 
-def collect(pieces: Sequence[SliceEnds], nonzero: Sequence[Polynomial]) -> Candidates:
+def collect(
+    pieces: Sequence[SliceEnds], nonzero: Sequence[Polynomial], told: Sequence[Polynomial] = ()
+) -> Candidates:
     """The ends of paths to points on a slice, with the systems that cut them.
 
     Args:
         nonzero: polynomials that must not vanish; ends where one does are left out.
+        told: those of them that vanish at no regular end, as paths have told.
     """
     n = pieces[0].cut.n
     fibres: list[Fibre] = []
@@ -62,7 +65,7 @@ def collect(pieces: Sequence[SliceEnds], nonzero: Sequence[Polynomial]) -> Candi
     failed, every = [np.zeros((0, n), dtype=complex)], []
     for ends in pieces:
         x = ends.x
-        left_out, doubtful = find_excluded(nonzero, ends)
+        left_out, doubtful = find_excluded(nonzero, ends, told)
         allowed, unclear = ends.finite & ~left_out, unclear + doubtful
         # The tracker has seen that ends of one piece are distinct.
         chosen = [
@@ -103,10 +106,14 @@ def seem_excluded(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np
     return (residuals < limit[:, None]).any(axis=1)
 
 
-def find_excluded(nonzero: Sequence[Polynomial], ends: SliceEnds) -> tuple[np.ndarray, int]:
+def find_excluded(
+    nonzero: Sequence[Polynomial], ends: SliceEnds, told: Sequence[Polynomial] = ()
+) -> tuple[np.ndarray, int]:
     """Which ends lie where a polynomial that must not vanish does, decided in digits.
 
-    Also of how many of these that is not known; they are left out.
+    Also of how many of these that is not known; they are left out. Of regular ends it is not asked
+    of those that are ``told`` not to vanish there: a path knows each coordinate relative to its own
+    size, digits of a point relative to the largest.
     """
     cut, rows, result, unclear = ends.cut, ends.rows, ends.finite.copy(), 0
     if not nonzero or not result.any():
@@ -116,7 +123,8 @@ def find_excluded(nonzero: Sequence[Polynomial], ends: SliceEnds) -> tuple[np.nd
     regular = np.flatnonzero(result & ends.regular)
     small = (evaluator.residuals(ends.x[regular]) < ON).any(axis=0)
     at_regular = ends.fibre(regular)
-    each = [find_vanishing(at_regular, g) for g, may in zip(nonzero, small, strict=True) if may]
+    asked = [g for g, may in zip(nonzero, small, strict=True) if may and g not in told]
+    each = [find_vanishing(at_regular, g) for g in asked]
     for k, i in enumerate(regular):
         answers = [own[k] for own in each]
         result[i] = True in answers or None in answers

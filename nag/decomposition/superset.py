@@ -105,7 +105,8 @@ class _Outcome:
 class _Stage:
     """How sets are to meet a polynomial, where ``before`` vanish on them and ``avoid`` must not.
 
-    ``after`` are the equations that they will meet later. ``units``: the variables in ``avoid``.
+    ``after`` are the equations that they will meet later. ``units``: the variables in ``avoid``;
+    ``told``: those that equations keep from zero.
     """
 
     before: tuple[Polynomial, ...]
@@ -113,6 +114,7 @@ class _Stage:
     found: Superset
     avoid: tuple[Polynomial, ...]
     units: tuple[int, ...]
+    told: tuple[Polynomial, ...]
     rng: np.random.Generator
     run: Run
 
@@ -180,7 +182,7 @@ class _Stage:
         counts, notes, higher, recovered = PathCounts(), [], 0, {}
         for d in sorted(crossed.ends, reverse=True):
             higher = len(notes)
-            candidates = collect(crossed.ends[d], self.avoid)
+            candidates = collect(crossed.ends[d], self.avoid, self.told)
             rows = crossed.ends[d][0].rows
             singular = SingularEnds(so_far, rows, self.rng, self.run, self.after, self.avoid)
             if candidates.unclear:
@@ -229,13 +231,14 @@ def witness_superset(
     mixing = False
     variables = Polynomial.variables(equations[0].n) if equations else ()
     rows = [f.terms for f in (*known, *equations)]
-    never_zero = (variables[i] for i in find_nonzero_variables(rows, len(variables)))
+    never_zero = [variables[i] for i in find_nonzero_variables(rows, len(variables))]
     avoid = tuple(dict.fromkeys((*nonzero, *never_zero)))
+    told = tuple(x for x in never_zero if x not in nonzero)
     units = tuple(i for i, x in enumerate(variables) if x in avoid)
     for k, f in enumerate(equations):
         run.tell("intersecting", k, len(equations))
         before, after = (*known, *equations[:k]), tuple(equations[k + 1 :])
-        stage = _Stage(before, after, found, avoid, units, rng, run)
+        stage = _Stage(before, after, found, avoid, units, told, rng, run)
         best, mixing, spent = stage.best(f, mixing)
         found = best.superset
         equations[k] = best.polynomial
