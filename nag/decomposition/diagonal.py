@@ -28,6 +28,7 @@ from nag.numerics.coincidence import classify_arrivals, clusters, coincident
 from nag.numerics.digits import bits_of
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
+from nag.text.table import count_text
 from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, PointInWords, fine_of_balls
 from nag.witness.confirm import find_vanishing, zero_in_digits
@@ -234,7 +235,7 @@ class _Diagonal:
             out, unknown = find_excluded(self.nonzero, replace(ends, finite=here))
             here &= ~out
             if unknown:
-                self.notes.append(f"{unknown} points may be such as are excluded")
+                self.notes.append(f"{count_text(unknown, 'point')} may be excluded")
             unclear = int(np.sum(away & doubtful))
             on.append(ends.points[here, : product.n])
             errors.append(ends.accuracy[here])

@@ -186,7 +186,7 @@ class _Stage:
             rows = crossed.ends[d][0].rows
             singular = SingularEnds(so_far, rows, self.rng, self.run, self.after, self.avoid)
             if candidates.unclear:
-                notes.append(f"{candidates.unclear} points may be such as are excluded")
+                notes.append(f"{count_text(candidates.unclear, 'point')} may be excluded")
             for fibre in candidates.fibres:
                 if fibre.cut.deflated:
                     fibre, doubts, used = self.keep_on_no_other(fibre, kept)

@@ -473,7 +473,7 @@ def _solutions(
     notes = []
     if None in answers:
         open_ = problem.on_one_side(answers.count(None))
-        notes.append(f"{open_} solutions may be such as are excluded")
+        notes.append(f"{count_text(open_, 'solution')} may be excluded")
     if not paired:
         notes.append("the conjugate of a solution is missing")
     return kept, left_out, tuple(notes)
