@@ -120,3 +120,15 @@ def test_a_multiple_zero_known_to_hundreds_of_digits_is_made_regular_by_deflatio
     assert multiple.status is nag.Status.IRREDUCIBLE and not multiple.note
     x = -4 / 275
     assert np.allclose(multiple.points[0], [x, -17 * x**2 / 1925, -5, 0], atol=1e-15)
+
+
+def test_zeros_of_branches_that_gradients_show_to_be_simple_need_no_local_ring(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def none(*_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr("nag.numerics.branch_union.generic_multiplicity", none)
+    monkeypatch.setattr(BranchEquations, "is_own_ring", none)
+    answer = nag.solve(["x*(x + 2*y - 3)", "y*(3*x - y + 5)"])
+    assert [s.multiplicity for s in answer.solutions] == [1, 1, 1, 1]

@@ -205,13 +205,13 @@ def multiplicities_in_scheme(
 
 def _multiplicity(equations: Sequence[Factors], gradients: Gradients, each: GenericPoint) -> int:
     codimension = len(each.point) - each.dimension
-    if each.zero is None and each.multiplicity_in_branch:
-        # A scheme is reduced where as many gradients are independent as its codimension.
-        simple = each.multiplicity_in_branch == 1
-        if simple and gradients.rank(each.point, each.error) >= codimension:
-            return 1
-        if each.branch.is_own_ring(equations, each.vanishes):
-            return each.multiplicity_in_branch
+    # A scheme is reduced where as many gradients are independent as its codimension.
+    simple = each.multiplicity_in_branch == 1
+    if simple and gradients.rank(each.point, each.error) >= codimension:
+        return 1
+    own = each.zero is None and each.multiplicity_in_branch
+    if own and each.branch.is_own_ring(equations, each.vanishes):
+        return each.multiplicity_in_branch
     return generic_multiplicity(
         equations,
         codimension,
