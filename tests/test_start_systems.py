@@ -7,9 +7,11 @@ from math import comb, prod
 
 import numpy as np
 import pytest
+from classical_systems import make_classic
 from evaluated import jacobian, patch, values
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from systems import benchmark
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
@@ -25,7 +27,7 @@ from nag.solving.start.multihomogeneous import (
     multihomogeneous,
 )
 from nag.solving.start.target import StartSystem, Target
-from nag.solving.start.total_degree import bezout, total_degree
+from nag.solving.start.total_degree import bezout, has_bezouts_volume, total_degree
 from nag.tracking.paths import PathStatus
 from nag.tracking.track import track
 
@@ -158,15 +160,49 @@ def test_a_polyhedral_start_is_the_same_however_many_paths_are_made_ready_togeth
     assert np.array_equal(start.points, expected.points)
 
 
-def test_as_many_paths_of_products_of_linear_forms_are_more_work_than_those_of_monomials() -> None:
-    names = [f"x{i}" for i in range(1, 9)]
-    rows = [
-        f"16*{x} - {x}*(1 + " + " + ".join(f"{k}/{k + i}*x{i}" for i in range(1, 8)) + ") - 16"
-        for k, x in enumerate(names, 1)
-    ]
-    start, reason = choose(target(" ".join(names), *rows), "auto", (), np.random.default_rng(0), 1)
-    assert "multihomogeneous 128" in reason and "mixed volume 128" in reason
-    assert start.name == "polyhedral"
+def test_few_paths_give_way_to_fewer_of_a_polyhedral_start() -> None:
+    each = target("x y", "x^10 - 3*x^6*y + 7*y^2 - 1", "y^3 + x^5*y - 2*x + 5")
+    start, reason = choose(each, "auto", (), np.random.default_rng(0), 1)
+    assert start.name == "polyhedral" and len(start.points) == 30
+    assert "mixed volume 30" in reason
+
+
+def test_a_mixed_volume_that_is_bezouts_number_needs_no_mixed_cells(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def none(*_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr("nag.solving.start.mixed_cells.mixed_cells", none)
+    start, reason = choose(benchmark("katsura-8"), "auto", (), np.random.default_rng(0), 1)
+    assert start.name == "total" and start.known.bound == 256
+    assert "mixed volume 256" in reason
+
+
+@pytest.mark.parametrize(("name", "chosen"), [("reimer 5", "polyhedral"), ("katsura 9", "total")])
+def test_where_no_paths_are_saved_some_in_doubles_tell_the_start(name: str, chosen: str) -> None:
+    system = make_classic(name).system
+    each = Target.of(system.polynomials, system.n)
+    start, reason = choose(each, "auto", (), np.random.default_rng(0), 1)
+    assert start.name == chosen
+    assert ("doubles finish" in reason) == (chosen == "polyhedral")
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_bezouts_number_is_the_mixed_volume_just_where_sets_of_coordinates_say_so(
+    seed: int,
+) -> None:
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 5))
+    degrees = rng.integers(1, 4, n).tolist()
+    supports = []
+    for d in degrees:
+        mixed = rng.multinomial(d, np.full(n + 1, 1 / (n + 1)), 6)[:, 1:]
+        vertices = d * np.eye(n + 1, dtype=np.int64)[rng.random(n + 1) < 0.8, 1:]
+        linear = np.eye(n, dtype=np.int64)[:1] * d
+        supports.append(np.unique(np.concatenate([mixed, vertices, linear]), axis=0))
+    volume = mixed_cells(tuple(supports), rng).mixed_volume
+    assert has_bezouts_volume(supports) == (volume == prod(degrees))
 
 
 def test_unknown_kinds_and_too_many_paths_are_refused() -> None:

@@ -145,6 +145,18 @@ def track_members(
     return _judge_ends(homotopy, raw, member)[0]
 
 
+def end_in_doubles(
+    homotopy: Homotopy, starts: np.ndarray, settings: Settings | str = "default", threads: int = 1
+) -> np.ndarray:
+    """Which paths from ``starts``, shape ``(P, N)``, doubles bring to regular ends: shape ``(P,)``.
+
+    The others are those that `track` follows in more digits.
+    """
+    begin = homotopy.normalized(starts)
+    raw = run_in_doubles(homotopy, begin, find_settings(settings), threads, True)
+    return _judge_ends(homotopy, raw)[0].status == PathStatus.REGULAR
+
+
 class RegularEnds(NamedTuple):
     """Finite regular zeros in which paths ended.
 

@@ -16,11 +16,19 @@ from nag.solving.start.multihomogeneous import (
     terms_of_start,
 )
 from nag.solving.start.target import StartSystem, Target, group_degrees
-from nag.solving.start.total_degree import Shape, bezout, total_degree
-from nag.tracking.known import KnownOfPaths
+from nag.solving.start.total_degree import Shape, bezout, has_bezouts_volume, total_degree
+from nag.tracking.track import end_in_doubles
 
-# So few paths are tracked in less time than another start system takes to be found.
+# So few paths are tracked in less time than groups of variables take to be found for fewer.
 FEW = 64
+# Mixed cells of systems with few paths are found in half a millisecond, which each path to infinity
+# takes and more; fewer paths than these may as well be tracked.
+FEWEST = 4
+# Where no start system saves paths, one of so many is tried in doubles, if there are so many in
+# all, and at most so many. Where more than this part of them does not end there, the paths of a
+# polyhedral start are better: its monomials take less time than products of linear forms in more
+# digits, and may keep the target's symmetries.
+TRIED_OF, LEAST_TRIED, MOST_TRIED, UNFINISHED = 64, 8, 32, 0.2
 
 
 def check_kind(kind: str) -> None:
@@ -87,31 +95,32 @@ def _least_work(
     generic: bool,
 ) -> tuple[StartSystem, str]:
     """The start system of least work; ``given`` groups are tried."""
-    total, shape = bezout(target), Shape.of(target)
+    total, shape, sparse = bezout(target), Shape.of(target), target.sparsest
     tracked = total if generic else shape.interchange.paths(target.degrees)
     counts = [f"total degree {total}"]
     groups, number = (tuple(range(target.n)),), total
     if tracked < total:
         counts = [f"total degree {total} ({tracked} but for interchanges of variables)"]
-    if tracked == total or tracked > FEW:
+    # Then no start system has fewer paths.
+    dense = total > FEWEST and sparse.degrees == target.degrees
+    dense = dense and has_bezouts_volume(sparse.supports)
+    if not dense and (tracked == total or tracked > FEW):
         groups, number = _usable_groups(target, given)
     if len(groups) > 1:
         counts.append(f"multihomogeneous {number} in {_groups(groups)}")
     least, most, bound = min(tracked, number), None, None
     # Few paths may still have infinite ends, which so many zeros show to be that.
-    if min(total, number) > FEW:
+    if min(total, number) > FEWEST:
         from nag.solving.start.mixed_cells import mixed_cells
         from nag.solving.start.polyhedral import polyhedral
 
-        sparse = target.sparsest
         try:
-            cells = mixed_cells(sparse.supports, rng)
-            volume = bound = cells.mixed_volume
+            cells = None if dense else mixed_cells(sparse.supports, rng)
+            volume = bound = total if cells is None else cells.mixed_volume
             counts.append(f"mixed volume {volume}")
             # Its start system is found by a regular path for each of its own, which doubles finish;
-            # a path to infinity that it saves takes as much time as ten of these and more. Where
-            # none is saved, products of linear forms still cost more at each step than monomials.
-            if 0 < volume < least or (number < tracked and volume == number):
+            # a path to infinity that it saves takes as much time as ten of these and more.
+            if cells is not None and 0 < volume < least:
                 start = polyhedral(sparse, cells, rng, threads)
                 return start, f"polyhedral, the least work: {', '.join(counts)}"
             # Zeros in a system's polytopes' directions make them fewer than the mixed volume
@@ -123,13 +132,32 @@ def _least_work(
     elif least > 1:
         counts.append("so few that the mixed volume was not needed")
     if number < tracked:
-        start = replace(
-            multihomogeneous(target, groups, rng), known=KnownOfPaths(most, bound=bound)
-        )
-        return start, f"multihomogeneous, the least work: {', '.join(counts)}"
-    start = total_degree(target, rng, generic, shape)
+        name, start = "multihomogeneous", multihomogeneous(target, groups, rng)
+    else:
+        name, start = "total degree", total_degree(target, rng, generic, shape)
+    if bound == least and not _are_finished(start, threads):
+        try:
+            cells = mixed_cells(sparse.supports, rng) if cells is None else cells
+            start = polyhedral(sparse, cells, rng, threads)
+            counts.append("of whose paths doubles finish more")
+            return start, f"polyhedral, the least work: {', '.join(counts)}"
+        except StartError as error:
+            counts.append(str(error))
     start = replace(start, known=replace(start.known, most=most, bound=bound))
-    return start, f"total degree, the least work: {', '.join(counts)}"
+    return start, f"{name}, the least work: {', '.join(counts)}"
+
+
+def _are_finished(start: StartSystem, threads: int) -> bool:
+    """Whether doubles bring most paths to regular ends, judged by a few of them.
+
+    Where the paths are few, this is not asked.
+    """
+    number = len(start.points)
+    tried = min(number // TRIED_OF, MOST_TRIED)
+    if tried < LEAST_TRIED:
+        return True
+    some = start.points[np.linspace(0, number - 1, tried).astype(int)]
+    return float(np.mean(end_in_doubles(start.homotopy, some, threads=threads))) > 1 - UNFINISHED
 
 
 def _usable_groups(target: Target, given: Groups) -> tuple[Groups, int]:

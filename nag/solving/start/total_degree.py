@@ -10,6 +10,7 @@ near the end. The price is longer polynomials.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations_with_replacement
@@ -38,6 +39,8 @@ from nag.tracking.starts import StartsByIndex
 MOST_TERMS = 10_000
 # Ends are kept in memory.
 MOST_PATHS = 4_000_000
+# The sets of homogeneous coordinates of so many variables are looked through in a millisecond.
+MOST_VARIABLES = 13
 
 Row = dict[Exponents, complex]
 
@@ -45,6 +48,33 @@ Row = dict[Exponents, complex]
 def bezout(target: Target) -> int:
     """The product of the degrees."""
     return prod(target.degrees)
+
+
+def has_bezouts_volume(supports: Sequence[np.ndarray]) -> bool | None:
+    """Whether the mixed volume of the supports is the product of their degrees.
+
+    It is where, of any number of the homogeneous coordinates, but not all, at least as many rows
+    have a term in these alone (Chen, Unmixing the mixed volume computation, 2019, theorem 1, for
+    simplices). None where the sets of coordinates are too many.
+
+    Args:
+        supports: the exponents of each row, shape ``(terms, n)``.
+    """
+    n = len(supports)
+    if n > MOST_VARIABLES:
+        return None
+    powers = 2 ** np.arange(1 + n)
+    touched = np.zeros((n, 2 ** (1 + n)), dtype=bool)
+    for row, support in zip(touched, supports, strict=True):
+        size = support.sum(axis=1)
+        row[(support > 0) @ powers[1:] + (size < size.max(initial=0))] = True
+    sizes = np.zeros(2 ** (1 + n), dtype=np.int64)
+    for power in powers.tolist():
+        # What lies in a set of coordinates lies in each that has one more.
+        halves = touched.reshape(n, -1, 2, power)
+        halves[:, :, 1] |= halves[:, :, 0]
+        sizes.reshape(-1, 2, power)[:, 1] += 1
+    return bool((touched.sum(axis=0) >= sizes)[:-1].all())
 
 
 def _linear_rows(target: Target) -> tuple[list[int], np.ndarray, list[int]]:
