@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import combinations, combinations_with_replacement, product
+from itertools import combinations, combinations_with_replacement, pairwise, product
 from math import comb
 from pathlib import Path
 
@@ -109,9 +109,11 @@ def eco(n: int) -> Equations:
     x = _unknowns("x", n)
     last = x.pop()
     lines = [
-        f"({x[k]}" + "".join(f" + {x[i]}*{x[i + k + 1]}" for i in range(n - 2 - k)) + f")*{last} - {k + 1}"
+        f"({x[k]}"
+        + "".join(f" + {x[i]}*{x[i + k + 1]}" for i in range(n - 2 - k))
+        + f")*{last} - {k + 1}"
         for k in range(n - 1)
-    ]  # fmt: skip
+    ]
     return [*x, last], [*lines, f"{' + '.join(x)} + 1"]
 
 
@@ -139,7 +141,8 @@ def chandra(n: int) -> Equations:
 def lotka_volterra(n: int) -> Equations:
     """Equilibria of n species."""
     x = _unknowns("x", n)
-    return x, [f"{x[i]}*({_form(row, ['1', *x])})" for i, row in enumerate(_integers(n, n + 1, most=999))]
+    rates = _integers(n, n + 1, most=999)
+    return x, [f"{v}*({_form(row, ['1', *x])})" for v, row in zip(x, rates, strict=True)]
 
 
 def reimer(n: int) -> Equations:
@@ -164,9 +167,7 @@ def kuramoto(n: int) -> Equations:
     weights = abs(_integers(n, n))
     weights = weights + weights.T
     balances = [
-        " + ".join(
-            f"{weights[i, j]}*({s[i]}*{c[j]} - {c[i]}*{s[j]})" for j in range(n) if j != i
-        )
+        " + ".join(f"{weights[i, j]}*({s[i]}*{c[j]} - {c[i]}*{s[j]})" for j in range(n) if j != i)
         + f" - {i + 3}"
         for i in range(n - 1)
     ]
@@ -341,7 +342,7 @@ def lines(n: int) -> Equations:
     parts: list[list[str]] = [[] for _ in range(degree + 1)]
     for c, bars in zip(coefficients, monomials, strict=True):
         places = [-1, *bars, degree + n]
-        powers = [q - p - 1 for p, q in zip(places, places[1:], strict=False)]
+        powers = [q - p - 1 for p, q in pairwise(places)]
         for taken in product(*(range(k + 1) for k in powers[2:])):
             factor, factors = int(c), []
             for i, (k, j) in enumerate(zip(powers[2:], taken, strict=True), 1):
@@ -382,9 +383,7 @@ FAMILIES = {
     "eco": ClassicalFamily(eco, {(n,): 2 ** (n - 2) for n in (6, 8, 10, 12)}),
     "redeco": ClassicalFamily(redeco, {(n,): 2 ** (n - 2) for n in (8, 10, 12)}),
     "chandra": ClassicalFamily(chandra, {(n,): 2 ** (n - 1) for n in (6, 8, 10, 11, 12)}),
-    "lotka-volterra": ClassicalFamily(
-        lotka_volterra, {(n,): 2**n for n in (5, 8, 10, 11, 12, 14)}
-    ),
+    "lotka-volterra": ClassicalFamily(lotka_volterra, {(n,): 2**n for n in (5, 8, 10, 11, 12, 14)}),
     "reimer": ClassicalFamily(reimer, {(4,): 36, (5,): 144, (6,): 576}),
     "kss": ClassicalFamily(kss, {(4,): 6, (5,): 17, (6,): 23}),
     "kuramoto": ClassicalFamily(kuramoto, {(n,): comb(2 * n - 2, n - 1) for n in (4, 5, 6)}),

@@ -1,13 +1,14 @@
 """Processor times of the classical systems from every start, beside other programs'.
 
     python tests/start_times.py TABLE.json [--name NAME ...] [--ask auto|starts|phc|M2 ...]
-        [--limit SECONDS] [--again]
+        [--limit SECONDS] [--least SECONDS] [--again]
 
 Asked in turn, and kept in TABLE.json, where a run that was cut off goes on: the start that is
 chosen, every other start, PHCpack's blackbox solver and Macaulay2. Prints the table as Markdown,
 one line a system. A start is ended where it has taken half as long again as the one that was
-chosen, and a second. Exit status 1 if an answer is wrong or incomplete, or if another start takes
-less than the time of the chosen one divided by 1.3.
+chosen, and two seconds; another program where it has taken twice as long, and five seconds. Exit
+status 1 if an answer is wrong or incomplete, if another start takes less than the time of the
+chosen one divided by 1.3, or if another program that finds as many zeros takes less.
 """
 
 from __future__ import annotations
@@ -34,6 +35,9 @@ PEERS = ("phc", "M2")
 ASKS = ("auto", "starts", *PEERS)
 # What takes less than so many seconds is repeated until it has taken them, at most so often.
 SHORT, MOST_RUNS = 0.4, 20
+# What is asked is ended after so many seconds and so many times those of the chosen start: another
+# program takes seconds to begin.
+ENDED = {"starts": (2.0, 1.5), "peers": (5.0, 2.0)}
 # No start may take so many bytes.
 MEMORY = 8 << 30
 # Where times lie within so many seconds of each other, none of them is longer.
@@ -128,14 +132,15 @@ def ask(table: Table, names: Sequence[str], what: str, limit: float, again: bool
     def missing(by: str) -> list[Task]:
         return [Task(n, by) for n in names if again or by not in table.row(n)]
 
-    if what in PEERS:
-        for task in missing(what):
-            table.keep(task, ask_peer(task, limit))
-        return
-
     def seconds(task: Task) -> float:
         chosen = table.row(task.name).get("auto")
-        return limit if chosen is None else min(limit, 1.0 + 1.5 * chosen.seconds + 2 * SHORT)
+        first, times = ENDED["peers" if what in PEERS else "starts"]
+        return limit if chosen is None else min(limit, first + times * chosen.seconds)
+
+    if what in PEERS:
+        for task in missing(what):
+            table.keep(task, ask_peer(task, seconds(task)))
+        return
 
     starts = ("auto",) if what == "auto" else STARTS
     allowed = (lambda _: limit) if what == "auto" else seconds
@@ -167,14 +172,25 @@ def cell(entry: Entry | None, expected: int | None, of_peer: bool = False) -> st
     return f"{entry.seconds:.3g}" + ("" if right else f" ({entry.found})")
 
 
+def best_start(row: dict[str, Entry], expected: int | None) -> str:
+    """The start that takes the least time, and that."""
+    usable = [(row[k].seconds, k) for k in STARTS if k in row and is_usable(row[k], expected)]
+    return "{1} {0:.3g}".format(*min(usable)) if usable else "-"
+
+
+def is_beaten(row: dict[str, Entry], expected: int | None) -> bool:
+    """Whether another program gives as many zeros as there are, and takes less time."""
+    right = [row[k].seconds for k in PEERS if k in row and row[k].found == expected is not None]
+    return min(right, default=LEAST) < row["auto"].seconds - LEAST
+
+
 def line(name: str, row: dict[str, Entry]) -> str:
     """A line of the table."""
     expected, auto = make_classic(name).count, row["auto"]
     found = "-" if auto.found is None else f"{auto.found}{'' if auto.complete else ' incomplete'}"
     known = "?" if expected is None else str(expected)
     cells = [name, known, found, str(auto.paths), cell(auto, expected)]
-    cells += [cell(row.get(start), expected) for start in STARTS]
-    cells += [f"{ratio(row, expected):.2f}"]
+    cells += [best_start(row, expected), f"{ratio(row, expected):.2f}"]
     cells += [cell(row.get(peer), expected, of_peer=True) for peer in PEERS]
     return f"| {' | '.join(cells)} |"
 
@@ -185,19 +201,22 @@ def main() -> int:
     parser.add_argument("--name", action="append", help="a system, like 'katsura 8'; default: all")
     parser.add_argument("--ask", action="append", choices=ASKS, help="default: all")
     parser.add_argument("--limit", type=float, default=60.0, help="seconds for one answer")
+    parser.add_argument("--least", type=float, default=0.0, help="print what takes as long")
     parser.add_argument("--again", action="store_true", help="also what is in the table")
     options = parser.parse_args()
     table, names = Table(options.table), options.name or classic_names()
     for what in options.ask or ASKS:
         ask(table, names, what, options.limit, options.again)
-    head = ["system", "zeros", "found", "paths", "auto", *STARTS, "auto/best", *PEERS]
+    head = ["system", "zeros", "found", "paths", "auto", "best start", "auto/best", *PEERS]
     print(f"| {' | '.join(head)} |\n|{'---|' * len(head)}")
     good = True
     for name in names:
         row, expected = table.row(name), make_classic(name).count
         if "auto" in row:
-            print(line(name, row))
+            if row["auto"].seconds >= options.least:
+                print(line(name, row))
             good &= is_usable(row["auto"], expected) and ratio(row, expected) <= WORST
+            good &= not is_beaten(row, expected)
     return 0 if good else 1
 
 

@@ -103,7 +103,7 @@ def _least_work(
         counts = [f"total degree {total} ({tracked} but for interchanges of variables)"]
     # Then no start system has fewer paths.
     dense = total > FEWEST and sparse.degrees == target.degrees
-    dense = dense and has_bezouts_volume(sparse.supports)
+    dense = dense and bool(has_bezouts_volume(sparse.supports))
     if not dense and (tracked == total or tracked > FEW):
         groups, number = _usable_groups(target, given)
     if len(groups) > 1:
