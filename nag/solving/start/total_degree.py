@@ -39,7 +39,7 @@ from nag.tracking.starts import StartsByIndex
 MOST_TERMS = 10_000
 # Ends are kept in memory.
 MOST_PATHS = 4_000_000
-# The sets of homogeneous coordinates of so many variables are looked through in a millisecond.
+# The sets of homogeneous coordinates of so many variables are looked through in two milliseconds.
 MOST_VARIABLES = 13
 
 Row = dict[Exponents, complex]
@@ -54,7 +54,7 @@ def has_bezouts_volume(supports: Sequence[np.ndarray]) -> bool | None:
     """Whether the mixed volume of the supports is the product of their degrees.
 
     It is where, of any number of the homogeneous coordinates, but not all, at least as many rows
-    have a term in these alone (Chen, Unmixing the mixed volume computation, 2019, theorem 1, for
+    have a term in these alone (what Chen, Unmixing the mixed volume computation, 2019, says of
     simplices). None where the sets of coordinates are too many.
 
     Args:
