@@ -12,7 +12,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import ends
 from nag.decomposition.decompose import decompose
-from nag.decomposition.superset import Superset, intersection_order, witness_superset
+from nag.decomposition.superset import Superset, _Stage, intersection_order, witness_superset
 from nag.tracking.run import Run
 from nag.witness import membership
 from nag.witness.close_to_sets import NearbyZeros
@@ -92,6 +92,21 @@ def test_an_isolated_end_of_a_deflated_surface_may_lie_on_a_curve(seed: int) -> 
     assert answer.complete
     found = Counter((c.dimension, c.degree, c.multiplicity) for c in answer.components)
     assert found == {(2, 2, 2): 1, (1, 3, 1): 1, (1, 1, 3): 1}
+
+
+def test_digits_tell_points_from_larger_sets_where_paths_do_not(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    lost = Membership.UNDECIDED, PathCounts()
+    monkeypatch.setattr("nag.decomposition.superset.is_on_larger_set", lambda *_: lost)
+    # The line x = 0 and the double point (1, 1).
+    equations = Equations(polynomials("x y", "x*(x - 1)^2", "x*(y - 1)"), 2)
+    points = np.array([[1, 1], [0, 3]], dtype=complex)
+    fibre = Fibre(Cut(2, 0, equations.polynomials), np.zeros((0, 3), dtype=complex), points)
+    empty = Superset({}, PathCounts(), ())
+    stage = _Stage((), (), empty, (), (), (), np.random.default_rng(0), Run())
+    kept, notes, _ = stage.keep_on_no_other(fibre, {}, equations)
+    assert np.array_equal(kept.x, points[:1]) and not notes
 
 
 def test_equations_are_met_in_an_order_that_brings_in_few_variables_at_a_time() -> None:

@@ -18,6 +18,7 @@ from nag.decomposition.hypersurface import HypersurfaceSection, hypersurface_sec
 from nag.numerics.coincidence import coincident
 from nag.text.table import count_text
 from nag.tracking.run import Run
+from nag.witness.close_to_sets import find_nearby_zeros
 from nag.witness.cutting import Equations, dyadic, leading_power
 from nag.witness.fibres import Fibre
 from nag.witness.membership import Membership, is_on_larger_set
@@ -148,12 +149,13 @@ class _Stage:
         return _Outcome(f, crossed, found), PathCounts(crossed.counts.tracked) + spent
 
     def keep_on_no_other(
-        self, fibre: Fibre, kept: Mapping[int, Sequence[Fibre]]
+        self, fibre: Fibre, kept: Mapping[int, Sequence[Fibre]], equations: Equations
     ) -> tuple[Fibre, list[str], PathCounts]:
-        """The points of a deflated fibre that lie on no other set.
+        """The points of a deflated fibre that lie on no other set of zeros of ``equations``.
 
         Deflation of one component takes others out of the zeros of its equations, so that a point
-        may be a regular one where it lies on another component of all equations.
+        may be a regular one where it lies on another component of all equations. Where paths of the
+        larger sets do not tell, digits do.
         """
         counts, notes, d = PathCounts(), [], fibre.dimension
         same = np.vstack([other.x for other in kept.get(d, ())] or [fibre.x[:0]])
@@ -164,9 +166,12 @@ class _Stage:
                 continue
             answer, used = is_on_larger_set(x, REGULAR, kept, d, self.rng, self.run)
             counts += used
-            if answer is Membership.UNDECIDED:
-                notes.append(f"a point of dimension {d} could not be told from a larger set")
             mask[i] = answer is Membership.FOREIGN
+            if answer is Membership.UNDECIDED:
+                near = find_nearby_zeros([(x, REGULAR)], equations, fibre.rows, self.rng)
+                mask[i] = near.decided and len(near.zeros) > 0
+                if not near.decided:
+                    notes.append(f"a point of dimension {d} could not be told from a larger set")
         return fibre.only(mask), notes, counts
 
     def superset(
@@ -189,7 +194,7 @@ class _Stage:
                 notes.append(f"{count_text(candidates.unclear, 'point')} may be excluded")
             for fibre in candidates.fibres:
                 if fibre.cut.deflated:
-                    fibre, doubts, used = self.keep_on_no_other(fibre, kept)
+                    fibre, doubts, used = self.keep_on_no_other(fibre, kept, so_far)
                     counts += used
                     notes += doubts
                 kept.setdefault(d, []).append(fibre)
