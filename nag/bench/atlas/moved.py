@@ -160,7 +160,8 @@ SOLVED: dict[str, tuple[str, ...]] = {
         "benchmarks/cyclic-5", "benchmarks/cyclic-6", "benchmarks/cyclic-7",
     ),
     "solved-hard": (
-        "hard/cassou", "hard/chemequ", "hard/pb601", "hard/stewgou40", "benchmarks/reimer-5",
+        "hard/cassou", "hard/chemequ", "hard/inverse-position", "hard/pb601", "hard/stewgou40",
+        "benchmarks/reimer-5",
     ),
     "solved-polyhedral": (
         "benchmarks/chandra-11", "benchmarks/degree-60", "benchmarks/eisen-60",
