@@ -28,6 +28,7 @@ import flint
 import numpy as np
 
 from nag.numerics.ball_ranks import regular_block
+from nag.numerics.corank import find_zero_of_corank
 from nag.numerics.descent import Descent, Point, Round, descend, total_work
 from nag.numerics.digits import DIGITS, SPARE, log_norm, log_size, middle, working_digits
 from nag.numerics.exact_system import ExactSystem
@@ -179,18 +180,21 @@ def deflate(
     reach: float,
     rng: np.random.Generator,
     patience: float = 1.0,
+    most: int | None = None,
 ) -> DeflatedPoint:
     """Rounds that make the zero within ``reach`` of ``x`` regular, and that zero.
 
     Where what remains after a round vanishes to all orders that were looked at, the point is left
     as it is in the variables that remain (`Deflated.free` of them): a smooth set of zeros seems to
-    pass through it.
+    pass through it. Where its corank asks for more than ``most`` zeros, a zero of that corank is
+    enough.
 
     Args:
         system: equations, exact.
         x: in the system's scaled variables.
         reach: decimal logarithm of how far the zero may be.
         patience: part of the usual work after which series are too long.
+        most: the largest multiplicity that an isolated zero may have there, if that is known.
 
     Raises:
         NotDeflated: if the rounds lead nowhere, or away from ``x``.
@@ -204,6 +208,10 @@ def deflate(
         while True:
             this = certain_round(slopes, centre, reach, rng)
             left = len(centre) - len(this.columns)
+            if not rounds and asks_for_more(left, most):
+                singular = _find_singular(system, x, this, farthest)
+                if singular is not None:
+                    return singular
             if rounds and left == len(centre):
                 raise NotDeflated("its error is too large to see which derivatives vanish there")
             if rounds and _first_step(rows, this, left) > farthest + TURNS_BACK:
@@ -229,6 +237,27 @@ def deflate(
             rows = derivatives(descent.remaining, descent.ring, order - 1)
             slopes = partial(jacobian, rows)
             centre = [flint.acb(0)] * left
+
+
+def asks_for_more(corank: int, most: int | None) -> bool:
+    """Whether isolated zeros of a corank are of larger multiplicity than ``most``, if it is known.
+
+    As many equations as are singular there, in as many variables, have no linear terms.
+    """
+    return most is not None and most < 2**corank
+
+
+def _find_singular(
+    system: ExactSystem, x: Sequence[flint.acb], this: Round, farthest: float
+) -> DeflatedPoint | None:
+    """The zero of a round's corank near a point, without deflation; None if it is not found."""
+    found = find_zero_of_corank(system, x, this)
+    if found is None:
+        return None
+    point, defect = found
+    if log_norm(a - b for a, b in zip(point, x, strict=True)) > farthest:
+        return None
+    return DeflatedPoint(point, (this,), 0, defect, -inf)
 
 
 def _first_step(rows: Sequence[Terms], this: Round, n: int) -> float:

@@ -14,7 +14,13 @@ from nag.algebra.exact_ranks import FIELDS, PrimeField
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_ranks import Digits, Field, UnclearRank
 from nag.numerics.curves import curve_through, is_exact_zero, point_beside
-from nag.numerics.deflation import MOST_WORK, DeflatedPoint, NotDeflated, deflate
+from nag.numerics.deflation import (
+    MOST_WORK,
+    DeflatedPoint,
+    NotDeflated,
+    asks_for_more,
+    deflate,
+)
 from nag.numerics.descent import series_cost
 from nag.numerics.digits import (
     DIGITS,
@@ -135,7 +141,7 @@ def _judge_point(
             continue
         tried.add(reach)
         try:
-            found = deflate(system, y, reach, rng)
+            found = deflate(system, y, reach, rng, most=effort.most)
         except NotDeflated as reason:
             reasons.append(str(reason))
             continue
@@ -166,8 +172,7 @@ def _at_zero(
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
         return _end(system, found, Place.ON_COMPONENT, 0, reason, missing)
-    if effort.most is not None and effort.most < 2**found.corank:
-        # As many equations as are singular there, in as many variables, have no linear terms.
+    if asks_for_more(found.corank, effort.most):
         reason = f"isolated zeros of corank {found.corank} are of multiplicity {2**found.corank}"
         return _end(system, found, Place.ON_COMPONENT, 0, f"{reason} and more", 1)
     if found.corank > 1 and is_exact_zero(system, found):

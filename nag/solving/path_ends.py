@@ -184,7 +184,11 @@ def sort_ends(
     groups = [*zeros.regular_indices()[:, None], *zeros.groups()] if each else zeros.groups()
     limits = np.array([path in paths.branches for path in zeros.path.tolist()], dtype=bool)
     whole = begin.complete and not problem.squared
-    most = zeros.count_near(groups) if whole and not problem.added else np.zeros_like(zeros.path)
+    most = np.zeros_like(zeros.path)
+    if whole and not problem.added:
+        # Whether something vanishes on all of a set takes more than that an end lies on one.
+        near = np.array([problem.may_be_excluded(x) for x in zeros.points], dtype=bool)
+        most = np.where(near, 0, zeros.count_near(groups))
     singular = EndJudgements(
         problem.equations,
         *(zeros.points, zeros.accuracy, limits, zeros.path, most),
