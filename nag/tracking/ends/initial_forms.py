@@ -18,7 +18,7 @@ from typing import Any
 import flint
 import numpy as np
 
-from nag.numerics.ball_polynomials import Factors
+from nag.numerics.ball_polynomials import Factors, MonomialProducts
 from nag.numerics.coincidence import BEYOND
 from nag.numerics.digits import in_bits, log_size
 from nag.numerics.double_ranks import INDEPENDENT
@@ -37,8 +37,48 @@ CLOSE = 1e-10
 # Steps of Newton's method with a fixed inverse, and their least gain, decimal logarithm.
 STEPS, GAIN = 40, 1.0
 
-# Exponents as (coordinate, exponent) pairs, and coefficients.
-Form = list[tuple[Factors, Any]]
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """The initial forms in one direction, in the coordinates that do not vanish.
+
+    Attributes:
+        there: these coordinates.
+        monomials: what the forms are evaluated by.
+        forms: for each its terms: a monomial, its place among the products, its coefficient.
+        matrix: the coefficients, forms by products.
+    """
+
+    there: tuple[int, ...]
+    monomials: MonomialProducts
+    forms: tuple[tuple[tuple[Factors, int, Any], ...], ...]
+    matrix: flint.acb_mat
+
+    @classmethod
+    def of(cls, forms: Sequence[Sequence[tuple[Factors, Any]]], there: Sequence[int]) -> Face:
+        """Forms as exponents and coefficients of their terms, in all coordinates."""
+        places = {j: k for k, j in enumerate(there)}
+        made = MonomialProducts(len(there))
+        placed = []
+        for form in forms:
+            own = (((tuple((places[j], k) for j, k in factors)), c) for factors, c in form)
+            placed.append(tuple((factors, made.place(factors), c) for factors, c in own))
+        rows: list[list[Any]] = [[0] * (1 + len(there) + len(made.pairs)) for _ in placed]
+        for row, form in zip(rows, placed, strict=True):
+            for _, place, c in form:
+                row[place] = row[place] + c
+        matrix = flint.acb_mat(rows) if rows else flint.acb_mat(0, 0)
+        return cls(tuple(there), made, tuple(placed), matrix)
+
+    def values(self, x: Sequence[Any]) -> list[Any]:
+        """The values of the forms."""
+        at = self.monomials.values(x)
+        return (self.matrix * flint.acb_mat(len(at), 1, at)).mid().entries()
+
+    def terms(self, x: Sequence[Any]) -> list[list[Any]]:
+        """The terms of the forms."""
+        at = self.monomials.values(x)
+        return [[c * at[place] for _, place, c in form] for form in self.forms]
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,9 +87,9 @@ class InitialForms:
 
     terms: Terms
     bits: int
-    _known: dict[tuple[int, ...], list[Form]] = field(default_factory=dict)
+    _known: dict[tuple[int, ...], Face] = field(default_factory=dict)
 
-    def _of(self, orders: tuple[int, ...], winding: int) -> list[Form]:
+    def _of(self, orders: tuple[int, ...], winding: int) -> Face:
         """The forms in the direction of ``orders``, in units of ``1 / winding``."""
         key = (winding, *orders)
         if key not in self._known:
@@ -66,14 +106,16 @@ class InitialForms:
                         form.append((factors, c))
                 if least < NEVER // 2:
                     forms.append(form)
-            self._known[key] = forms
+            there = [j for j, order in enumerate(orders) if order < NEVER]
+            self._known[key] = Face.of(forms, there)
         return self._known[key]
 
     def residual(self, orders: tuple[int, ...], winding: int, point: Sequence[Any]) -> float:
         """The largest value of a form over the sum of its terms, at a point in FLINT's ``acb``."""
         worst = 0.0
         with in_bits(self.bits):
-            for terms in _terms(self._of(orders, winding), point):
+            face = self._of(orders, winding)
+            for terms in face.terms([point[j] for j in face.there]):
                 size = sum(map(abs, terms), flint.arb(0)).mid()
                 total = abs(sum(terms, flint.acb(0))).mid()
                 worst = max(worst, float(total / size) if size > 0 else 0.0)
@@ -92,72 +134,50 @@ class InitialForms:
             point: in FLINT's ``acb``; coordinates of order `NEVER` are not looked at.
             error: of the coordinates, relative to each.
         """
-        there = [j for j, order in enumerate(orders) if order < NEVER]
         with in_bits(self.bits):
-            forms = [
-                [(tuple((there.index(j), k) for j, k in factors), c) for factors, c in form]
-                for form in self._of(orders, winding)
-            ]
-            if not forms:
+            face = self._of(orders, winding)
+            if not face.forms:
                 # Coordinates that vanish make all equations vanish.
                 return True
             first = [
-                next(i for i, j in enumerate(there) if j in group)
+                next(i for i, j in enumerate(face.there) if j in group)
                 for group in self.terms.homotopy.groups
             ]
-            x = [point[j].mid() for j in there]
-            sizes = [sum(map(abs, own), flint.arb(0)).mid() for own in _terms(forms, x)]
-            forms = [
-                [(factors, (c / size).mid()) for factors, c in form]
-                for form, size in zip(forms, sizes, strict=True)
-            ]
-            terms = _terms(forms, x)
-            jacobian = _logarithmic_jacobian(forms, first, terms, len(x))
-            if _is_near_regular_zero(forms, terms, jacobian):
+            x = [point[j].mid() for j in face.there]
+            terms = face.terms(x)
+            inverse_sizes = [(1 / sum(map(abs, own), flint.arb(0))).mid() for own in terms]
+            pairs = zip(terms, inverse_sizes, strict=True)
+            terms = [[term * inverse for term in own] for own, inverse in pairs]
+            jacobian = _logarithmic_jacobian(face, first, terms)
+            if _is_near_regular_zero(face, terms, jacobian):
                 return True
-            inverse = np.linalg.pinv(jacobian, rcond=INDEPENDENT)[:, : len(forms)]
-            here = _sizes_left(forms, inverse, x)
+            inverse = np.linalg.pinv(jacobian, rcond=INDEPENDENT)[:, : len(face.forms)]
+            here = _sizes_left(face, inverse_sizes, inverse, x)
             rest = here > ZERO
             if not rest.any():
                 return True
-            phases = np.exp(2j * np.pi * np.random.default_rng(0).random(len(there)))
+            phases = np.exp(2j * np.pi * np.random.default_rng(0).random(len(x)))
             shift = max(error * BEYOND, CLOSE)
             moved = [z * flint.acb(complex(1 + shift * u)) for z, u in zip(x, phases, strict=True)]
-            return bool((_sizes_left(forms, inverse, moved)[rest] > here[rest] + GROWN).all())
-
-
-def _terms(forms: Sequence[Form], x: Sequence[Any]) -> list[list[Any]]:
-    """The terms of the forms at a point."""
-    powers: dict[tuple[int, int], Any] = {}
-    terms = []
-    for form in forms:
-        own = []
-        for factors, c in form:
-            for factor in factors:
-                power = powers.get(factor)
-                if power is None:
-                    power = powers[factor] = x[factor[0]] ** factor[1]
-                c = c * power
-            own.append(c)
-        terms.append(own)
-    return terms
+            there = _sizes_left(face, inverse_sizes, inverse, moved)
+            return bool((there[rest] > here[rest] + GROWN).all())
 
 
 def _logarithmic_jacobian(
-    forms: Sequence[Form], first: Sequence[int], terms: Sequence[Sequence[Any]], n: int
+    face: Face, first: Sequence[int], terms: Sequence[Sequence[Any]]
 ) -> np.ndarray:
     """The derivatives of the forms by the logarithms of the coordinates; those ``first`` stay.
 
     Args:
         terms: over the sum of their sizes in each form.
-        n: number of coordinates.
 
     Returns:
         Shape ``(forms + first, n)``.
     """
-    jacobian = np.zeros((len(forms) + len(first), n), dtype=complex)
+    forms = face.forms
+    jacobian = np.zeros((len(forms) + len(first), len(face.there)), dtype=complex)
     for row, form, own in zip(jacobian, forms, terms, strict=False):
-        for (factors, _), term in zip(form, own, strict=True):
+        for (factors, _, _), term in zip(form, own, strict=True):
             part = complex(term)
             for j, k in factors:
                 row[j] += k * part
@@ -165,9 +185,7 @@ def _logarithmic_jacobian(
     return jacobian
 
 
-def _is_near_regular_zero(
-    forms: Sequence[Form], terms: Sequence[Sequence[Any]], jacobian: np.ndarray
-) -> bool:
+def _is_near_regular_zero(face: Face, terms: Sequence[Sequence[Any]], jacobian: np.ndarray) -> bool:
     """Whether Kantorovich's theorem shows a zero at which the forms' Jacobian is surjective.
 
     In the logarithms of the coordinates the second derivatives of a term are the term times
@@ -185,18 +203,22 @@ def _is_near_regular_zero(
     if not smallest > INDEPENDENT * singular_values[0]:
         return False
     values = [abs(complex(sum(own, flint.acb(0)))) for own in terms]
-    largest = sqrt(max(sum(k * k for _, k in factors) for form in forms for factors, _ in form))
+    largest = sqrt(
+        max(sum(k * k for _, k in factors) for form in face.forms for factors, _, _ in form)
+    )
     step = float(np.linalg.norm(values)) / smallest
     # A zero is within twice a step; half of the room is for the doubles that the bounds are in.
-    bend = sqrt(len(forms)) * largest**2 * exp(1)
+    bend = sqrt(len(face.forms)) * largest**2 * exp(1)
     return 2 * step * largest < 1 and step * bend / smallest < 0.25
 
 
-def _sizes_left(forms: Sequence[Form], inverse: np.ndarray, x: Sequence[Any]) -> np.ndarray:
+def _sizes_left(
+    face: Face, inverse_sizes: Sequence[Any], inverse: np.ndarray, x: Sequence[Any]
+) -> np.ndarray:
     """What is left of each form where those that can be solved for vanish; decimal logarithms."""
     last = inf
     for _ in range(STEPS):
-        values = [sum(own, flint.acb(0)).mid() for own in _terms(forms, x)]
+        values = [v * size for v, size in zip(face.values(x), inverse_sizes, strict=True)]
         logs = np.array([log_size(v) for v in values])
         largest = logs.max()
         if largest < ZERO:
