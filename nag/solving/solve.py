@@ -42,6 +42,11 @@ SEPARATING = 60
 # The stream of random numbers of answers that are told early, which change no later one, and the
 # coordinates of ends that are kept for them: with more of these the work goes on behind a ledger.
 EARLY, MOST_EARLY = (1 << 32) + 2, 1 << 19
+# Where only a finite set is of interest, one path of so many is tracked and judged first, if these
+# are so many, and at most so many: where one ends on a larger set, the others need not be tracked.
+TRIED_OF, LEAST_TRIED, MOST_TRIED = 32, 8, 64
+# The stream of random numbers of these.
+TRIED = (1 << 32) + 3
 
 # Answers what is left of a task by the methods after the one that asks.
 Others = Callable[[SolveTask], SolveResult]
@@ -297,6 +302,10 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
     run = task.run
     stage = f"tracking {len(begin.points)} paths"
     run.tell(stage, 0, 0)
+    if task.finite and len(begin.points) >= TRIED_OF * LEAST_TRIED:
+        tried = _track_some(task, begin, reason)
+        if len(tried.ends.larger.counting):
+            return tried.result()
 
     def tell(so_far: PathsSoFar) -> None:
         name = f"ends of {so_far.total} paths in more digits" if so_far.in_digits else stage
@@ -340,6 +349,16 @@ def _track_from(task: SolveTask, begin: StartSystem, reason: str) -> SolveResult
         if search.completeness is not Completeness.ALL:
             search = find(search)
     return search.result()
+
+
+def _track_some(task: SolveTask, begin: StartSystem, reason: str) -> PathSearch:
+    """What a few of the paths say."""
+    count = len(begin.points)
+    chosen = np.linspace(0, count, min(count // TRIED_OF, MOST_TRIED), endpoint=False, dtype=int)
+    # An isolated zero may be the end of paths that are left out.
+    some = replace(begin, complete=False)
+    paths = track(begin.homotopy, begin.points[chosen], task.run.settings, task.run.threads)
+    return PathSearch.of(task, task.problem, some, reason, paths, task.run.random(TRIED))
 
 
 def _result_so_far(search: PathSearch) -> SolveResult:
