@@ -11,9 +11,12 @@ import pytest
 import nag
 from nag.bench.atlas.curves import close_skew_lines
 from nag.decomposition import witness_at
-from nag.decomposition.decompose import decompose
+from nag.decomposition.decompose import decompose, one_by_one
+from nag.decomposition.method import Task, decompose_by
 from nag.files.export import read_decomposition, write_decomposition
+from nag.numerics.system_facts import SystemFacts
 from nag.tracking.paths import Ball
+from nag.tracking.run import Run
 from nag.witness.close_points import (
     PointInWords,
     distance,
@@ -291,3 +294,17 @@ def test_multiple_curves_on_close_sheets_have_deflations_of_their_own(name: str,
     answer = nag.decompose([text.format(f"(1/10^{k})") for text in equations])
     assert answer.complete
     assert sorted((c.degree, c.multiplicity) for c in answer.components) == kinds
+
+
+# A simple curve beside a multiple one: what is known of them are two cuts, of one equation each.
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("multiplicity", "k"), [(2, 8), (2, 10), (2, 12), (2, 15), (3, 10)])
+def test_a_simple_curve_and_a_multiple_one_beside_it_are_two(
+    multiplicity: int, k: int, seed: int
+) -> None:
+    planes = f"(y - 1 + 1/10^{k})^{multiplicity}*(y - 1)"
+    system = nag.system([planes, "x^4 + y*z - 1"], "x y z")
+    answer = decompose_by((one_by_one,), Task(SystemFacts(system), (), Run(seed=seed)))
+    assert answer.complete
+    kinds = sorted((c.dimension, c.degree, c.multiplicity) for c in answer.components)
+    assert kinds == [(1, 4, 1), (1, 4, multiplicity)]

@@ -109,6 +109,47 @@ def test_digits_tell_points_from_larger_sets_where_paths_do_not(
     assert np.array_equal(kept.x, points[:1]) and not notes
 
 
+# What another cut says of a point: another zero as far as digits go, the same one, or nothing, as
+# it has no regular zero there.
+@pytest.mark.parametrize(
+    ("other", "kept", "untold"),
+    [
+        *[(f"3*x - 3 - 3/10^{k}", 2, 0) for k in (10, 15, 20, 40, 80)],
+        ("3*x - 3", 1, 0),
+        ("(x - 1)^2", 1, 1),
+    ],
+)
+def test_regular_ends_of_two_cuts_are_one_point_where_digits_say_so(
+    other: str, kept: int, untold: int
+) -> None:
+    found, rows = np.ones(1, dtype=bool), np.zeros((0, 2), dtype=complex)
+    point, accuracy = np.ones((1, 1), dtype=complex), np.full(1, 1e-15)
+    cuts = [Cut(1, 0, polynomials("x", text)) for text in ("x - 1", other)]
+    pieces = [SliceEnds(cut, rows, point, found, found, ~found, accuracy) for cut in cuts]
+    candidates = ends.collect(pieces, ())
+    assert sum(map(len, candidates.fibres)) == kept
+    assert candidates.untold == untold
+
+
+@pytest.mark.parametrize(
+    ("other", "kept", "doubts"),
+    [("x - 1 - 1/10^15", 1, 0), ("x - 1", 0, 0), ("(x - 1)^2", 0, 1)],
+)
+def test_a_deflated_point_is_left_out_where_digits_say_that_it_is_known(
+    other: str, kept: int, doubts: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    alone = Membership.FOREIGN, PathCounts()
+    monkeypatch.setattr("nag.decomposition.superset.is_on_larger_set", lambda *_: alone)
+    point, rows = np.ones((1, 1), dtype=complex), np.zeros((0, 2), dtype=complex)
+    first, second = (
+        Fibre(Cut(1, 0, polynomials("x", text)), rows, point) for text in ("x - 1", other)
+    )
+    empty = Superset({}, PathCounts(), ())
+    stage = _Stage((), (), empty, (), (), (), np.random.default_rng(0), Run())
+    left, notes, _ = stage.keep_on_no_other(first, {0: [second]}, Equations((), 1))
+    assert (len(left), len(notes)) == (kept, doubts)
+
+
 def test_equations_are_met_in_an_order_that_brings_in_few_variables_at_a_time() -> None:
     circles = ("a^2 + b^2 - 1", "c^2 + d^2 - 1", "e^2 + f^2 - 1")
     products = ("a*c + b*d - 2", "c*e + d*f - 2", "a*e + b*f - 3")

@@ -17,7 +17,12 @@ from nag.numerics.doubles import ROUNDED
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.zero_values import NONZERO, ON, vanishes_at
 from nag.tracking.run import Run
-from nag.witness.close_to_sets import NearbyZeros, find_nearby_zeros, is_among_points
+from nag.witness.close_to_sets import (
+    NearbyZeros,
+    find_nearby_zeros,
+    is_among_points,
+    is_point_of_others,
+)
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut, Equations
 from nag.witness.cutting_in_digits import admit_zero, is_alone
@@ -38,13 +43,15 @@ class Candidates:
     """Ends of one dimension: fibres of regular ones, and clusters of singular ones.
 
     A cluster is its points, the best known one first, with their errors. ``unclear``: ends of which
-    it is not known whether they are excluded. ``lost``: where failed paths seem to lead, as
-    clusters, and how many ends of paths there are in all next to each of them.
+    it is not known whether they are excluded. ``untold``: regular ones that digits do not tell from
+    those of another set. ``lost``: where failed paths seem to lead, as clusters, and how many ends
+    of paths there are in all next to each of them.
     """
 
     fibres: list[Fibre]
     singular: list[Cluster]
     unclear: int
+    untold: int
     lost: list[tuple[Cluster, int]]
 
 
@@ -59,8 +66,7 @@ def collect(
     """
     n = pieces[0].cut.n
     fibres: list[Fibre] = []
-    unclear = 0
-    seen = np.zeros((0, n), dtype=complex)
+    unclear = untold = 0
     singular, errors = [np.zeros((0, n), dtype=complex)], [np.zeros(0)]
     failed, every = [np.zeros((0, n), dtype=complex)], []
     for ends in pieces:
@@ -68,14 +74,15 @@ def collect(
         left_out, doubtful = find_excluded(nonzero, ends, told)
         allowed, unclear = ends.finite & ~left_out, unclear + doubtful
         # The tracker has seen that ends of one piece are distinct.
-        chosen = [
-            i
-            for i in np.flatnonzero(allowed & ends.regular)
-            if not (len(seen) and coincident(seen, x[i], ends.accuracy[i]).any())
+        places = np.flatnonzero(allowed & ends.regular)
+        regular = ends.fibre(places)
+        known = [
+            is_point_of_others(regular, k, float(ends.accuracy[i]), fibres)
+            for k, i in enumerate(places)
         ]
-        if chosen:
-            seen = np.vstack([seen, x[chosen]])
-            fibres.append(ends.fibre(chosen))
+        untold += known.count(None)
+        if False in known:
+            fibres.append(regular.only(np.array([each is False for each in known])))
         rest = allowed & ~ends.regular
         singular.append(x[rest])
         errors.append(ends.accuracy[rest])
@@ -85,7 +92,7 @@ def collect(
     points, accuracy = np.vstack(singular), np.concatenate(errors)
     groups = clusters(points, accuracy)
     several = [[(points[i], float(accuracy[i])) for i in g] for g in groups]
-    return Candidates(fibres, several, unclear, _crowds(np.vstack(failed), every))
+    return Candidates(fibres, several, unclear, untold, _crowds(np.vstack(failed), every))
 
 
 def _crowds(lost: np.ndarray, every: Sequence[np.ndarray]) -> list[tuple[Cluster, int]]:

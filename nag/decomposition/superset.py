@@ -15,10 +15,9 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial, find_nonzero_variables
 from nag.decomposition.ends import SingularEnds, collect
 from nag.decomposition.hypersurface import HypersurfaceSection, hypersurface_section
-from nag.numerics.coincidence import coincident
 from nag.text.table import count_text
 from nag.tracking.run import Run
-from nag.witness.close_to_sets import find_nearby_zeros
+from nag.witness.close_to_sets import find_nearby_zeros, is_point_of_others
 from nag.witness.cutting import Equations, dyadic, leading_power
 from nag.witness.fibres import Fibre
 from nag.witness.membership import Membership, is_on_larger_set
@@ -158,11 +157,12 @@ class _Stage:
         larger sets do not tell, digits do.
         """
         counts, notes, d = PathCounts(), [], fibre.dimension
-        same = np.vstack([other.x for other in kept.get(d, ())] or [fibre.x[:0]])
         mask = np.ones(len(fibre), dtype=bool)
         for i, x in enumerate(fibre.x):
-            if coincident(same, x, REGULAR).any():
+            known = is_point_of_others(fibre, i, REGULAR, kept.get(d, ()))
+            if known is not False:
                 mask[i] = False
+                notes += [] if known else [_untold(1, d)]
                 continue
             answer, used = is_on_larger_set(x, REGULAR, kept, d, self.rng, self.run)
             counts += used
@@ -192,6 +192,8 @@ class _Stage:
             singular = SingularEnds(so_far, rows, self.rng, self.run, self.after, self.avoid)
             if candidates.unclear:
                 notes.append(f"{count_text(candidates.unclear, 'point')} may be excluded")
+            if candidates.untold:
+                notes.append(_untold(candidates.untold, d))
             for fibre in candidates.fibres:
                 if fibre.cut.deflated:
                     fibre, doubts, used = self.keep_on_no_other(fibre, kept, so_far)
@@ -210,6 +212,12 @@ class _Stage:
         kept = {d: [fibre for fibre in fibres if len(fibre)] for d, fibres in kept.items()}
         points = len(notes) - higher if 0 in crossed.ends else 0
         return Superset(kept, PathCounts(), tuple(notes), points, recovered), counts
+
+
+def _untold(count: int, d: int) -> str:
+    """A note of points that may be those of another set."""
+    points = count_text(count, "point")
+    return f"{points} of dimension {d} could not be told from others close by"
 
 
 def witness_superset(

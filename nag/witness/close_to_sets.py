@@ -77,15 +77,44 @@ def find_nearby_zeros(
 
 def is_among_points(zero: SingularEnd, fibres: Sequence[Fibre]) -> bool | None:
     """Whether a zero is one of the points of fibres, in digits; None if left open."""
-    unknown, here = False, zero.precise
-    if here is None:
+    if zero.precise is None:
         return None
-    for fibre in fibres:
-        for i in np.flatnonzero(coincident(fibre.x, zero.point, CLOSE_AFAR)).tolist():
-            there = zero_in_digits(fibre, i)
-            if there is not None and are_same(here, there.first(len(here))):
-                return True
-            unknown |= there is None
+    return _is_one_of(zero.precise, _find_near(zero.point, CLOSE_AFAR, fibres))
+
+
+def is_point_of_others(fibre: Fibre, i: int, error: float, others: Sequence[Fibre]) -> bool | None:
+    """Whether a point of a fibre is one of those of others; None if left open.
+
+    Doubles tell points apart that are farther from each other than their errors, digits all others:
+    sets that are cut by different equations may lie as near to each other as these say.
+
+    Args:
+        error: the largest relative error of all these points.
+    """
+    near = _find_near(fibre.x[i], error, others)
+    if not near:
+        return False
+    here = zero_in_digits(fibre, i)
+    return None if here is None else _is_one_of(here.first(fibre.cut.n), near)
+
+
+def _find_near(x: np.ndarray, error: float, fibres: Sequence[Fibre]) -> list[tuple[Fibre, int]]:
+    """The points of fibres that may be the one at ``x`` as far as doubles tell."""
+    return [
+        (fibre, i)
+        for fibre in fibres
+        for i in np.flatnonzero(coincident(fibre.x, x, error)).tolist()
+    ]
+
+
+def _is_one_of(here: PrecisePoint, points: Iterable[tuple[Fibre, int]]) -> bool | None:
+    """Whether a point is one of some of fibres, in digits; None if left open."""
+    unknown = False
+    for fibre, i in points:
+        there = zero_in_digits(fibre, i)
+        if there is not None and are_same(here, there.first(len(here))):
+            return True
+        unknown |= there is None
     return None if unknown else False
 
 
