@@ -145,7 +145,7 @@ def track_members(
     return _judge_ends(homotopy, raw, member)[0]
 
 
-def end_in_doubles(
+def find_finished_paths(
     homotopy: Homotopy, starts: np.ndarray, settings: Settings | str = "default", threads: int = 1
 ) -> np.ndarray:
     """Which paths from ``starts``, shape ``(P, N)``, doubles bring to regular ends: shape ``(P,)``.

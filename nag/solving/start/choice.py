@@ -17,8 +17,10 @@ from nag.solving.start.multihomogeneous import (
 )
 from nag.solving.start.target import StartSystem, Target, group_degrees
 from nag.solving.start.total_degree import Shape, bezout, has_bezouts_volume, total_degree
-from nag.tracking.track import end_in_doubles
+from nag.tracking.track import find_finished_paths
 
+# The sets of homogeneous coordinates of so many variables are looked through in two milliseconds.
+MOST_VARIABLES = 13
 # So few paths are tracked in less time than groups of variables take to be found for fewer.
 FEW = 64
 # Mixed cells of systems with few paths are found in half a millisecond, which each path to infinity
@@ -103,7 +105,7 @@ def _least_work(
         counts = [f"total degree {total} ({tracked} but for interchanges of variables)"]
     # Then no start system has fewer paths.
     dense = total > FEWEST and sparse.degrees == target.degrees
-    dense = dense and bool(has_bezouts_volume(sparse.supports))
+    dense = dense and target.n <= MOST_VARIABLES and has_bezouts_volume(sparse.supports)
     if not dense and (tracked == total or tracked > FEW):
         groups, number = _usable_groups(target, given)
     if len(groups) > 1:
@@ -157,7 +159,8 @@ def _are_finished(start: StartSystem, threads: int) -> bool:
     if tried < LEAST_TRIED:
         return True
     some = start.points[np.linspace(0, number - 1, tried).astype(int)]
-    return float(np.mean(end_in_doubles(start.homotopy, some, threads=threads))) > 1 - UNFINISHED
+    finished = find_finished_paths(start.homotopy, some, threads=threads)
+    return float(np.mean(finished)) > 1 - UNFINISHED
 
 
 def _usable_groups(target: Target, given: Groups) -> tuple[Groups, int]:

@@ -39,8 +39,6 @@ from nag.tracking.starts import StartsByIndex
 MOST_TERMS = 10_000
 # Ends are kept in memory.
 MOST_PATHS = 4_000_000
-# The sets of homogeneous coordinates of so many variables are looked through in two milliseconds.
-MOST_VARIABLES = 13
 
 Row = dict[Exponents, complex]
 
@@ -50,19 +48,17 @@ def bezout(target: Target) -> int:
     return prod(target.degrees)
 
 
-def has_bezouts_volume(supports: Sequence[np.ndarray]) -> bool | None:
+def has_bezouts_volume(supports: Sequence[np.ndarray]) -> bool:
     """Whether the mixed volume of the supports is the product of their degrees.
 
     It is where, of any number of the homogeneous coordinates, but not all, at least as many rows
     have a term in these alone (what Chen, Unmixing the mixed volume computation, 2019, says of
-    simplices). None where the sets of coordinates are too many.
+    simplices). All sets of coordinates are looked through, two to the number of them.
 
     Args:
         supports: the exponents of each row, shape ``(terms, n)``.
     """
     n = len(supports)
-    if n > MOST_VARIABLES:
-        return None
     powers = 2 ** np.arange(1 + n)
     touched = np.zeros((n, 2 ** (1 + n)), dtype=bool)
     for row, support in zip(touched, supports, strict=True):

@@ -299,9 +299,9 @@ def _best_winding(s, r, b):
     better = splat(BETTER)
     for w in range(1, b.max_winding + 1):
         tail = tails(s, r, b.order, float(w))
-        tail = select_less(enough, best, tail, select_less(tail, better * best, tail, best))
-        chosen = select_less(tail, best, splat(float(w)), chosen)
-        best = select_less(tail, best, tail, best)
+        bound = select_less(enough, best, best, better * best)
+        chosen = select_less(tail, bound, splat(float(w)), chosen)
+        best = select_less(tail, bound, tail, best)
     store(r.measures, 0, best)
     store(r.measures, 1, chosen)
 
