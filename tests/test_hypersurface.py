@@ -9,7 +9,7 @@ from cuts import curve, fibre
 from nag.decomposition.hypersurface import hypersurface_section, intersect
 from nag.tracking.run import Run
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Fibre
+from nag.witness.fibres import Fibre, whole_space
 from nag.witness.slices import random_rows, unit_complex
 
 TRACKER = Run()
@@ -96,3 +96,14 @@ def test_the_whole_plane_is_cut_to_the_hypersurface_itself() -> None:
     assert len(found) == 2
     assert np.abs((found**2).sum(axis=1) - 1).max() < 1e-14
     assert np.abs(flag[0, 0] + found @ flag[0, 1:]).max() < 1e-14
+
+
+@pytest.mark.parametrize(("nonzero", "kept"), [((), 3), ((0,), 2), ((1,), 3), ((0, 1), 2)])
+def test_zeros_on_a_line_where_a_variable_vanishes_that_must_not_are_no_ends(
+    nonzero: tuple[int, ...], kept: int
+) -> None:
+    flag = random_rows(np.random.default_rng(3), 2, 2)
+    ends = intersect(whole_space(flag), curve("x*(x - 1/10^20)*(y - 1)"), 1j, TRACKER, nonzero)
+    assert (int(ends.finite.sum()), int(ends.regular.sum())) == (kept, kept)
+    assert not ends.counts.tracked and not ends.failed.any()
+    assert np.isclose(ends.x[ends.finite, 0], 1e-20, rtol=1e-12, atol=0).sum() == 1

@@ -104,7 +104,7 @@ def test_digits_tell_points_from_larger_sets_where_paths_do_not(
     points = np.array([[1, 1], [0, 3]], dtype=complex)
     fibre = Fibre(Cut(2, 0, equations.polynomials), np.zeros((0, 3), dtype=complex), points)
     empty = Superset({}, PathCounts(), ())
-    stage = _Stage((), (), empty, (), (), (), np.random.default_rng(0), Run())
+    stage = _Stage((), (), empty, (), np.random.default_rng(0), Run())
     kept, notes, _ = stage.keep_on_no_other(fibre, {}, equations)
     assert np.array_equal(kept.x, points[:1]) and not notes
 
@@ -145,7 +145,7 @@ def test_a_deflated_point_is_left_out_where_digits_say_that_it_is_known(
         Fibre(Cut(1, 0, polynomials("x", text)), rows, point) for text in ("x - 1", other)
     )
     empty = Superset({}, PathCounts(), ())
-    stage = _Stage((), (), empty, (), (), (), np.random.default_rng(0), Run())
+    stage = _Stage((), (), empty, (), np.random.default_rng(0), Run())
     left, notes, _ = stage.keep_on_no_other(first, {0: [second]}, Equations((), 1))
     assert (len(left), len(notes)) == (kept, doubts)
 
@@ -263,5 +263,5 @@ def test_a_variable_that_equations_keep_from_zero_may_be_smaller_than_digits_tel
     points, rows = np.array([[1e30, 1e-90 + 0j]]), np.zeros((0, 3), dtype=complex)
     end = SliceEnds(cut, rows, points, found, found, ~found, np.full(1, 1e-15))
     y = Polynomial.variable(2, 1)
-    assert ends.find_excluded([y], end, [y])[0].tolist() == [False]
-    assert sum(map(len, ends.collect([end], [y], [y]).fibres)) == 1
+    assert ends.find_excluded([y], end, [1])[0].tolist() == [False]
+    assert sum(map(len, ends.collect([end], [y], [1]).fibres)) == 1

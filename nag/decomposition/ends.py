@@ -56,13 +56,14 @@ class Candidates:
 
 
 def collect(
-    pieces: Sequence[SliceEnds], nonzero: Sequence[Polynomial], told: Sequence[Polynomial] = ()
+    pieces: Sequence[SliceEnds], nonzero: Sequence[Polynomial], units: Sequence[int] = ()
 ) -> Candidates:
     """The ends of paths to points on a slice, with the systems that cut them.
 
     Args:
         nonzero: polynomials that must not vanish; ends where one does are left out.
-        told: those of them that vanish at no regular end, as paths have told.
+        units: variables that vanish at no regular end, as
+            `nag.decomposition.hypersurface.intersect` was told that they must not.
     """
     n = pieces[0].cut.n
     fibres: list[Fibre] = []
@@ -71,7 +72,7 @@ def collect(
     failed, every = [np.zeros((0, n), dtype=complex)], []
     for ends in pieces:
         x = ends.x
-        left_out, doubtful = find_excluded(nonzero, ends, told)
+        left_out, doubtful = find_excluded(nonzero, ends, units)
         allowed, unclear = ends.finite & ~left_out, unclear + doubtful
         # The tracker has seen that ends of one piece are distinct.
         places = np.flatnonzero(allowed & ends.regular)
@@ -114,13 +115,13 @@ def seem_excluded(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np
 
 
 def find_excluded(
-    nonzero: Sequence[Polynomial], ends: SliceEnds, told: Sequence[Polynomial] = ()
+    nonzero: Sequence[Polynomial], ends: SliceEnds, units: Sequence[int] = ()
 ) -> tuple[np.ndarray, int]:
     """Which ends lie where a polynomial that must not vanish does, decided in digits.
 
     Also of how many of these that is not known; they are left out. Of regular ends it is not asked
-    of those that are ``told`` not to vanish there: a path knows each coordinate relative to its own
-    size, digits of a point relative to the largest.
+    of monomials in ``units``, see `collect`: paths know each coordinate relative to its own size,
+    digits of a point relative to the largest.
     """
     cut, rows, result, unclear = ends.cut, ends.rows, ends.finite.copy(), 0
     if not nonzero or not result.any():
@@ -130,7 +131,11 @@ def find_excluded(
     regular = np.flatnonzero(result & ends.regular)
     small = (evaluator.residuals(ends.x[regular]) < ON).any(axis=0)
     at_regular = ends.fibre(regular)
-    asked = [g for g, may in zip(nonzero, small, strict=True) if may and g not in told]
+    asked = [
+        g
+        for g, may in zip(nonzero, small, strict=True)
+        if may and not (len(g.terms) == 1 and g.support.issubset(units))
+    ]
     each = [find_vanishing(at_regular, g) for g in asked]
     for k, i in enumerate(regular):
         answers = [own[k] for own in each]

@@ -82,7 +82,7 @@ def intersect(
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
     total, after = cut.n + cut.aux, cut.extended(f)
     if not cut.polynomials and len(fibre) == 1 and f.algebraic and degree <= MOST_ROOTS:
-        found = _on_line(after, fibre.rows[:-1])
+        found = _on_line(after, fibre.rows[:-1], nonzero)
         if found is not None:
             return found
     f = f * (1 / leading_power(f))
@@ -105,18 +105,22 @@ def intersect(
     return ends_of_paths(paths, after, fibre.rows[:-1])
 
 
-def _on_line(cut: Cut, rows: np.ndarray) -> SliceEnds | None:
+def _on_line(cut: Cut, rows: np.ndarray, nonzero: Sequence[int]) -> SliceEnds | None:
     """The zeros of one polynomial on the line of the slices ``rows``, without paths.
 
-    None where they cannot be told apart, or are not as many as its degree.
+    None where they cannot be told apart, or are not as many as its degree. A generic line meets the
+    polynomial's zeros where a variable of ``nonzero`` vanishes just if that is a factor.
     """
-    balls = zeros_on(cut.polynomials[0], line(rows))
+    (f,) = cut.polynomials
+    balls = zeros_on(f, line(rows))
     if balls is None:
         return None
     points = points_in_balls(cut, rows, balls)
-    found = np.ones(len(points), dtype=bool)
+    factors = [i for i in nonzero if all(exponents[i] for exponents in f.terms)]
+    found = np.array([not any(ball[i].contains(0) for i in factors) for ball in balls])
+    failed = np.zeros(len(points), dtype=bool)
     accuracy = np.full(len(points), ROUNDED)
-    return SliceEnds(cut, rows, points.x, found, found, ~found, accuracy, fine=points.fine)
+    return SliceEnds(cut, rows, points.x, found, found, failed, accuracy, fine=points.fine)
 
 
 def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:

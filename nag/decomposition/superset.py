@@ -105,18 +105,21 @@ class _Outcome:
 class _Stage:
     """How sets are to meet a polynomial, where ``before`` vanish on them and ``avoid`` must not.
 
-    ``after`` are the equations that they will meet later. ``units``: the variables in ``avoid``;
-    ``told``: those that equations keep from zero.
+    ``after`` are the equations that they will meet later.
     """
 
     before: tuple[Polynomial, ...]
     after: tuple[Polynomial, ...]
     found: Superset
     avoid: tuple[Polynomial, ...]
-    units: tuple[int, ...]
-    told: tuple[Polynomial, ...]
     rng: np.random.Generator
     run: Run
+
+    @property
+    def units(self) -> tuple[int, ...]:
+        """The variables of the monomials in ``avoid``, ascending."""
+        monomials = [g for g in self.avoid if len(g.terms) == 1]
+        return tuple(sorted({i for g in monomials for i in g.support}))
 
     def best(self, f: Polynomial, mixing: bool) -> tuple[_Outcome, bool, PathCounts]:
         """What becomes of the sets with ``f``, or with a combination of it with later ones.
@@ -187,7 +190,7 @@ class _Stage:
         counts, notes, higher, recovered = PathCounts(), [], 0, {}
         for d in sorted(crossed.ends, reverse=True):
             higher = len(notes)
-            candidates = collect(crossed.ends[d], self.avoid, self.told)
+            candidates = collect(crossed.ends[d], self.avoid, self.units)
             rows = crossed.ends[d][0].rows
             singular = SingularEnds(so_far, rows, self.rng, self.run, self.after, self.avoid)
             if candidates.unclear:
@@ -246,12 +249,10 @@ def witness_superset(
     rows = [f.terms for f in (*known, *equations)]
     never_zero = [variables[i] for i in find_nonzero_variables(rows, len(variables))]
     avoid = tuple(dict.fromkeys((*nonzero, *never_zero)))
-    told = tuple(x for x in never_zero if x not in nonzero)
-    units = tuple(i for i, x in enumerate(variables) if x in avoid)
     for k, f in enumerate(equations):
         run.tell("intersecting", k, len(equations))
         before, after = (*known, *equations[:k]), tuple(equations[k + 1 :])
-        stage = _Stage(before, after, found, avoid, units, told, rng, run)
+        stage = _Stage(before, after, found, avoid, rng, run)
         best, mixing, spent = stage.best(f, mixing)
         found = best.superset
         equations[k] = best.polynomial
