@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 
 import nag
-from nag.numerics.zero_values import possible_zeros, vanishes_at
+from nag.numerics.singular_point import Place
+from nag.numerics.zero_values import (
+    multiplicity_of_all,
+    possible_zeros,
+    select_isolated,
+    vanishes_at,
+)
 from nag.witness.close_to_sets import find_nearby_zeros
 from nag.witness.cutting import Equations
 
@@ -57,3 +63,26 @@ def _at_a_third(system, y):
     x = np.array([1 / 3, y, 7 / 5], dtype=complex)
     (zero,) = possible_zeros(system.polynomials, x, 1e-15, np.random.default_rng(0))
     return nag.system(["y"], "x y z").polynomials[0], zero
+
+
+@pytest.mark.parametrize(
+    ("texts", "isolated", "others"),
+    [
+        (["(x - 1)^2", "y*(y - 10^-40)"], 2, 0),
+        (["x*y - y", "(x - 1)*y"], 0, 1),  # On a line.
+        (["(x - 1)*y", "(y - 10^-40)*y"], 1, 1),  # A point that is 10^-40 off a line, or the line.
+        (["(x - 1)^2 + 1/100", "y"], None, 0),
+    ],
+)
+def test_what_a_point_may_stand_for_is_known_or_open(texts, isolated, others):
+    system = nag.system(texts, "x y")
+    x = np.array([1, 0], dtype=complex)
+    zeros = possible_zeros(system.polynomials, x, 1e-15, np.random.default_rng(0))
+    if isolated is None:
+        assert zeros is None and select_isolated(zeros) == ()
+        return
+    alone = [zero for zero in zeros if zero.place is Place.ISOLATED]
+    assert (len(alone), len(zeros) - len(alone)) == (isolated, others)
+    assert len(select_isolated(zeros)) == (0 if others else isolated)
+    # Of a point that may be one of a larger set no multiplicity is known.
+    assert (multiplicity_of_all(zeros) is None) == bool(others)

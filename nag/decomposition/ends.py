@@ -14,8 +14,8 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import NEAR, SAFETY, clusters, coincident
 from nag.numerics.doubles import ROUNDED
-from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.numerics.zero_values import NONZERO, ON, vanishes_at
+from nag.numerics.singular_point import SingularEnd
+from nag.numerics.zero_values import NONZERO, ON, possible_zeros, vanishes_at
 from nag.tracking.run import Run
 from nag.witness.close_to_sets import (
     NearbyZeros,
@@ -179,10 +179,9 @@ def _is_excluded(
     it is the same of all.
     """
     slices, rng = pad_rows(rows, 1 + len(z)), np.random.default_rng(0)
-    end = analyse(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices, True)
-    if end.place is Place.UNDECIDED:
+    zeros = possible_zeros(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices, True)
+    if zeros is None:
         return None
-    zeros = end.nearby if end.place is Place.CLUSTER else (end,)
     answers = {_one_vanishes(nonzero, zero) for zero in zeros}
     return answers.pop() if len(answers) == 1 else None
 

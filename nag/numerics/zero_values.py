@@ -58,19 +58,27 @@ def possible_zeros(
     rng: np.random.Generator,
     slices: np.ndarray | None = None,
     place_only: bool = False,
-) -> tuple[SingularEnd, ...]:
-    """The isolated zeros of ``equations`` that ``x`` may stand for; none if that is left open.
+) -> tuple[SingularEnd, ...] | None:
+    """The zeros of ``equations`` that ``x`` may stand for, to 100 digits; None if left open.
 
-    They are known to 100 digits.
+    Those that are isolated, and one for each set of zeros that it may lie on.
 
     Args:
         slices: further linear equations, rows on ``(1, x)``.
         place_only: whether multiplicities are of no interest, see `analyse`.
     """
     end = analyse(equations, x, accuracy, rng, slices, place_only)
-    if end.place is Place.CLUSTER:
-        return () if end.dimension else end.nearby
-    return (end,) if end.place is Place.ISOLATED else ()
+    if end.place is Place.UNDECIDED:
+        return None
+    if end.place is not Place.CLUSTER:
+        return (end,)
+    return (*end.nearby, end) if end.dimension else end.nearby
+
+
+def select_isolated(zeros: Sequence[SingularEnd] | None) -> tuple[SingularEnd, ...]:
+    """The zeros that a point may stand for where all are isolated; none else, or if left open."""
+    every = zeros or ()
+    return tuple(every) if all(zero.place is Place.ISOLATED for zero in every) else ()
 
 
 def choose_alike(zeros: Sequence[SingularEnd], x: np.ndarray) -> tuple[SingularEnd, ...]:
@@ -132,9 +140,12 @@ def vanishes_at(zero: SingularEnd, f: Polynomial) -> bool | None:
     return None if zero.precise is None else vanishes_at_point(f, zero.precise)
 
 
-def vanishes_at_all(zeros: Sequence[SingularEnd], f: Polynomial) -> bool | None:
-    """Whether a polynomial vanishes at all zeros, or at none; None else, or if there are none."""
-    answers = {vanishes_at(zero, f) for zero in zeros}
+def vanishes_at_all(zeros: Sequence[SingularEnd] | None, f: Polynomial) -> bool | None:
+    """Whether a polynomial vanishes at all zeros that a point may stand for, or at none.
+
+    None else, or where they are not known, or one is not isolated.
+    """
+    answers = {vanishes_at(zero, f) for zero in select_isolated(zeros)}
     return answers.pop() if len(answers) == 1 else None
 
 
@@ -150,7 +161,10 @@ def widen_point(x: np.ndarray, radii: np.ndarray) -> PrecisePoint:
     return PrecisePoint.of_doubles(x, SLACK * (radii + EPS * np.abs(x)))
 
 
-def multiplicity_of_all(zeros: Sequence[SingularEnd]) -> int | None:
-    """The multiplicity of all zeros; None if they differ, or if there are none."""
-    answers = {zero.multiplicity for zero in zeros}
+def multiplicity_of_all(zeros: Sequence[SingularEnd] | None) -> int | None:
+    """The multiplicity of all zeros that a point may stand for.
+
+    None if they differ, or where they are not known, or one is not isolated.
+    """
+    answers = {zero.multiplicity for zero in select_isolated(zeros)}
     return answers.pop() if len(answers) == 1 else None

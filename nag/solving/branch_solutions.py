@@ -38,6 +38,7 @@ from nag.numerics.zero_values import (
     WRITTEN,
     choose_alike,
     possible_zeros,
+    select_isolated,
     vanishes_at_all,
     widen_error,
 )
@@ -137,7 +138,7 @@ class _Found(GenericPoint):
             return ()
         equations = self.branch.elimination.system.polynomials
         y, error = _point_and_error(self.tracked)
-        zeros = possible_zeros(equations, y, error, np.random.default_rng(0))
+        zeros = select_isolated(possible_zeros(equations, y, error, np.random.default_rng(0)))
         zeros = tuple(z for z in zeros if z.multiplicity == self.tracked.multiplicity)
         return choose_alike(zeros, y) if len(zeros) > 1 else zeros
 
@@ -307,7 +308,8 @@ def _lift_in_digits(
 
     None if there is none.
     """
-    zeros = possible_zeros(elimination.system.polynomials, y, error, np.random.default_rng(0))
+    equations = elimination.system.polynomials
+    zeros = select_isolated(possible_zeros(equations, y, error, np.random.default_rng(0)))
     if len(zeros) != 1 or zeros[0].multiplicity != 1 or zeros[0].precise is None:
         return None
     zero = zeros[0].precise

@@ -25,7 +25,7 @@ from nag.numerics.digits import LOG10_2
 from nag.numerics.doubles import EPS
 from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import SingularEnd
-from nag.numerics.zero_values import WRITTEN, choose_alike, possible_zeros
+from nag.numerics.zero_values import WRITTEN, choose_alike, possible_zeros, select_isolated
 from nag.tracking.newton import Refined, refine
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import sharpen
@@ -302,7 +302,8 @@ def exact_zeros(
     x, radii, rows = component.points[index], component.radii[index], component.slice.rows
     known = _close_in_digits(component, index)
     if known is not None:
-        return possible_zeros(equations, known.centre, WRITTEN, np.random.default_rng(0), rows)
+        zeros = possible_zeros(equations, known.centre, WRITTEN, np.random.default_rng(0), rows)
+        return select_isolated(zeros)
     isolated = not component.fibres and not component.dimension
     each_known, simple = isolated and bool(np.ptp(radii) > 0), component.multiplicity == 1
     accuracy: float | np.ndarray = component.accuracy
@@ -311,7 +312,7 @@ def exact_zeros(
     elif component.fibres or not (each_known or simple):
         # Of what was sharpened by a deflation no more is known.
         accuracy = max(component.accuracy, LEAST)
-    zeros = possible_zeros(equations, x, accuracy, np.random.default_rng(0), rows)
+    zeros = select_isolated(possible_zeros(equations, x, accuracy, np.random.default_rng(0), rows))
     if isolated:
         # Paths end at a zero as many times as its multiplicity says: no other is meant.
         zeros = tuple(z for z in zeros if z.multiplicity == component.multiplicity)
