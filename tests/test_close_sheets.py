@@ -308,3 +308,18 @@ def test_a_simple_curve_and_a_multiple_one_beside_it_are_two(
     assert answer.complete
     kinds = sorted((c.dimension, c.degree, c.multiplicity) for c in answer.components)
     assert kinds == [(1, 4, 1), (1, 4, multiplicity)]
+
+
+def test_coranks_of_a_multiple_curve_beside_another_are_those_of_digits() -> None:
+    """Its points differ in size, and beside some of them doubles see slopes that vanish."""
+    texts = [
+        "(y + 1/10^15)^2*y",
+        "z*x + 3*v*u - u",
+        "(y + 1)^2*(-z - 1)",
+        "v*u*z^2*(2*z + u + 1/10^8) - 1/10^12",
+    ]
+    system = nag.system(texts, "x y z u v", nonzero=["x"])
+    answer = decompose_by((one_by_one,), Task(SystemFacts(system), (), Run()))
+    assert answer.complete
+    found = sorted((c.dimension, c.degree, c.multiplicity, c.corank) for c in answer.components)
+    assert found == [(1, 3, 1, 1), (1, 3, 2, 2)]

@@ -19,6 +19,7 @@ from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, CLOSE_AFAR, close_pairs, follow_slice
 from nag.witness.confirm import is_confirmed, zero_in_digits
 from nag.witness.cutting import Equations
+from nag.witness.cutting_in_digits import corank_in_digits
 from nag.witness.exact_points import SharpPoints, carry_radii, sharpen_points
 from nag.witness.fibres import Fibre, move
 from nag.witness.frame import Frame
@@ -109,14 +110,17 @@ def _coranks(equations: Equations, fibre: Fibre, rng: np.random.Generator) -> li
 
     Where the equations cut the component in regular points, and doubles say otherwise, as they do
     where coordinates differ much in size, digits decide; of points that are close to others, they
-    have, where they prove a simple zero.
+    decide in any case.
     """
     d, rows, result, regular = fibre.dimension, fibre.rows, [], not fibre.cut.deflated
     matrices = equations.evaluator.balanced_jacobians(fibre.x)
     singular = np.linalg.svd(matrices, compute_uv=False)
     for i, (point, s) in enumerate(zip(fibre.x, singular, strict=True)):
-        if regular and i in fibre.fine and zero_in_digits(fibre, i) is not None:
-            result.append(d)
+        digits = zero_in_digits(fibre, i) if i in fibre.fine else None
+        if digits is not None:
+            # A zero that they prove to be simple is on a set that its cut says the dimension of.
+            x = digits.first(fibre.cut.n).centre
+            result.append(d if regular else corank_in_digits(equations.polynomials, x))
             continue
         corank = numerical_corank(s, len(point), SINGULAR)
         if regular and corank != d and multiplicity(equations.polynomials, rows, point, rng) == 1:

@@ -243,6 +243,16 @@ def _size(row: Sequence[flint.acb]) -> flint.arb:
     return max((abs(z).mid() for z in row), default=flint.arb(0))
 
 
+def corank_in_digits(polynomials: Sequence[Polynomial], x: Sequence[flint.acb]) -> int:
+    """Corank of the Jacobian at a zero of a hundred digits."""
+    with in_bits(BITS):
+        rows = []
+        for row in _slopes(polynomials, _none(x), x).tolist():
+            size = _size(row)
+            rows.append([middle(z / size) for z in row] if size else row)
+        return len(x) - regular_block(rows, len(x), ZERO).rank
+
+
 def _independent(
     polynomials: Sequence[Polynomial], slices: np.ndarray, x: list[flint.acb]
 ) -> list[int] | None:
