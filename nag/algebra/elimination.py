@@ -71,15 +71,20 @@ class Elimination:
         return lifted
 
     def lift_radii(self, point: Any, radii: Any) -> Any:
-        """Errors of the coordinates above ``point``, of those of ``point``; arrays."""
+        """Errors of the coordinates above ``point``, of those of ``point``.
+
+        Both are arrays, of shape (..., reduced n); the result is of shape (..., n).
+        """
         import numpy as np
 
         sizes = np.abs(point)
         terms = [{e: abs(float(c)) for e, c in f.terms.items()} for f in self.images]
 
         def largest(within: Any) -> Any:
-            values = [sum(c * np.prod(within**e) for e, c in each.items()) for each in terms]
-            return np.array(values, dtype=float)
+            values = np.zeros((*within.shape[:-1], len(terms)))
+            for i, each in enumerate(terms):
+                values[..., i] = sum(c * np.prod(within**e, axis=-1) for e, c in each.items())
+            return values
 
         operations = np.array(
             [len(f.terms) * (1 + f.degree) if f.degree else 0 for f in self.images]

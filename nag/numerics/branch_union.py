@@ -34,6 +34,8 @@ from nag.numerics.zero_values import (
     widen_point,
 )
 
+# Points at which gradients are looked at together.
+BLOCK = 1024
 # A point, in doubles or in balls, and how far the exact one may be from it.
 PointWithError = tuple["np.ndarray | Sequence[flint.acb]", "float | np.ndarray"]
 
@@ -197,17 +199,27 @@ def multiplicities_in_scheme(
     counts = [len(each.points) for each in found]
     points = np.concatenate([each.points for each in found]) if found else np.zeros((0, system.n))
     far = Evaluator.of(factors, system.n).residuals(points) > NONZERO
-    for each, rows in zip(found, np.split(far, np.cumsum(counts)[:-1]), strict=bool(found)):
+    ranks = _ranks_in_blocks(gradients, found)
+    parts = np.split(far, np.cumsum(counts)[:-1])
+    for each, rows, rank in zip(found, parts, ranks, strict=bool(found)):
         nonzero = rows.any(axis=0)
         each.vanishes.exclude(p for p, there in zip(factors, nonzero, strict=True) if there)
-        yield _multiplicity(equations, gradients, each)
+        yield _multiplicity(equations, rank, each)
 
 
-def _multiplicity(equations: Sequence[Factors], gradients: Gradients, each: GenericPoint) -> int:
+def _ranks_in_blocks(gradients: Gradients, found: Sequence[GenericPoint]) -> Iterator[int]:
+    """How many gradients are certainly independent at each point."""
+    for first in range(0, len(found), BLOCK):
+        block = found[first : first + BLOCK]
+        errors = [np.broadcast_to(each.error, each.point.shape) for each in block]
+        points = np.array([each.point for each in block])
+        yield from gradients.ranks(points, np.array(errors)).tolist()
+
+
+def _multiplicity(equations: Sequence[Factors], rank: int, each: GenericPoint) -> int:
     codimension = len(each.point) - each.dimension
     # A scheme is reduced where as many gradients are independent as its codimension.
-    simple = each.multiplicity_in_branch == 1
-    if simple and gradients.rank(each.point, each.error) >= codimension:
+    if each.multiplicity_in_branch == 1 and rank >= codimension:
         return 1
     own = each.zero is None and each.multiplicity_in_branch
     if own and each.branch.is_own_ring(equations, each.vanishes):

@@ -173,33 +173,34 @@ class Gradients:
         scales = [max((abs(float(c)) for c in f.terms.values()), default=1.0) for f in derivatives]
         return cls(len(polynomials), Evaluator.of(derivatives, n), np.array(scales))
 
-    def rank(self, x: np.ndarray, error: float | np.ndarray) -> int:
-        """How many gradients are certainly independent at a point.
+    def ranks(self, x: np.ndarray, errors: np.ndarray) -> np.ndarray:
+        """How many gradients are certainly independent at each of some points, shape ``(P,)``.
 
         A singular value counts where it is larger than the sizes of all errors together (Weyl): a
         derivative may be off by rounding of its terms, and by what an error of the coordinates
         explains. Rows and columns are brought to length one, with their errors.
 
         Args:
-            x: the point, shape ``(n,)``.
-            error: how far, at most, coordinates may be from the exact ones; a number or one each.
+            x: the points, shape ``(P, n)``.
+            errors: how far, at most, coordinates may be from the exact ones, shape ``(P, n)``.
         """
-        point = np.asarray(x, dtype=complex)[None]
-        shape = self.rows, len(x)
-        values = self.derivatives.values(point)[0]
-        sizes = self.derivatives.absolute(point)[0]
-        doubt = self.derivatives.absolute(np.abs(point) + error)[0] - sizes + NOT_ZERO * sizes
+        points = np.asarray(x, dtype=complex)
+        shape = len(points), self.rows, points.shape[1]
+        values = self.derivatives.values(points)
+        sizes = self.derivatives.absolute(points)
+        doubt = self.derivatives.absolute(np.abs(points) + errors) - sizes + NOT_ZERO * sizes
         certain = np.abs(values) > doubt
         gradients = (np.where(certain, values, 0) * self.scales).reshape(shape)
         errors = (np.where(certain, doubt, doubt + np.abs(values)) * self.scales).reshape(shape)
-        for axis in (1, 0, 1):
+        for axis in (2, 1, 2):
             # Squares of large derivatives leave the range of doubles.
             for order in (np.inf, 2):
                 lengths = np.linalg.norm(gradients, ord=order, axis=axis, keepdims=True)
                 lengths = np.where(lengths == 0, 1.0, lengths)
                 gradients, errors = gradients / lengths, errors / lengths
-        off = float(np.linalg.norm(errors))
-        return int(np.sum(np.linalg.svd(gradients, compute_uv=False) > INDEPENDENT + off))
+        off = np.linalg.norm(errors, axis=(1, 2))
+        singular_values = np.linalg.svd(gradients, compute_uv=False)
+        return np.sum(singular_values > INDEPENDENT + off[:, None], axis=1)
 
 
 def independent_gradients(
@@ -207,6 +208,8 @@ def independent_gradients(
 ) -> bool:
     """Whether the gradients of polynomials are certainly independent at a point.
 
-    See `Gradients.rank`.
+    See `Gradients.ranks`.
     """
-    return Gradients.of(polynomials, len(x)).rank(x, error) == len(polynomials)
+    point = np.asarray(x)[None]
+    ranks = Gradients.of(polynomials, len(x)).ranks(point, np.broadcast_to(error, point.shape))
+    return bool(ranks[0] == len(polynomials))

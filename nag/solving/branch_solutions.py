@@ -274,31 +274,44 @@ def _solve_part(
     result = others(task.of_part(replace(elimination.system, nonzero=images)))
     # All equations say later which of them are left out.
     solutions = (*result.solutions, *result.excluded_solutions)
-    found = tuple(_Found(_lift_solution(s, elimination), branch, None, s) for s in solutions)
+    lifted = _lift_solutions(solutions, elimination)
+    found = tuple(_Found(x, branch, None, s) for x, s in zip(lifted, solutions, strict=True))
     larger = result.larger.map_points(elimination.lift)
     return _SolvedBranch(branch.system, found, result, larger, elimination.lift(result.undecided))
 
 
-def _lift_solution(solution: Solution, elimination: Elimination) -> Solution:
-    """The solution above one of ``elimination.system``.
+def _lift_solutions(solutions: Sequence[Solution], elimination: Elimination) -> list[Solution]:
+    """The solutions above those of ``elimination.system``.
 
-    Its ``radii`` are known where those of the given one are, or where more digits were needed.
+    Their ``radii`` are known where those of the given ones are, or where more digits were needed.
     """
-    y, radii = solution.point, solution.radii
-    x = elimination.lift(y)
-    if len(elimination.kept) == len(x):
-        return replace(solution, point=x)
-    even = solution.accuracy * (1 + np.linalg.norm(y))
-    errors = elimination.lift_radii(y, np.full(len(y), even) if radii is None else radii)
-    others = np.delete(np.arange(len(x)), elimination.kept)
-    if solution.multiplicity == 1 and (errors > ROUGH * np.abs(x))[others].any():
-        fine = _lift_in_digits(elimination, y, solution.accuracy if radii is None else radii)
-        if fine is not None:
-            point, zero_radii = fine
-            # What is known to so many digits does not say whether it vanishes.
-            known = elimination.lift_radii(y, zero_radii)
-            return replace(solution, point=point, radii=ROUNDING * np.abs(point) + known)
-    return replace(solution, point=x, radii=None if radii is None else errors)
+    if not solutions:
+        return []
+    given = np.array([s.point for s in solutions])
+    points = elimination.lift(given)
+    if len(elimination.kept) == points.shape[1]:
+        return [replace(s, point=x) for s, x in zip(solutions, points, strict=True)]
+    radii = [
+        np.full(len(y), s.accuracy * (1 + np.linalg.norm(y))) if s.radii is None else s.radii
+        for s, y in zip(solutions, given, strict=True)
+    ]
+    errors = elimination.lift_radii(given, np.array(radii))
+    others = np.delete(np.arange(points.shape[1]), elimination.kept)
+    rough = (errors > ROUGH * np.abs(points))[:, others].any(axis=1)
+    lifted = []
+    for s, x, error, far in zip(solutions, points, errors, rough, strict=True):
+        fine = None
+        if s.multiplicity == 1 and far:
+            own = s.accuracy if s.radii is None else s.radii
+            fine = _lift_in_digits(elimination, s.point, own)
+        if fine is None:
+            lifted.append(replace(s, point=x, radii=None if s.radii is None else error))
+            continue
+        point, zero_radii = fine
+        # What is known to so many digits does not say whether it vanishes.
+        known = elimination.lift_radii(s.point, zero_radii)
+        lifted.append(replace(s, point=point, radii=ROUNDING * np.abs(point) + known))
+    return lifted
 
 
 def _lift_in_digits(
