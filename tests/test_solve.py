@@ -160,6 +160,20 @@ def test_a_set_that_is_not_finite_is_said_to_be_so_at_its_first_point() -> None:
     assert result.positive_dimensional and not result.complete
 
 
+def test_some_paths_tell_that_a_set_is_not_finite() -> None:
+    # Ten quadrics through a linear space of dimension 4.
+    rng, names = np.random.default_rng(1), [f"x{i}" for i in range(10)]
+
+    def form() -> str:
+        terms = [f"{c}*{name}" for c, name in zip(rng.integers(1, 10, 10), names, strict=True)]
+        return " + ".join([*terms, "1"])
+
+    equations = [" + ".join(f"{x}*({form()})" for x in names[4:]) for _ in names]
+    result = solve(system(" ".join(names), *equations), seed=1, finite=True)
+    assert result.positive_dimensional and not result.complete
+    assert 8 <= result.paths.tracked <= 32
+
+
 def test_what_must_not_vanish_is_seen_at_zeros_that_are_badly_conditioned(tmp_path) -> None:
     # A line-symmetric 6R, which moves, but for 1e-12: at most 16 closings (Primrose 1986).
     rows = [("1", "1/2", "1/3"), ("2", "1/3", "1/2"), ("3/2", "2", "-1/5")] * 2

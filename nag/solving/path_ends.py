@@ -186,9 +186,11 @@ def sort_ends(
     whole = begin.complete and not problem.squared
     most = np.zeros_like(zeros.path)
     if whole and not problem.added:
+        # A path that was lost may lead anywhere.
+        most = zeros.count_near(groups) + lost + len(paths.where(PathStatus.FAILED))
         # Whether something vanishes on all of a set takes more than that an end lies on one.
-        near = np.array([problem.may_be_excluded(x) for x in zeros.points], dtype=bool)
-        most = np.where(near, 0, zeros.count_near(groups))
+        doubtful = np.flatnonzero(~zeros.regular)
+        most[[i for i in doubtful if problem.may_be_excluded(zeros.points[i])]] = 0
     singular = EndJudgements(
         problem.equations,
         *(zeros.points, zeros.accuracy, limits, zeros.path, most),
