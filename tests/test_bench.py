@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nag.bench.measure import Measured, as_json, step_flops
+from nag.bench.measure import Measured, as_json
 from nag.bench.peers import Peer, run_peer
-from nag.bench.table import table
+from nag.bench.step_parts import PARTS, PartCost, StepCost, count_flops, measure_step
+from nag.bench.table import step_table, table
 from nag.cli import main
 from nag.cli.bench import NAMES, files
 from nag.files.cases import read_case
@@ -75,7 +76,7 @@ def test_a_step_costs_more_where_there_are_more_terms() -> None:
     def flops(name: str) -> int:
         system = read_case(FOLDER / f"{name}.toml").system
         start = total_degree(Target.of(system.polynomials, system.n), np.random.default_rng(0))
-        return step_flops(start.homotopy)
+        return sum(count_flops(start.homotopy).values())
 
     assert flops("katsura-6") < flops("katsura-8") < flops("katsura-10")
 
@@ -102,3 +103,31 @@ def test_what_other_programs_say_is_read(
         wanted.solutions,
         wanted.remark,
     )
+
+
+def test_a_step_is_explained_by_its_parts() -> None:
+    cost = measure_step("katsura-6", read_case(FOLDER / "katsura-6.toml").system)
+    assert [part.name for part in cost.parts] == [part.name for part in PARTS]
+    assert all(part.flops > 0 and part.microseconds > 0 for part in cost.parts)
+    spent = sum(part.microseconds for part in cost.parts)
+    assert cost.between == pytest.approx(cost.microseconds - spent)
+
+
+def test_parts_are_told_beside_what_their_arithmetic_takes() -> None:
+    parts = (PartCost("values", 1000, 0.25), PartCost("Jacobian", 3000, 0.5))
+    lines = step_table([StepCost("toy", 1.0, parts)], rate=1e10)
+    assert [line.split() for line in lines[1:5]] == [
+        ["toy", "a", "step", "4000", "0.400", "1.000", "2.50"],
+        ["values", "1000", "0.100", "0.250", "2.50"],
+        ["Jacobian", "3000", "0.300", "0.500", "1.67"],
+        ["between", "them", "-", "-", "0.250", "-"],
+    ]
+
+
+def test_steps_are_explained_on_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
+    command = ["bench", "--explain", "--case", "katsura-6", "--folder", str(FOLDER), "--quiet"]
+    assert main([*command, "--json", "-"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["format"] == "nag-bench-steps"
+    (system,) = document["systems"]
+    assert system["case"] == "katsura-6" and len(system["parts"]) == len(PARTS)

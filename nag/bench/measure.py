@@ -9,19 +9,17 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
+from nag.bench.step_parts import count_flops
 from nag.numerics.linear_algebra_threads import VARIABLES
 from nag.solving.parameter import Solved, begin_of_family, solve_generic, solve_targets
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
-from nag.tracking.homotopy import Homotopy
-from nag.tracking.settings import Settings
 
 if TYPE_CHECKING:
     from nag.algebra.symmetric_family import FamilyMember
@@ -71,43 +69,6 @@ class Measured:
     def document(self) -> dict[str, Any]:
         """As a JSON object."""
         return asdict(self) | {"right": self.right}
-
-
-def step_flops(homotopy: Homotopy, order: int = Settings().order) -> int:
-    """Real additions and multiplications of a step: two corrections, coefficients, prediction.
-
-    Products and terms are counted from the compiled system; a complex product is 6 operations, a
-    complex sum 2, a complex number times a real one 2.
-    """
-    tape, n = homotopy.rows.tape, homotopy.N
-
-    def blocks(start: np.ndarray, coefficient: np.ndarray) -> int:
-        real = sum(
-            (4 if not coefficient[a:b].imag.any() else 8) * int(b - a) for a, b in pairwise(start)
-        )
-        return real + 16 * (len(start) - 1)
-
-    value = blocks(tape.value_start, tape.value_coefficient)
-    jacobian = blocks(tape.jacobian_start, tape.jacobian_coefficient)
-    linear = 8 * n * len(homotopy.A0)
-    # A coefficient of order k of a product takes k - 1 complex products and as many sums.
-    products = (
-        tape.value_products * 8 * (order * (order - 1) // 2) + tape.inner_products * 16 * order
-    )
-    slopes = 8 * len(np.unique(tape.jacobian_place)) * order
-    factorize = 8 * n**3 // 3
-    substitute = 8 * n * n
-    return (
-        6 * (len(tape.first) + tape.value_products)
-        + products
-        + slopes
-        + jacobian
-        + (order + 1) * value
-        + (order + 2) * linear
-        + factorize
-        + (order + 2) * substitute
-        + (48 + 8 * order) * n
-    )
 
 
 def matrix_rate() -> float:
@@ -194,7 +155,7 @@ def measure(
         homotopy, tracking, steps = time_first_attempt(system, seed)
     else:
         homotopy, tracking, steps = begin_of_family(_generic(family, seed, 2), family.values)
-    flops = step_flops(homotopy)
+    flops = sum(count_flops(homotopy).values())
     return Measured(
         case=name,
         expected=expected,

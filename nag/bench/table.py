@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from nag.bench.measure import Measured
     from nag.bench.models import Formulated
     from nag.bench.peers import Peer
+    from nag.bench.step_parts import StepCost
 
 
 def table(
@@ -56,6 +57,30 @@ def table(
     if wrong:
         text.append(f"WRONG: {', '.join(wrong)}")
     return text
+
+
+def step_table(costs: list[StepCost], rate: float) -> list[str]:
+    """The parts of steps as aligned lines, times in microseconds."""
+    lines = [["system", "part", "operations", "bound", "takes", "x"]]
+    for cost in costs:
+        flops = sum(part.flops for part in cost.parts)
+        rows = [("a step", flops, cost.microseconds)]
+        rows += [(part.name, part.flops, part.microseconds) for part in cost.parts]
+        rows.append(("between them", 0, cost.between))
+        for k, (name, count, takes) in enumerate(rows):
+            bound = 1e6 * count / rate
+            ratio = f"{takes / bound:.2f}" if count else "-"
+            cells = [str(count) if count else "-", f"{bound:.3f}" if count else "-"]
+            lines.append(["" if k else cost.case, name, *cells, f"{takes:.3f}", ratio])
+    return [
+        *align(lines, {0, 1}),
+        "",
+        f"bound: microseconds that the operations take at {rate / 1e9:.1f} Gflop/s, measured by a",
+        "product of matrices; takes: of the processor, in doubles, of one path of eight that are",
+        "tracked at once. values: of the equations, twice; linear systems: two corrections and the",
+        "coefficients of the path's series; between them: series that are kept, paths that are",
+        "judged one by one and wait for others.",
+    ]
 
 
 def decomposition_table(rows: list[Decomposed], peers: dict[str, PeerDecomposed]) -> list[str]:

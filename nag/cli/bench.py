@@ -31,6 +31,8 @@ NAMES = (
     "stewart-gough",
     "planar-3-rpr",
 )
+# Those whose steps are explained unless names are given.
+EXPLAINED = ("katsura-8", "katsura-9", "katsura-10", "katsura-11", "cyclic-7")
 
 
 def _seconds(text: str) -> int:
@@ -65,6 +67,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help=f"folder of the benchmarks (default: {FOLDER}; of mechanisms {bench_models.FOLDER})",
     )
+    parser.add_argument(
+        "--explain",
+        action="store_true",
+        help="say where the time of a step goes: what its parts take, beside what their arithmetic "
+        "would",
+    )
     parser.add_argument("--peers", action="store_true", help="run M2 and phc too, where installed")
     parser.add_argument(
         "--json",
@@ -75,7 +83,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     bench_decompose.add_arguments(parser)
 
 
-def files(names: list[str] | None, folder: str) -> list[Path]:
+def files(names: list[str] | None, folder: str, default: tuple[str, ...] = NAMES) -> list[Path]:
     """The case files to run.
 
     Raises:
@@ -85,7 +93,7 @@ def files(names: list[str] | None, folder: str) -> list[Path]:
     if not there.is_dir() and not names:
         raise UsageError(f"--folder: {folder}: is no folder; name the one that has the benchmarks")
     result = []
-    for name in names or NAMES:
+    for name in names or default:
         path = Path(name) if name.endswith(".toml") else there / f"{name}.toml"
         if not path.is_file():
             known = ", ".join(sorted(p.stem for p in there.glob("*.toml")))
@@ -109,6 +117,8 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         options.folder = str(FOLDER)
     if options.decompose or any(x is not None for x in (options.growth, options.chart, options.of)):
         return bench_decompose.run(options)
+    if options.explain:
+        return _explain(options)
 
     from nag.bench.measure import as_json, flop_rate, measure
     from nag.bench.peers import installed_programs, run_peer
@@ -141,3 +151,27 @@ def run(options: argparse.Namespace) -> CommandAnswer:
         all(row.right for row in rows),
         lambda: as_json(rows, rate, documents),
     )
+
+
+def _explain(options: argparse.Namespace) -> CommandAnswer:
+    """Where the time of a step goes."""
+    from nag.bench.measure import flop_rate
+    from nag.bench.step_parts import measure_step
+    from nag.bench.table import step_table
+    from nag.errors import StartError
+
+    rate, costs = flop_rate(), []
+    for path in files(options.case, options.folder, EXPLAINED):
+        system = problem_of_case(read_case_file(path)).system
+        if not options.quiet:
+            print(f"{path.stem} ...", file=sys.stderr, flush=True)
+        try:
+            costs.append(measure_step(path.stem, system))
+        except StartError as error:
+            raise UsageError(f"{path}: {error}") from None
+    document = {
+        "format": "nag-bench-steps",
+        "flops_per_second": rate,
+        "systems": [cost.document() for cost in costs],
+    }
+    return CommandAnswer(step_table(costs, rate), True, lambda: document)
