@@ -12,10 +12,11 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import ends
 from nag.decomposition.decompose import decompose
+from nag.decomposition.ends import EveryEnd, SingularEnds
 from nag.decomposition.superset import Superset, _Stage, intersection_order, witness_superset
 from nag.tracking.run import Run
 from nag.witness import membership
-from nag.witness.close_to_sets import NearbyZeros
+from nag.witness.close_to_sets import NearbyZeros, find_nearby_zeros
 from nag.witness.confirm import find_vanishing
 from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre, SliceEnds, whole_space
@@ -104,7 +105,7 @@ def test_digits_tell_points_from_larger_sets_where_paths_do_not(
     points = np.array([[1, 1], [0, 3]], dtype=complex)
     fibre = Fibre(Cut(2, 0, equations.polynomials), np.zeros((0, 3), dtype=complex), points)
     empty = Superset({}, PathCounts(), ())
-    stage = _Stage((), (), empty, (), np.random.default_rng(0), Run())
+    stage = _Stage((), (), empty, (), np.random.default_rng(0), Run(), whole=True)
     kept, notes, _ = stage.keep_on_no_other(fibre, {}, equations)
     assert np.array_equal(kept.x, points[:1]) and not notes
 
@@ -145,7 +146,7 @@ def test_a_deflated_point_is_left_out_where_digits_say_that_it_is_known(
         Fibre(Cut(1, 0, polynomials("x", text)), rows, point) for text in ("x - 1", other)
     )
     empty = Superset({}, PathCounts(), ())
-    stage = _Stage((), (), empty, (), np.random.default_rng(0), Run())
+    stage = _Stage((), (), empty, (), np.random.default_rng(0), Run(), whole=True)
     left, notes, _ = stage.keep_on_no_other(first, {0: [second]}, Equations((), 1))
     assert (len(left), len(notes)) == (kept, doubts)
 
@@ -265,3 +266,45 @@ def test_a_variable_that_equations_keep_from_zero_may_be_smaller_than_digits_tel
     y = Polynomial.variable(2, 1)
     assert ends.find_excluded([y], end, [1])[0].tolist() == [False]
     assert sum(map(len, ends.collect([end], [y], [1]).fibres)) == 1
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    ("texts", "multiplicities"),
+    [
+        # Planes that touch a cone along lines, and a sphere in points of these.
+        (("x^2 + y^2 - z^2", "(z - x)*(z + x + 2)", "x^2 + y^2 + z^2 - 2*z"), {2, 4}),
+        # A surface, twice, for the first equation; both meet the second in a cusp.
+        (("(x*y - z)^2*(x + y)", "z - x*y + y^3", "x + z - 2"), {2, 3, 6}),
+    ],
+)
+def test_paths_end_at_a_zero_as_often_as_its_multiplicity_says(
+    texts: tuple[str, ...],
+    multiplicities: set[int],
+    seed: int,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    counted: list[tuple[int, int]] = []
+    add = SingularEnds.add
+
+    def record(self, cluster, *others):
+        place = self.equations, self.rows, np.random.default_rng(0)
+        found = find_nearby_zeros(cluster, *place).zeros
+        if self.every is not None and found:
+            multiplicity = sum(zero.multiplicity for zero in found)
+            counted.append((self.every.count_near(cluster), multiplicity))
+        return add(self, cluster, *others)
+
+    monkeypatch.setattr(SingularEnds, "add", record)
+    equations = polynomials("x y z", *texts)
+    rng = np.random.default_rng(seed)
+    space = whole_space(random_rows(rng, 3, 3))
+    witness_superset(equations, {3: [space]}, rng, Run())
+    assert counted and all(most == multiplicity for most, multiplicity in counted)
+    assert {multiplicity for _, multiplicity in counted} <= multiplicities
+
+
+def test_ends_that_are_not_known_count_as_near_every_point() -> None:
+    x = np.array([[1.0, 0], [1.0001, 0], [np.nan, np.nan], [2, 0]], dtype=complex)
+    every = EveryEnd(x, np.array([1, 2, 3, 5]))
+    assert every.count_near([(x[0], 1e-12)]) == 6

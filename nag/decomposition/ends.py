@@ -12,7 +12,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.coincidence import NEAR, SAFETY, clusters, coincident
+from nag.numerics.coincidence import NEAR, SAFETY, clusters, coincident, radius_about
 from nag.numerics.doubles import ROUNDED
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import NONZERO, ON, possible_zeros, vanishes_at
@@ -193,6 +193,25 @@ def _one_vanishes(polynomials: Sequence[Polynomial], zero: SingularEnd) -> bool 
 
 
 @dataclass(frozen=True, eq=False)
+class EveryEnd:
+    """Where all paths to a slice end, counted so that they add up to a zero's multiplicity.
+
+    Attributes:
+        x: shape ``(P, n)``, nan where that is not known.
+        weights: for how many each path counts, shape ``(P,)``.
+    """
+
+    x: np.ndarray
+    weights: np.ndarray
+
+    def count_near(self, cluster: Cluster) -> int:
+        """The largest multiplicity of an isolated zero near some ends."""
+        radius = radius_about(cluster[0][0], max(error for _, error in cluster))
+        far = np.linalg.norm(self.x - cluster[0][0], axis=1) > radius
+        return int(self.weights[~far].sum())
+
+
+@dataclass(frozen=True, eq=False)
 class Settled:
     """What came of singular ends.
 
@@ -219,6 +238,7 @@ class SingularEnds:
         whole: whether errors are relative to the point, not to each of its coordinates.
         members: whether those that lie on larger sets as far as doubles can tell are looked at in
             digits. Where sets meet, most ends do, and are multiple.
+        every: where all paths end, if what is known of them says how multiple a zero can be.
     """
 
     equations: Equations
@@ -229,6 +249,7 @@ class SingularEnds:
     avoid: Sequence[Polynomial] = ()
     whole: bool = False
     members: bool = True
+    every: EveryEnd | None = None
 
     def add(self, cluster: Cluster, kept: dict[int, list[Fibre]], deflate: bool = True) -> Settled:
         """Add the points that a cluster of ends stands for to those known, by dimension.
@@ -331,7 +352,8 @@ class SingularEnds:
     ) -> tuple[list[str], NearbyZeros]:
         """Add the isolated zeros that ends in doubles may stand for; doubts, and what was found."""
         doubts, (equations, rows, rng) = [], (self.equations, self.rows, self.rng)
-        found = find_nearby_zeros(cluster, equations, rows, rng, patience, self.whole)
+        most = None if self.every is None else self.every.count_near(cluster)
+        found = find_nearby_zeros(cluster, equations, rows, rng, patience, self.whole, most)
         for zero in found.zeros:
             known = is_among_points(zero, own)
             if known or any(vanishes_at(zero, g) for g in self.avoid):

@@ -9,23 +9,28 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial, find_nonzero_variables
-from nag.decomposition.ends import SingularEnds, collect
+from nag.decomposition.ends import EveryEnd, SingularEnds, collect
 from nag.decomposition.hypersurface import HypersurfaceSection, hypersurface_section
+from nag.numerics.singular_point import Place, analyse
 from nag.text.table import count_text
 from nag.tracking.run import Run
 from nag.witness.close_to_sets import find_nearby_zeros, is_point_of_others
 from nag.witness.cutting import Equations, dyadic, leading_power
-from nag.witness.fibres import Fibre
+from nag.witness.fibres import Fibre, SliceEnds
 from nag.witness.membership import Membership, is_on_larger_set
 from nag.witness.points import Points
+from nag.witness.slices import pad_rows
 from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
 REGULAR = 1e-13
+# Points of sets that are multiple, whose multiplicity is found out one by one.
+MOST_JUDGED = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +110,8 @@ class _Outcome:
 class _Stage:
     """How sets are to meet a polynomial, where ``before`` vanish on them and ``avoid`` must not.
 
-    ``after`` are the equations that they will meet later.
+    ``after`` are the equations that they will meet later. ``whole``: whether the sets are all zeros
+    of those before, but for what lies where one of ``avoid`` vanishes.
     """
 
     before: tuple[Polynomial, ...]
@@ -114,6 +120,7 @@ class _Stage:
     avoid: tuple[Polynomial, ...]
     rng: np.random.Generator
     run: Run
+    whole: bool
 
     @property
     def units(self) -> tuple[int, ...]:
@@ -192,7 +199,9 @@ class _Stage:
             higher = len(notes)
             candidates = collect(crossed.ends[d], self.avoid, self.units)
             rows = crossed.ends[d][0].rows
-            singular = SingularEnds(so_far, rows, self.rng, self.run, self.after, self.avoid)
+            every = self._count_ends(so_far, crossed.ends[d]) if candidates.singular else None
+            place = so_far, rows, self.rng, self.run, self.after, self.avoid
+            singular = SingularEnds(*place, every=every)
             if candidates.unclear:
                 notes.append(f"{count_text(candidates.unclear, 'point')} may be excluded")
             if candidates.untold:
@@ -215,6 +224,46 @@ class _Stage:
         kept = {d: [fibre for fibre in fibres if len(fibre)] for d, fibres in kept.items()}
         points = len(notes) - higher if 0 in crossed.ends else 0
         return Superset(kept, PathCounts(), tuple(notes), points, recovered), counts
+
+    def _count_ends(self, so_far: Equations, pieces: Sequence[SliceEnds]) -> EveryEnd | None:
+        """Where all paths to a slice end; None where they do not say how multiple zeros are.
+
+        The zeros of as many equations as they have codimensions are a complete intersection, whose
+        local rings are Cohen-Macaulay: the last equation leaves of them as much as its order on the
+        branches, each by the multiplicity of its component, adds up to (Fulton, Intersection
+        Theory, 1998, lemma A.2.7). Its order is the number of paths.
+        """
+        n, d = so_far.n, len(pieces[0].rows)
+        if not self.whole or len(self.before) != n - d - 1:
+            return None
+        places, weights = [], []
+        for ends in pieces:
+            cut = ends.cut.polynomials[:-1]
+            fibres = self.found.fibres[d + 1]
+            own = next((fibre for fibre in fibres if fibre.cut.polynomials == cut), None)
+            multiplicity = None if own is None else self._multiplicities[id(own)]
+            if multiplicity is None:
+                return None
+            there = ends.finite | ends.failed
+            places.append(np.where(ends.failed[:, None], np.nan, ends.x)[there])
+            weights.append(np.full(int(there.sum()), multiplicity))
+        return EveryEnd(np.vstack(places), np.concatenate(weights))
+
+    @cached_property
+    def _multiplicities(self) -> dict[int, int | None]:
+        """The largest multiplicity of a component that points of a fibre lie on, where known."""
+        every = [fibre for fibres in self.found.fibres.values() for fibre in fibres]
+        return {id(fibre): self._largest_multiplicity(fibre) for fibre in every}
+
+    def _largest_multiplicity(self, fibre: Fibre) -> int | None:
+        if not fibre.cut.deflated and set(self.before).issuperset(fibre.cut.polynomials):
+            return 1
+        if len(fibre) > MOST_JUDGED or len(self.before) != fibre.cut.n - fibre.dimension:
+            return None
+        rng, slices = np.random.default_rng(0), pad_rows(fibre.rows, 1 + fibre.cut.n)
+        ends = [analyse(self.before, x, REGULAR, rng, slices, True) for x in fibre.x]
+        known = all(end.place is Place.ISOLATED for end in ends)
+        return max(end.multiplicity for end in ends) if known else None
 
 
 def _untold(count: int, d: int) -> str:
@@ -249,10 +298,11 @@ def witness_superset(
     rows = [f.terms for f in (*known, *equations)]
     never_zero = [variables[i] for i in find_nonzero_variables(rows, len(variables))]
     avoid = tuple(dict.fromkeys((*nonzero, *never_zero)))
+    whole = not known
     for k, f in enumerate(equations):
         run.tell("intersecting", k, len(equations))
         before, after = (*known, *equations[:k]), tuple(equations[k + 1 :])
-        stage = _Stage(before, after, found, avoid, rng, run)
+        stage = _Stage(before, after, found, avoid, rng, run, whole)
         best, mixing, spent = stage.best(f, mixing)
         found = best.superset
         equations[k] = best.polynomial
@@ -261,4 +311,5 @@ def witness_superset(
         failed = best.crossed.counts.failed - sum(found.recovered.values())
         infinite = best.crossed.counts.at_infinity
         counts += PathCounts(spent.tracked, failed, infinite)
+        whole = whole and not failed and not found.notes
     return Superset(found.fibres, counts, tuple(notes), points)

@@ -34,6 +34,9 @@ SPREAD = 10.0
 # whose error is not known; of ends of lost paths from what they may lead to, of solutions in two
 # branches that are compared in more digits; error of a nearest point where a set may be singular.
 NEAR = 1e-6
+# Decides: Distance, beside its size, of ends that may have led to one multiple zero, however badly
+# they are known: thousands of times what is estimated of such ends.
+ANYWHERE_NEAR = 1e-3
 
 
 # Pairs of neighbours that are looked at together.
@@ -158,6 +161,15 @@ def overlapping_pairs(points: np.ndarray, radii: np.ndarray) -> np.ndarray:
         close = np.linalg.norm(points[i] - points[j], axis=1) <= np.maximum(radii[i], radii[j])
         pairs.append(np.sort(np.stack([i[close], j[close]], axis=1), axis=1))
     return np.concatenate(pairs)
+
+
+def radius_about(x: np.ndarray, error: float) -> float:
+    """How far from a point the ends may be of all paths that lead to one zero near it.
+
+    Args:
+        x: shape ``(n,)``; error: of the end there, relative.
+    """
+    return max(ANYWHERE_NEAR, SAFETY * error) * (1 + float(np.linalg.norm(x)))
 
 
 def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:

@@ -17,12 +17,12 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.array_table import map_rows, take_rows
 from nag.numerics.coincidence import (
-    SAFETY,
     PointMap,
     SortedPoints,
     clusters,
     conjugates_present,
     point_orbit,
+    radius_about,
 )
 from nag.numerics.doubles import MULTIPLE
 from nag.numerics.singular_point import Place, SingularEnd
@@ -48,9 +48,6 @@ from nag.tracking.projective import coinciding_pairs
 NEARLY = 1e-5
 # Decides: Homogenising coordinates of ends at infinity, beside what is proved of them.
 INFINITE = 2e-12
-# Decides: Distance, beside its size, of ends that may have led to one multiple zero, however badly
-# they are known: thousands of times what is estimated of such ends.
-ANYWHERE_NEAR = 1e-3
 # Singular ends from which on it pays to look for symmetries.
 FEW_SINGULAR = 8
 
@@ -120,7 +117,7 @@ class _Zeros:
         counts = np.zeros(len(self.path), dtype=np.int64)
         for group in groups:
             x, error = self.points[group[0]], float(self.accuracy[group].max())
-            radius = max(ANYWHERE_NEAR, SAFETY * error) * (1 + float(np.linalg.norm(x)))
+            radius = radius_about(x, error)
             near = self.sorted_points.near(x, radius)
             counts[group] = np.sum(np.linalg.norm(self.points[near] - x, axis=1) <= radius)
         return counts

@@ -43,6 +43,7 @@ def find_nearby_zeros(
     rng: np.random.Generator,
     patience: float = 1.0,
     whole: bool = False,
+    most: int | None = None,
 ) -> NearbyZeros:
     """The isolated zeros on the slice ``rows`` that ends may stand for; others lie on larger sets.
 
@@ -50,6 +51,8 @@ def find_nearby_zeros(
         ends: limits in doubles with their errors, relative to each coordinate.
         patience: part of the usual work after which multiple zeros are left undecided.
         whole: whether errors are relative to the point, not to each of its coordinates.
+        most: the largest multiplicity that an isolated zero may have there, where there are as many
+            equations and rows as variables and that is known.
     """
     zeros: list[SingularEnd] = []
     met: list[PrecisePoint] = []
@@ -62,9 +65,9 @@ def find_nearby_zeros(
         known = error * (1 + np.full(len(x), np.linalg.norm(x)) if whole else np.abs(x))
         if (np.abs(seen - x) <= SPREAD * known).all(axis=1).any():
             continue
-        end = analyse(
-            equations.polynomials, x, error if whole else known, rng, slices, patience=patience
-        )
+        errors = error if whole else known
+        place = equations.polynomials, x, errors, rng, slices
+        end = analyse(*place, patience=patience, most=most)
         seen = np.vstack([seen, x])
         decided &= end.place is not Place.UNDECIDED
         located &= end.precise is not None
