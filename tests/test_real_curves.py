@@ -18,6 +18,8 @@ from hypothesis import strategies as st
 import nag
 from nag.algebra.evaluation import Evaluator
 from nag.numerics.digits import bits_of, in_bits
+from nag.real.arcs import _begun_afar
+from nag.real.closure import ProjectiveClosure
 from nag.real.critical_points import find_critical_points
 from nag.real.critical_values import UnclearDigitsError
 from nag.real.curve import PieceKind, VertexKind
@@ -269,6 +271,17 @@ def test_curves_of_multiplicity_are_right_or_refused() -> None:
     double = nag.decompose(["x^2 + y^2 + z^2 - 1", "x^2 + y^2 - 1"]).components[0]
     with pytest.raises(nag.ComponentError, match="not reduced"):
         nag.find_real_curve(double)
+
+
+def test_rounding_does_not_choose_where_a_loop_begins() -> None:
+    # All points of the unit circle are as far from infinity.
+    circle = nag.system("x^2 + y^2 - 1")
+    closure = ProjectiveClosure.of(circle.polynomials, circle, np.array([1.0, 0.5]))
+    angles = np.linspace(0, 2 * np.pi, 50)
+    exact = closure.homogeneous(np.stack([np.cos(angles), np.sin(angles)], axis=1))
+    for seed in range(3):
+        off = 1e-15 * np.random.default_rng(seed).normal(size=exact.shape)
+        assert np.abs(_begun_afar(closure, exact + off) - exact).max() < 1e-13
 
 
 def test_documents_are_json_and_runs_repeat() -> None:

@@ -35,6 +35,8 @@ SAME = 1e-2
 # Decides: Least singular value at a vertex that is singular: these are known to rounding. From
 # `SINGULAR` on it is regular; what falls between is undecided.
 ROUNDED_AWAY = 1e-11
+# Part of a distance by which another is as large.
+AS_FAR = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -328,9 +330,11 @@ def _edge(
 
 
 def _begun_afar(closure: ProjectiveClosure, points: np.ndarray) -> np.ndarray:
-    """A loop that begins as far from infinity as it may."""
+    """A loop that begins as far from infinity as it may, at the first of points as far."""
     count = len(closure.groups)
-    first = int(np.abs(points[:-1, :count]).min(axis=1).argmax())
+    far = np.abs(points[:-1, :count]).min(axis=1)
+    # Points on circles are all as far, and rounding is not to choose among them.
+    first = int((far > (1 - AS_FAR) * far.max()).argmax())
     return np.vstack([points[first:-1], points[: first + 1]])
 
 
