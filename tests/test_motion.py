@@ -22,6 +22,7 @@ from traced_curves import trace_loop
 import nag
 from nag.algebra.evaluation import Evaluator
 from nag.errors import NagError
+from nag.kinematics import path
 from nag.kinematics.driven import Drive, Pose, assemblies_on, read_drives, read_poses
 from nag.kinematics.joint_values import joint_errors, joint_values
 from nag.kinematics.motion import Motion, MotionError, _real_curve, motion_of
@@ -34,6 +35,7 @@ from nag.kinematics.walks import walks_of
 from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.mechanism.problem import Problem, in_real_coordinates, problem_of
 from nag.mechanism.real_assemblies import real_assemblies
+from nag.numerics.double_ranks import SINGULAR
 from nag.pictures.motion_picture import point_of
 from nag.real.curve import (
     PictureVerdict,
@@ -534,14 +536,14 @@ def test_samples_near_an_infinite_half_angle_are_on_the_same_motion() -> None:
 def test_steps_onto_a_curve_of_more_equations_than_it_needs_do_not_run_along_it() -> None:
     problem = read_problem("spatial/bricard-plane-symmetric")
     curve = trace_loop(problem, start_of(problem), step=0.05)
-    path = Curve(curve, problem.system, scene_of(problem))
-    (walk,) = walks_of(curve, path.coordinates)
+    whole = Curve(curve, problem.system, scene_of(problem))
+    (walk,) = walks_of(curve, whole.coordinates)
     chart = walk.chart
     steps = np.diff(chart, axis=0)
-    middle = path.sharpen((chart[1:] + chart[:-1]) / 2)
+    middle = whole.sharpen((chart[1:] + chart[:-1]) / 2)
     along = ((middle - chart[:-1]) * steps).sum(axis=1) / (steps**2).sum(axis=1)
     assert np.abs(along - 0.5).max() < 0.01
-    assert np.abs(path.equations_at(middle)[0]).max() < 1e-13
+    assert np.abs(whole.equations_at(middle)[0]).max() < 1e-13
 
 
 def test_joints_fit_where_the_gradient_of_one_of_too_many_equations_vanishes() -> None:
@@ -727,6 +729,22 @@ def test_circuits_and_dead_points_of_four_bars_that_nearly_fold(lengths, circuit
                 least = math.acos(diagonal / (2 * crank * coupler))
                 folded = np.abs(np.angle(np.exp(1j * circuit.values.ranges[2]))).max()
                 assert folded == pytest.approx(math.pi - least, abs=1e-9)
+
+
+def test_a_crossing_that_the_search_for_it_just_misses_is_found(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    case = nag.read_case(ROOT / "cases" / "planar" / "slider-crank-equal.toml")
+    wanted = [len(c.crossings) for c in nag.motion(case, circuit="all", samples=90).circuits]
+    find_rank_loss = path._find_rank_loss
+
+    def miss(*given: Any) -> tuple[float, float]:
+        place, least = find_rank_loss(*given)
+        return place, max(least, 10 * SINGULAR)
+
+    monkeypatch.setattr(path, "_find_rank_loss", miss)
+    found = [len(c.crossings) for c in nag.motion(case, circuit="all", samples=90).circuits]
+    assert found == wanted and sum(wanted)
 
 
 @pytest.mark.parametrize("seed", [0, 2, 3])

@@ -17,7 +17,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.kinematics.poses import Poses, pose_steps
 from nag.kinematics.scene import Scene
 from nag.kinematics.walks import CurveWalk
-from nag.numerics.double_ranks import SINGULAR
+from nag.numerics.double_ranks import NEARLY_SINGULAR, SINGULAR
 from nag.real.curve import RealCurve
 from nag.real.spherical_chart import SphericalChart
 
@@ -321,7 +321,14 @@ def _find_passages(
             continue
         place, least = _find_rank_loss(measured.curve, measured.points_at, float(arc[i]), step)
         apart = np.abs(measured.distances(np.array([*vertices, *places]), place))
-        if least < SINGULAR * usual and (apart > step).all():
+        if least > NEARLY_SINGULAR * usual or not (apart > step).all():
+            continue
+        if least > SINGULAR * usual:
+            # Next to the place steps of Newton's method are not exact, and it may be missed.
+            known = np.array([*vertices, *places, place])
+            passage = _make_passage(measured, place, step, known)
+            least = float(_second_least(measured.curve, passage.points_at(np.zeros(1)))[0])
+        if least < SINGULAR * usual:
             places.append(place % measured.length)
     every = np.array([*vertices, *places])
     return tuple(_make_passage(measured, place, step, every) for place in sorted(places))
