@@ -17,6 +17,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.kinematics.poses import Poses, pose_steps
 from nag.kinematics.scene import Scene
 from nag.kinematics.walks import CurveWalk
+from nag.numerics.double_newton import ANYWHERE, count_above, find_zeros
 from nag.numerics.double_ranks import NEARLY_SINGULAR, SINGULAR
 from nag.real.curve import RealCurve
 from nag.real.spherical_chart import SphericalChart
@@ -24,9 +25,6 @@ from nag.real.spherical_chart import SphericalChart
 # Decides: Singular values of equations along a curve, over the largest, that are zero: Newton's
 # steps that bring samples onto it leave them out.
 KERNEL = 1e-8
-# Newton's steps, the last one's size from which on a point is on the curve, and the share of a step
-# that the next one is at most while derivatives are not worked out anew.
-STEPS, ARRIVED, SHRINKING = 12, 1e-14, 1e-3
 # Steps of samples are so many of the points that they are taken between; how often these are
 # halved for it at most.
 FINER, HALVINGS = 4, 12
@@ -114,42 +112,15 @@ class Curve:
         Steps are the shortest ones, across the curve: where there are more equations than a curve
         needs, they have full rank beside it, and the least singular value is left out.
         """
-        chart = np.array(chart)
-        left, sizes = np.arange(len(chart)), np.full(len(chart), np.inf)
-        stale = np.ones(len(chart), dtype=bool)
-        inverses = np.empty((0, 0, 0))
-        for _ in range(STEPS):
-            if not len(left):
-                break
-            values, rows = self.equations_at(chart[left[stale]])
-            if stale.any():
-                own = _shortest_steps(rows)
-                if not inverses.size:
-                    inverses = np.empty((len(chart), *own.shape[1:]))
-                inverses[left[stale]] = own
-            if not stale.all():
-                values = self.values_at(chart[left])
-            step = (inverses[left] @ values[:, :, None])[:, :, 0]
-            chart[left] = self.coordinates.normalise(chart[left] - step)
-            size = np.abs(step).max(axis=1)
-            going = ~(size < ARRIVED)
-            stale = (size > SHRINKING * sizes[left])[going]
-            sizes[left] = size
-            left = left[going]
-        return chart
-
-
-def _shortest_steps(rows: np.ndarray) -> np.ndarray:
-    """Matrices that take values of equations to the shortest steps by which these vanish.
-
-    Of Jacobians, shape ``(k, rows, size)``, the inverses of ``size - 1`` singular values at most,
-    and of none that is zero.
-    """
-    u, s, v = np.linalg.svd(rows, full_matrices=False)
-    kept = s > KERNEL * s[:, :1]
-    kept[:, rows.shape[2] - 1 :] = False
-    scales = np.where(kept, 1 / np.where(kept, s, 1.0), 0.0)
-    return np.asarray(v.transpose(0, 2, 1) @ (scales[:, :, None] * u.transpose(0, 2, 1)))
+        size = chart.shape[1]
+        ends = find_zeros(
+            lambda x, _: self.equations_at(x),
+            chart,
+            rank=lambda s: np.minimum(count_above(KERNEL)(s), size - 1),
+            stop=ANYWHERE,
+            values=lambda x, _: self.values_at(x),
+        )
+        return self.coordinates.normalise(ends.x)
 
 
 @dataclass(frozen=True, eq=False)
