@@ -15,6 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.errors import ComponentError
+from nag.numerics.double_newton import Stop, find_zeros, newton_steps
+from nag.numerics.doubles import SHARP
 from nag.real.closure import ProjectiveClosure
 
 # First step in the angle and the largest one, and the least in arc length beside the first.
@@ -28,10 +30,6 @@ CORRECTION = 0.1
 SHRINK = 0.05
 # Part of what a step may be off and turn that makes the next one longer.
 EASY = 0.25
-# Part of the one before that a correction is which rounding keeps from shrinking.
-STALLED = 0.5
-# Newton's corrections that are rounding: certainly, and where they do not shrink any more.
-ARRIVED, ROUNDED = 1e-13, 1e-10
 # Decides: By how much slopes may change in a step, in units in which they are 1 where it begins:
 # where they change by as much as they are, another branch may be next to the point that is found.
 CHANGE = 0.5
@@ -40,7 +38,6 @@ CHANGE = 0.5
 JUMP, ASIDE, BLIND = 0.02, 0.1, 1e-5
 # Part of a step that rounding may move a point by.
 MOVED = 1e-2
-MOST_CORRECTIONS = 6
 # Difference from an angle from which Newton's method leads there.
 REACHED = 1e-4
 
@@ -134,7 +131,7 @@ def trace_arcs(
         next_ = tangents_at(closure, found, tangent[active])
         cosine = (next_ * tangent[active]).sum(axis=1)
         gain = (there - old) * sense[active]
-        good &= (first <= CORRECTION * h + ROUNDED) & (chord < CHORD) & (cosine > TURN)
+        good &= (first <= CORRECTION * h + SHARP) & (chord < CHORD) & (cosine > TURN)
         good &= (gain > 0) & (gain < LARGEST)
         change = _change_of_slopes(closure, x[active], tangent[active], found)
         good &= (change < CHANGE) | (over > 0)
@@ -169,14 +166,14 @@ def trace_arcs(
 def _matrices(
     closure: ProjectiveClosure, x: np.ndarray, normal: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Slopes and values of the equations, of a hyperplane through each point and of patches."""
+    """Values and slopes of the equations, of patches and of a hyperplane through each point."""
     slopes, values = closure.jacobians(x)[:, :-2], closure.values(x)[:, :-2]
     patches = np.zeros((len(x), len(closure.groups), closure.size))
     for g in range(len(closure.groups)):
         patches[:, g] = np.where(closure.group_of == g, x, 0)
     matrix = np.concatenate([slopes, patches, normal[:, None]], axis=1)
     right = np.concatenate([values, np.zeros((len(x), len(closure.groups) + 1))], axis=1)
-    return matrix, right
+    return right, matrix
 
 
 def _steps_over(
@@ -222,7 +219,7 @@ def _change_of_slopes(
     The norm of ``M(x)^-1 (J(y) - J(x))``, with ``M`` of `_matrices`, shape ``(P,)``; below 1
     Newton's method with ``M(x)`` contracts along the chord (Kantorovich): no two branches meet it.
     """
-    matrix, _ = _matrices(closure, x, tangent)
+    _, matrix = _matrices(closure, x, tangent)
     rows = len(closure.equations) - 2
     apart = closure.jacobians(found)[:, :rows] - matrix[:, :rows]
     q, r = np.linalg.qr(matrix)
@@ -235,54 +232,26 @@ def _change_of_slopes(
     return result
 
 
-def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Least squares, shape ``(P, size)``; not finite where a matrix is singular."""
-    q, r = np.linalg.qr(matrix)
-    product = np.einsum("pij,pi->pj", q, right)
-    diagonal = np.abs(np.diagonal(r, axis1=1, axis2=2)).min(axis=1)
-    safe = diagonal > 0
-    result = np.full(product.shape, np.nan)
-    if safe.any():
-        result[safe] = np.linalg.solve(r[safe], product[safe][..., None])[..., 0]
-    return result
-
-
 @np.errstate(all="ignore")
 def bring_to_curve(
     closure: ProjectiveClosure, x: np.ndarray, tangent: np.ndarray, step: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Points of the curve across tangents from guesses, first corrections, and success."""
-    x, rounding = closure.normalise(x), np.maximum(ROUNDED, MOVED * step)
-    first, last = np.zeros(len(x)), np.full(len(x), np.inf)
-    done, good = np.zeros(len(x), dtype=bool), np.ones(len(x), dtype=bool)
-    for k in range(MOST_CORRECTIONS):
-        todo = np.flatnonzero(~done & good)
-        if not len(todo):
-            break
-        delta = _solve(*_matrices(closure, x[todo], tangent[todo]))
-        sizes = np.linalg.norm(delta, axis=1)
-        fine = np.isfinite(sizes) & (sizes < 1)
-        moved = x[todo].copy()
-        moved[fine] -= delta[fine]
-        x[todo] = closure.normalise(moved)
-        if k == 0:
-            first[todo] = sizes
-        small, rough = sizes < ARRIVED, sizes < rounding[todo]
-        # Rounding keeps the corrections at badly conditioned points from shrinking further.
-        stalled = rough & (sizes > STALLED * last[todo])
-        good[todo] = fine & ((sizes <= SHRINK * last[todo]) | small | rough)
-        done[todo] = small | stalled
-        last[todo] = sizes
-    return x, first, good & done
+    ends = find_zeros(
+        lambda x, which: _matrices(closure, x, tangent[which]),
+        closure.normalise(x),
+        stop=Stop(rounding=np.maximum(SHARP, MOVED * step), shrinking=SHRINK),
+    )
+    return closure.normalise(ends.x), ends.first, ends.converged
 
 
 @np.errstate(all="ignore")
 def tangents_at(closure: ProjectiveClosure, x: np.ndarray, near: np.ndarray) -> np.ndarray:
     """Unit tangents in the sense of others."""
-    matrix, right = _matrices(closure, x, near)
+    right, matrix = _matrices(closure, x, near)
     right[:] = 0
     right[:, -1] = 1
-    found = _solve(matrix, right)
+    found = newton_steps(right, matrix)
     return np.nan_to_num(found / np.linalg.norm(found, axis=1)[:, None])
 
 
@@ -306,31 +275,28 @@ def _speeds(
     closure: ProjectiveClosure, intervals: Intervals, angles: np.ndarray, x: np.ndarray
 ) -> np.ndarray:
     """Derivatives of points by the angle."""
-    matrix, right, _ = _over(closure, intervals.at(angles), x)
+    right, matrix = _over(closure, intervals.at(angles), x)
     values, change = closure.values(x), intervals.slopes(angles)
     right[:] = 0
     right[:, -1] = change[:, 0] * values[:, -2] - change[:, 1] * values[:, -1]
-    return _solve(matrix, right)
+    return newton_steps(right, matrix)
 
 
-@np.errstate(all="ignore")
 def _land(
     closure: ProjectiveClosure, intervals: Intervals, angles: np.ndarray, x: np.ndarray
 ) -> np.ndarray:
     """Points over angles, from such as are next to them."""
-    for _ in range(3):
-        matrix, right, values = _over(closure, intervals.at(angles), x)
-        right[:, -1] = values
-        delta = _solve(matrix, right)
-        x = closure.align_signs(closure.normalise(x - np.nan_to_num(delta)), x)
-    return x
+    pencil = intervals.at(angles)
+    ends = find_zeros(lambda x, which: _over(closure, pencil[which], x), x)
+    return closure.align_signs(closure.normalise(ends.x), x)
 
 
 def _over(
     closure: ProjectiveClosure, pencil: np.ndarray, x: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """As `_matrices`, with the pencil's hyperplane; and its values."""
+) -> tuple[np.ndarray, np.ndarray]:
+    """As `_matrices`, with the pencil's hyperplane."""
     slopes, values = closure.jacobians(x), closure.values(x)
     p, q = pencil[:, :1], pencil[:, 1:]
-    matrix, right = _matrices(closure, x, q * slopes[:, -1] - p * slopes[:, -2])
-    return matrix, right, q[:, 0] * values[:, -1] - p[:, 0] * values[:, -2]
+    right, matrix = _matrices(closure, x, q * slopes[:, -1] - p * slopes[:, -2])
+    right[:, -1] = q[:, 0] * values[:, -1] - p[:, 0] * values[:, -2]
+    return right, matrix

@@ -20,6 +20,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator, PlacedDerivatives
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.double_newton import ANYWHERE, find_zeros
 from nag.real.curve import Turn
 
 # Decides: Homogeneous coordinates of length one that are zero at vertices known to more digits.
@@ -148,23 +149,18 @@ class ProjectiveClosure:
         evaluator = self._affine_evaluator
         residuals = evaluator.residuals(x).max(axis=1, initial=0.0)
         slopes = evaluator.placed_derivatives(self.n)
-        for _ in range(2):
-            units = np.maximum(1.0, np.abs(x))
+
+        def units(x: np.ndarray) -> np.ndarray:
+            return np.maximum(1.0, np.abs(x))
+
+        def equations(x: np.ndarray, _: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             sizes = evaluator.sizes(x)
-            matrix = slopes(x).real * units[:, None] / sizes[..., None]
-            right = evaluator.values(x).real / sizes
-            known = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(right).all(axis=1)
-            u, s, vh = np.linalg.svd(np.where(known[:, None, None], matrix, 0), full_matrices=False)
-            rank = self.n - 1
-            across = np.einsum("pik,pi->pk", u[:, :, :rank], np.where(known[:, None], right, 0))
-            step = np.einsum("pki,pk->pi", vh[:, :rank], across / s[:, :rank])
-            moved = x - units * step
-            found = evaluator.residuals(np.where(np.isfinite(moved), moved, 0))
-            there = found.max(axis=1, initial=0.0)
-            better = np.isfinite(moved).all(axis=1) & (there < residuals)
-            x = np.where(better[:, None], moved, x)
-            residuals = np.where(better, there, residuals)
-        return x
+            matrix = slopes(x).real * units(x)[:, None] / sizes[..., None]
+            return evaluator.values(x).real / sizes, matrix
+
+        moved = find_zeros(equations, x, 2, self.n - 1, ANYWHERE, units).x
+        better = evaluator.residuals(moved).max(axis=1, initial=0.0) < residuals
+        return np.where(better[:, None], moved, x)
 
     def distances(self, some: np.ndarray, others: np.ndarray) -> np.ndarray:
         """Distances of normalised points, whatever their factors, shape ``(P, Q)``."""

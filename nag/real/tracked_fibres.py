@@ -20,6 +20,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import HIT, MISS, SAFETY
+from nag.numerics.double_newton import find_zeros
 from nag.numerics.doubles import ROUNDED
 from nag.real.closure import ProjectiveClosure
 from nag.real.critical_points import CriticalPoints
@@ -48,8 +49,6 @@ KNOWN = 1e-3
 # Decides: Distance of real special values, in radii of the values, that are one: those at which
 # several points of the curve are critical.
 ONE_VALUE = 1e-11
-# Newton's steps to a special value, and what is left of the last one, beside the point.
-STEPS, ARRIVED = 4, 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -279,9 +278,8 @@ def _bring_to_value(closure: ProjectiveClosure, points: np.ndarray, t: float) ->
     """
     if not len(points):
         return points
-    x, start = points, points
-    sizes = np.zeros(len(x))
-    for _ in range(STEPS):
+
+    def equations(x: np.ndarray, _: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         values, slopes = closure.values(x), closure.jacobians(x)
         patches = np.zeros((len(x), len(closure.groups), closure.size), dtype=complex)
         for g in range(len(closure.groups)):
@@ -292,11 +290,12 @@ def _bring_to_value(closure: ProjectiveClosure, points: np.ndarray, t: float) ->
         right[:, : values.shape[1] - 2] = values[:, :-2]
         right[:, -1] = values[:, -1] - t * values[:, -2]
         scale = np.linalg.norm(matrix, axis=2)
-        step = np.einsum("pij,pj->pi", np.linalg.pinv(matrix / scale[..., None]), right / scale)
-        sizes = np.linalg.norm(step, axis=1)
-        x = closure.normalise(x - step)
-    moved = np.diag(closure.distances(start, x))
-    apart = closure.distances(start, start) + 2 * np.eye(len(x))
-    if not (sizes < ARRIVED).all() or (moved > 0.1 * apart.min(axis=1)).any():
+        return right / scale, matrix / scale[..., None]
+
+    ends = find_zeros(equations, points)
+    x = closure.normalise(ends.x)
+    moved = np.diag(closure.distances(points, x))
+    apart = closure.distances(points, points) + 2 * np.eye(len(x))
+    if not ends.converged.all() or (moved > 0.1 * apart.min(axis=1)).any():
         raise UnclearDigitsError("points over a critical value are not found")
     return x
