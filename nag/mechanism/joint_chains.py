@@ -25,12 +25,11 @@ from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.inverse_kinematics import multiply_poses
 from nag.mechanism.lines import has_place, middle_of, nearest_on_axis
 from nag.mechanism.quaternion import quaternion_of
+from nag.numerics.double_newton import count_above, find_zeros
 from nag.numerics.double_ranks import NEARLY_SINGULAR, SINGULAR
-from nag.numerics.doubles import ARRIVED
 
-# Steps that lead to a generic configuration, and their length; how often one is shortened; and
-# Newton's steps.
-STEPS, LENGTH, SHORTER, NEWTON = 3, 0.15, 4, 25
+# Steps that lead to a generic configuration, and their length; how often one is shortened.
+STEPS, LENGTH, SHORTER = 3, 0.15, 4
 # Steps of that length to a configuration with joints at values, at most.
 MOST_STEPS = 100
 # Decides: Sizes, beside the distance from the origin, that are errors of rounding.
@@ -300,22 +299,19 @@ class JointChains:
 
     def _on_component(self, q: np.ndarray, dimension: int, singular: int) -> np.ndarray | None:
         """The configuration that Newton's method leads to."""
-        rank, step = self.n - dimension, np.inf
-        for _ in range(NEWTON):
-            gaps, rows = self._conditions(q, singular)
-            u, s, v = np.linalg.svd(rows, full_matrices=False)
-            if rank > len(s) or (rank and s[rank - 1] < NEARLY_SINGULAR):
-                return None
-            delta = v[:rank].T @ ((u[:, :rank].T @ gaps) / s[:rank])
-            q = q - delta
-            last, step = step, float(np.abs(delta).max(initial=0.0))
-            if step > 1:
-                return None
-            if step < ARRIVED or (step < SINGULAR and step >= last):
-                # Conditions that depend on the others are not among those that led there.
-                left = float(np.abs(self._conditions(q, singular)[0]).max(initial=0.0))
-                return q if left < SINGULAR else None
-        return None
+
+        def conditions(x: np.ndarray, _: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            gaps, rows = self._conditions(x[0], singular)
+            return gaps[None], rows[None]
+
+        rank = self.n - dimension
+        ends = find_zeros(conditions, q[None], rank=rank)
+        (gaps,), (rows,) = conditions(ends.x, np.zeros(1))
+        s = np.linalg.svd(rows, compute_uv=False)
+        regular = rank <= len(s) and (not rank or s[rank - 1] >= NEARLY_SINGULAR)
+        # Conditions that depend on the others are not among those that led there.
+        closed = np.abs(gaps).max(initial=0.0) < SINGULAR
+        return ends.x[0] if ends.converged[0] and regular and closed else None
 
     def reach(self, held: Mapping[tuple[str, int], float]) -> tuple[np.ndarray, int] | None:
         """A configuration with joints at values, and the freedoms that the others have there.
@@ -354,18 +350,14 @@ class JointChains:
 
     def _close_loops(self, q: np.ndarray, free: np.ndarray) -> np.ndarray | None:
         """The configuration next to joint coordinates, of which some are free to change."""
-        q = q.copy()
-        for _ in range(NEWTON):
-            gaps, rows, _ = self.equations(q)
-            delta = np.linalg.lstsq(rows[:, free], gaps, rcond=NEARLY_SINGULAR)[0]
-            q[free] -= delta
-            size = float(np.abs(delta).max(initial=0.0))
-            if size > 1:
-                return None
-            if size < SINGULAR:
-                left = float(np.abs(self.equations(q)[0]).max(initial=0.0))
-                return q if left < SINGULAR else None
-        return None
+
+        def equations(x: np.ndarray, _: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            gaps, rows, _ = self.equations(x[0])
+            return gaps[None], np.where(free, rows, 0.0)[None]
+
+        ends = find_zeros(equations, q[None], rank=count_above(NEARLY_SINGULAR))
+        closed = np.abs(self.equations(ends.x[0])[0]).max(initial=0.0) < SINGULAR
+        return ends.x[0] if ends.converged[0] and closed else None
 
     def tangent(
         self, q: np.ndarray, dimension: int, singular: int
