@@ -35,8 +35,9 @@ from nag.mechanism.lines import has_place, median_of_places, middle_of, nearest_
 from nag.mechanism.loops import Loop, loop_structure
 from nag.mechanism.overconstrained import known_linkage
 from nag.mechanism.quaternion import multiply
+from nag.numerics.double_newton import Stop, count_above, find_zeros
 from nag.numerics.double_ranks import is_regular
-from nag.numerics.doubles import ROUNDED
+from nag.numerics.doubles import ARRIVED, ROUNDED
 from nag.numerics.linear_algebra_threads import limit_scipy
 from nag.numerics.zero_values import ON
 from nag.text.table import join_words
@@ -828,13 +829,15 @@ def close_across(chains: Chains, q: Array, tangent: Array) -> Array:
     By Gauss and Newton's steps, as gaps are small.
     """
     across = chains.across(tangent)
-    for _ in range(MOST_STEPS):
-        opening, rows = chains.linearised(q)
-        step = across @ np.linalg.lstsq(rows @ across, -opening, rcond=None)[0]
-        q = q + step
-        if np.linalg.norm(step) < ROUNDING:
-            break
-    return q
+
+    def opening(x: Array, _: Array) -> tuple[Array, Array]:
+        gaps, rows = chains.linearised(q + across @ x[0])
+        return gaps[None], (rows @ across)[None]
+
+    stop = Stop(arrived=ROUNDING, longest=np.inf)
+    start = np.zeros((1, across.shape[1]))
+    ends = find_zeros(opening, start, MOST_STEPS, count_above(ARRIVED), stop)
+    return q + across @ ends.x[0]
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ import numpy as np
 from nag.numerics.deflation import DeflatedPoint
 from nag.numerics.descent import Point, Round, descend
 from nag.numerics.digits import BITS, DIGITS, log_norm, log_size
+from nag.numerics.double_newton import Stop, count_above, find_zeros
 from nag.numerics.double_ranks import is_regular
-from nag.numerics.doubles import ARRIVED
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import STEPS, move_point
 from nag.numerics.power_series import Series, SeriesRing
@@ -101,25 +101,19 @@ class ScaledSeries:
 
         It converges slowly to multiple zeros; None where it does not at all.
         """
-        step = np.inf
-        for _ in range(most):
-            with np.errstate(all="ignore"):
-                values, jacobian = self._values(u)
-                if plane is not None:
-                    values = np.append(values, plane @ u - 1)
-                    jacobian = np.vstack([jacobian, plane])
-                if not (np.isfinite(values).all() and np.isfinite(jacobian).all()):
-                    return None
-                delta, *_ = np.linalg.lstsq(jacobian, values, rcond=RANK)
-            u = u - delta
-            step = float(np.abs(delta).max(initial=0.0))
-            if step > ASTRAY * (1 + np.abs(u).max(initial=0.0)):
-                return None
-            if step < ARRIVED * (1 + np.abs(u).max(initial=0.0)):
-                break
+
+        def equations(x: np.ndarray, _: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            values, jacobian = self._values(x[0])
+            if plane is not None:
+                values = np.append(values, plane @ x[0] - 1)
+                jacobian = np.vstack([jacobian, plane])
+            return values[None], jacobian[None]
+
+        ends = find_zeros(equations, u[None], most, count_above(RANK), Stop(longest=ASTRAY))
+        u = ends.x[0]
         values, _ = self._values(u)
         small = VANISHING * max(1.0, float(np.abs(u).max(initial=0.0))) ** 2
-        return u if step < SLOW and np.abs(values).max(initial=0.0) < small else None
+        return u if ends.last[0] < SLOW and np.abs(values).max(initial=0.0) < small else None
 
 
 # Random starts for each zero that a cluster in several variables may have.

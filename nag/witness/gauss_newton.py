@@ -12,10 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.numerics.double_ranks import numerical_corank
-from nag.numerics.doubles import ARRIVED, SHARP, VANISHING
+from nag.numerics.double_newton import find_zeros
+from nag.numerics.double_ranks import matrix_corank, numerical_corank
+from nag.numerics.doubles import SHARP, VANISHING
 
-MOST_STEPS = 200
+# Damped steps, and those from where residuals are small.
+MOST_STEPS, MOST_LAST_STEPS = 200, 30
 # Residuals from which the undamped steps take over, and that a zero must reach.
 CLOSE = 1e-6
 # Decides: Singular values, over the largest, that may belong to the kernel; the gap decides.
@@ -25,8 +27,6 @@ SMALL = 1e-3
 FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING = 1e-2, 1e-8, 1e8
 # Part of what a linear equation would gain that makes a step worth taking.
 GAIN = 1e-3
-# Steps that may be rounding errors, where they do not shrink any more.
-NEARLY = 1e-11
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,21 +84,19 @@ def descend(evaluator: Evaluator, x: np.ndarray, close: float = CLOSE) -> np.nda
 
 def polish(evaluator: Evaluator, x: np.ndarray, corank: int | None = None) -> IterationEnd:
     """Newton's method with the Jacobian's rank kept at a gap, from a point near the zero set."""
-    step, n = np.inf, len(x)
-    known = corank
-    for _ in range(30):
-        values, jacobian = _balance_rows(evaluator, x)
-        u, s, vh = np.linalg.svd(jacobian, full_matrices=False)
-        corank = numerical_corank(s, n, SMALL) if known is None else known
-        rank = min(n - corank, len(s))
-        if rank and not s[rank - 1] > 0:
-            return IterationEnd(x, corank, np.inf, False)
-        delta = vh[:rank].conj().T @ ((u[:, :rank].conj().T @ values) / s[:rank])
-        x = x - delta
-        last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(x)))
-        if not np.isfinite(step) or step > 1:
-            return IterationEnd(x, corank, np.inf, False)
-        if step < ARRIVED or (step < NEARLY and step >= last):
-            break
+    n = len(x)
+
+    def equations(x: np.ndarray, _: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        values, jacobian = _balance_rows(evaluator, x[0])
+        return values[None], jacobian[None]
+
+    def count_rank(s: np.ndarray) -> np.ndarray:
+        return np.array([n - numerical_corank(s[0], n, SMALL)])
+
+    rank = count_rank if corank is None else n - corank
+    ends = find_zeros(equations, x[None], MOST_LAST_STEPS, rank)
+    x, step = ends.x[0], float(ends.last[0]) / (1 + float(np.linalg.norm(ends.x[0])))
+    if corank is None:
+        corank = matrix_corank(_balance_rows(evaluator, x)[1], SMALL)
     residual = float(evaluator.residuals(x[None]).max(initial=0.0))
     return IterationEnd(x, corank, step, step < SHARP and residual < VANISHING)
