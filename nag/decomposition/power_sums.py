@@ -17,6 +17,7 @@ from math import comb
 import numpy as np
 
 from nag.algebra.evaluation import series_products
+from nag.numerics.double_newton import newton_steps
 from nag.numerics.doubles import EPS
 from nag.witness.cutting import Cut
 from nag.witness.points import Points
@@ -201,7 +202,7 @@ def _series(
         return np.concatenate([derivatives(z), fixed], axis=1)
 
     values = np.concatenate([evaluator.values(z), rows[:, 0] + z @ slopes.T], axis=1)
-    z = z - np.linalg.solve(jacobians(z), values[:, :, None])[:, :, 0]
+    z = z - newton_steps(values, jacobians(z))
     z = z * (1 + EPS * complex_normal(rng, z.shape))
     inverse = np.linalg.inv(jacobians(z))
     result = np.zeros((count, m, 1 + powers), dtype=complex)

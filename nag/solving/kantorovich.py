@@ -25,6 +25,7 @@ from nag.algebra.family import Family
 from nag.numerics.array_table import ArrayTable
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import bits_of, doubles
+from nag.numerics.double_newton import Stop, find_zeros
 from nag.numerics.doubles import EPS, SHARPEST
 from nag.numerics.krawczyk import invert_matrices
 
@@ -32,8 +33,8 @@ from nag.numerics.krawczyk import invert_matrices
 STEPS, FINE_STEPS, DIGITS = 8, 4, 50
 # Points at once; and how many are worth more digits, some 10 ms each.
 BLOCK, MOST_FINE = 256, 200
-# Steps that promise convergence.
-PROMISING = 1e-3
+# Steps that lead nowhere, and such as promise convergence.
+LONGEST, PROMISING = 0.1, 1e-3
 # Of the ball, beside the coordinates, in which second derivatives are bounded.
 RADIUS = 1e-2
 # Size of a coordinate that is zero.
@@ -123,22 +124,16 @@ class Confirmation:
         with np.errstate(all="ignore"):
             finite = np.isfinite(points).all(axis=1)
             points = np.where(finite[:, None], points, 1.0)
-            length = np.zeros(len(points))
-            going = np.flatnonzero(finite)
-            for _ in range(STEPS):
-                here = points[going]
+
+            def equations(here: np.ndarray, _: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
                 matrix, factor = self._scale_jacobian(here, values, _sizes(here))
-                residual = self._evaluator.values(self._append_parameters(here, values)) * factor
-                step = _solve_linear(matrix, residual)
-                moved = _sizes(here) * step
-                size = np.abs(step).max(axis=1)
-                # A small coordinate may be wrong altogether where others are large.
-                near = np.abs(moved).max(axis=1) < 0.1 * (1 + np.abs(here).max(axis=1))
-                points[going[near]] = (here - moved)[near]
-                length[going] = size
-                going = going[near & (size > SHARPEST)]
-                if not len(going):
-                    break
+                found = self._evaluator.values(self._append_parameters(here, values))
+                return found * factor, matrix
+
+            # A small coordinate may be wrong altogether where others are large.
+            stop = Stop(arrived=SHARPEST, longest=LONGEST)
+            ends = find_zeros(equations, points, STEPS, stop=stop, units=_sizes)
+            points = ends.x
             judged = self._bound_distances(points, values, finite, _sizes(points), None)
             left = np.flatnonzero(finite & ~judged.regular)
             if len(left):
@@ -146,7 +141,7 @@ class Confirmation:
                 sizes = np.repeat(np.where(largest > 0, largest, 1.0), points.shape[1], axis=1)
                 again = self._bound_distances(points[left], values, finite[left], sizes, None)
                 judged = judged.replace_rows(left[again.regular], again.select_rows(again.regular))
-            return judged, finite & ~judged.regular & (length < PROMISING)
+            return judged, finite & ~judged.regular & (ends.last < PROMISING)
 
     def _bound_distances(
         self,
@@ -190,16 +185,17 @@ class Confirmation:
 
     def _confirm_in_digits(self, point: np.ndarray, values: np.ndarray) -> Confirmed | None:
         """The same for one point, with residuals in more digits."""
-        point = point[None]
+
+        def equations(here: np.ndarray, _: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            matrix, factor = self._scale_jacobian(here, values, _sizes(here))
+            return self._find_residuals(here, values) * factor, matrix
+
         with np.errstate(all="ignore"):
-            for _ in range(FINE_STEPS):
-                matrix, factor = self._scale_jacobian(point, values, _sizes(point))
-                step = _solve_linear(matrix, self._find_residuals(point, values) * factor)
-                if not np.abs(step).max() < 0.5:
-                    return None
-                point = point - _sizes(point) * step
-                if np.abs(step).max() < 4 * EPS:
-                    break
+            stop = Stop(arrived=4 * EPS, longest=LONGEST)
+            ends = find_zeros(equations, point[None], FINE_STEPS, stop=stop, units=_sizes)
+            if not np.isfinite(ends.last[0]):
+                return None
+            point = ends.x
             exact = self._find_residuals(point, values)
             return self._bound_distances(point, values, np.ones(1, bool), _sizes(point), exact)
 
@@ -214,11 +210,3 @@ class Confirmation:
 def _sizes(points: np.ndarray) -> np.ndarray:
     """Sizes of the coordinates, none of them zero."""
     return np.maximum(np.abs(points), TINY)
-
-
-def _solve_linear(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Solutions of linear systems; not a number where a matrix is singular."""
-    try:
-        return np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
-    except np.linalg.LinAlgError:
-        return (invert_matrices(matrix) @ right[:, :, None])[:, :, 0]

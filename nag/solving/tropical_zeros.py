@@ -22,7 +22,8 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.errors import StartError
-from nag.numerics.doubles import NEWTON_STEPS, SHARPEST
+from nag.numerics.double_newton import find_zeros
+from nag.numerics.doubles import SHARPEST
 from nag.numerics.scaling import magnitude, scaled_terms
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.solving.start.mixed_cells import LARGEST_LIFT, MixedCells, mixed_cells
@@ -129,25 +130,16 @@ def _zero(
     n = len(start)
     scaled = [Polynomial(n, scaled_terms(f, scales)) for f in polynomials]
     evaluator = Evaluator.of(scaled, n)
-    y = start
-    for _ in range(NEWTON_STEPS):
-        jacobian = evaluator.jacobian(y)
-        if not np.isfinite(jacobian).all():
-            return None
-        try:
-            step = np.linalg.solve(jacobian, evaluator.values(y[None])[0])
-        except np.linalg.LinAlgError:
-            return None
-        y = y - step
-        if not (np.abs(y - start) < NEAR * np.abs(start)).all():
-            return None
-        if (np.abs(step) < SHARPEST * np.abs(y)).all():
-            end = analyse(scaled, y, SHARPEST, rng)
-            if end.place is not Place.ISOLATED or end.multiplicity != 1:
-                return None
-            residual = float(evaluator.residuals(end.point[None]).max())
-            return TropicalZero(end.point * np.exp2(scales), end, residual, scales)
-    return None
+    slopes = evaluator.placed_derivatives(n)
+    ends = find_zeros(lambda y, _: (evaluator.values(y), slopes(y)), start[None])
+    (y,) = ends.x
+    if not ends.converged[0] or not (np.abs(y - start) < NEAR * np.abs(start)).all():
+        return None
+    end = analyse(scaled, y, SHARPEST, rng)
+    if end.place is not Place.ISOLATED or end.multiplicity != 1:
+        return None
+    residual = float(evaluator.residuals(end.point[None]).max())
+    return TropicalZero(end.point * np.exp2(scales), end, residual, scales)
 
 
 def _is_apart(x: np.ndarray, known: np.ndarray, errors: np.ndarray) -> bool:

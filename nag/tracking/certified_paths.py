@@ -19,6 +19,7 @@ import numpy as np
 
 from nag.numerics.array_table import ArrayTable
 from nag.numerics.discs import LEAST, UP, Discs, magnitude, rounding_of_sum
+from nag.numerics.double_newton import ANYWHERE, find_zeros, newton_steps
 from nag.numerics.doubles import UNIT
 from nag.numerics.krawczyk import invert_matrices
 from nag.text.progress import REMARK
@@ -182,11 +183,9 @@ def _correct_points(
     system: MovingSystem, x: np.ndarray, t: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Points that Newton's method leads to, and the paths' derivatives by t there."""
-    for _ in range(CORRECTIONS):
-        values, slopes, _ = system.at(x, t)
-        x = x - (invert_matrices(slopes) @ values[..., None])[..., 0]
+    x = find_zeros(lambda x, i: system.at(x, t[i])[:2], x, CORRECTIONS, stop=ANYWHERE).x
     _, slopes, rates = system.at(x, t)
-    return x, -(invert_matrices(slopes) @ rates[..., None])[..., 0]
+    return x, -newton_steps(rates, slopes)
 
 
 def _try_step(system: MovingSystem, state: _PathStates, active: np.ndarray) -> np.ndarray:

@@ -16,6 +16,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.ball_ranks import regular_block
 from nag.numerics.digits import BITS, in_bits, middle
+from nag.numerics.double_newton import newton_steps
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import ZERO, all_vanish, is_negligible
 from nag.witness.close_points import CLOSE, PointInWords, fine_of_balls, with_newton_constant
@@ -134,9 +135,8 @@ def _curvature_in_doubles(cut: Cut, rows: np.ndarray, z: np.ndarray) -> float:
             right = np.concatenate([cut.evaluator.values(x[None])[0], a[:, 0] + a[:, 1:] @ x])
             if not (np.isfinite(matrix).all() and np.isfinite(right).all()):
                 return np.inf
-            try:
-                step = np.linalg.solve(matrix, right)
-            except np.linalg.LinAlgError:
+            (step,) = newton_steps(right[None], matrix[None])
+            if not np.isfinite(step).all():
                 return np.inf
             x = x - step
             lengths.append(float(np.abs(step).max(initial=0.0)) / size)

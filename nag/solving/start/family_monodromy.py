@@ -22,6 +22,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.family import Family
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.errors import StartError
+from nag.numerics.double_newton import ANYWHERE, count_above, find_zeros
 from nag.numerics.double_ranks import is_regular
 from nag.numerics.doubles import ARRIVED, VANISHING
 from nag.numerics.newton import STEPS
@@ -84,14 +85,18 @@ def first_solution(family: Family, rng: np.random.Generator) -> tuple[np.ndarray
     """
     n, size = family.n, family.n + len(family.parameters)
     evaluator = Evaluator.of(family.polynomials, size)
+    slopes = evaluator.placed_derivatives(size)
     for _ in range(SEEDS):
-        z = unit(rng, size) * (0.5 + rng.random(size))
-        for _ in range(STEPS):
-            step = np.linalg.lstsq(evaluator.jacobian(z), evaluator.values(z[None])[0])[0]
-            z = z - step
-            if not np.linalg.norm(step) > ARRIVED * np.linalg.norm(z):
-                break
-        if not np.isfinite(z).all() or evaluator.residuals(z[None]).max() > VANISHING:
+        start = unit(rng, size) * (0.5 + rng.random(size))
+        ends = find_zeros(
+            lambda z, _: (evaluator.values(z), slopes(z)),
+            start[None],
+            STEPS,
+            count_above(ARRIVED),
+            ANYWHERE,
+        )
+        (z,) = ends.x
+        if not np.isfinite(ends.last[0]) or evaluator.residuals(z[None]).max() > VANISHING:
             continue
         if family.imaginary and z[n - 1].imag < 0:
             # The equations are real: the conjugate has i for the unit.
