@@ -38,14 +38,13 @@ def widen_error(x: np.ndarray, accuracy: float) -> float:
     return max(SLACK * accuracy, LEAST) * (1 + float(np.abs(x).max(initial=0.0)))
 
 
-# Decides: Coordinates beside the largest that are none.
-NOTHING = 1e-60
 # Relative error of a zero that is known by its written digits.
 WRITTEN = written_error(POINT_DIGITS)
 # Decimal logarithm of values beside their terms, of distances and of pivots that are zero at zeros
 # of so many digits: all values of zeros lay below 5e-87.
 ZERO = float(SPARE - POINT_DIGITS)
-# That as a number.
+# That as a number, which coordinates are beside the largest that are none: such lay below 5e-284,
+# others above 0.1.
 VANISHES = 10.0**ZERO
 # Bits in which the sizes of terms are added up.
 LEAST_BITS = 128
@@ -90,7 +89,7 @@ def choose_alike(zeros: Sequence[SingularEnd], x: np.ndarray) -> tuple[SingularE
     chosen = []
     for zero in zeros:
         sizes = np.maximum(np.abs(zero.point), np.abs(x))
-        same = np.maximum(NEAR * sizes, NOTHING * sizes.max())
+        same = np.maximum(NEAR * sizes, VANISHES * sizes.max())
         if zero.precise is not None:
             same = np.maximum(same, zero.precise.radii)
         if (np.abs(zero.point - x) <= same).all():

@@ -18,6 +18,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.digits import bits_of, in_bits, middle
+from nag.numerics.doubles import SLACK
 from nag.real.fibre_table import SPARE, VANISHING, CircleOfFibres, roots_of
 
 # Share of the digits to which leading coefficients of products over fibres do not vanish, as many
@@ -27,9 +28,10 @@ SOMETHING = 1 - VANISHING
 ASIDE = 1e-2
 # Decides: Size of a cluster of zeros beside the distance of the next.
 ALONE = 1e-2
-# Decides: Values round a cluster of zeros, over rounding errors and what parts multiple zeros, from
-# which on these stay inside.
-CERTAIN = 1e3
+# Decides, measured: Distance of special values, in radii of the values, that are one: what two
+# methods find lay within 1e-130; several points of the curve may be critical at one. Others lay
+# beyond 1e-6.
+ONE_VALUE = 1e-12
 # Part of the digits beyond which coefficients are changed.
 PARTED = 0.75
 
@@ -165,7 +167,8 @@ def _certain_cluster(
 ) -> tuple[list[int], flint.acb]:
     """The zeros round one that stay in a disc whatever noise does, and its middle.
 
-    On the circle round them values exceed what noise changes them by (Rouche).
+    On the circle round them values exceed what noise changes them by (Rouche): in curves measured
+    by 1e30 and more, or not at all.
     """
     far = sorted((float(abs(z - roots[first]).mid()), i) for i, z in enumerate(roots))
     count = len(roots)
@@ -181,6 +184,6 @@ def _certain_cluster(
         turns = (flint.acb(0, j).exp() for j in range(7))
         least = min(abs(polynomial(centre + radius * turn)).mid() for turn in turns)
         reach = flint.arb(max(1.0, abs(complex(centre)) + radius)) ** count
-        if least > CERTAIN * noise * reach * (1 + count):
+        if least > SLACK * noise * reach * (1 + count):
             return members, centre
     raise UnclearDigitsError("critical values are not certain")

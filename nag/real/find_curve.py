@@ -34,6 +34,7 @@ from nag.real.arcs import ROUNDED_AWAY, Skeleton, connect, find_arcs, join_arcs
 from nag.real.closure import ProjectiveClosure, turns_of
 from nag.real.critical_points import can_be_tracked, find_critical_points
 from nag.real.critical_values import (
+    ONE_VALUE,
     UnclearDigitsError,
     determinant_degree,
     discriminant_degree,
@@ -71,8 +72,6 @@ MOST_SAMPLED = 40
 MOST_PATHS = 20_000
 # Points of fibres in all at most.
 MOST_POINTS = 40_000
-# Decides: Difference of critical values of two methods.
-SAME = 1e-12
 # The circle's radius, at least.
 LEAST_RADIUS = 1e-3
 
@@ -411,7 +410,8 @@ def _special_fibres(
         crossed = _find_crossings(closure, fibres)
     if len(found) == 2:
         one, other = ([s.pencil[0] for s in each] for each in found)
-        if len(one) != len(other) or not np.allclose(one, other, rtol=0, atol=SAME * circle.radius):
+        near = ONE_VALUE * circle.radius
+        if len(one) != len(other) or not np.allclose(one, other, rtol=0, atol=near):
             raise UnclearDigitsError("two methods find different critical values")
     specials = found[0]
     if not specials:

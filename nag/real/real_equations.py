@@ -32,8 +32,6 @@ from nag.witness.frame import expand_orbits
 from nag.witness.membership import Membership, membership_in
 from nag.witness.witness import WitnessSet
 
-# Decides: Relative distance of real points of several sets that are one.
-SAME = 1e-9
 NOT_KNOWN_REAL = "whether a point is real is not known"
 
 
@@ -141,7 +139,7 @@ def distinct_points(sets: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]
     found: list[np.ndarray] = []
     places = []
     for x in (x for own in sets for x in own):
-        there = np.flatnonzero(coincident(np.array(found).reshape(-1, len(x)), x, SAME))
+        there = np.flatnonzero(coincident(np.array(found).reshape(-1, len(x)), x, 0.0))
         places.append(int(there[0]) if len(there) else len(found))
         if not len(there):
             found.append(x)

@@ -24,7 +24,7 @@ from nag.numerics.double_newton import find_zeros
 from nag.numerics.doubles import ROUNDED
 from nag.real.closure import ProjectiveClosure
 from nag.real.critical_points import CriticalPoints
-from nag.real.critical_values import UnclearDigitsError
+from nag.real.critical_values import ONE_VALUE, UnclearDigitsError
 from nag.real.fibre_table import FibreError, Point
 from nag.real.real_fibres import SpecialFibre, find_clusters, join_middles
 from nag.tracking.compiled import CompiledRows, compile_rows
@@ -46,9 +46,6 @@ COMES = 0.55
 STAYS = 0.9
 # Decides: Errors of a special value beside the distance from it.
 KNOWN = 1e-3
-# Decides: Distance of real special values, in radii of the values, that are one: those at which
-# several points of the curve are critical.
-ONE_VALUE = 1e-11
 
 
 @dataclass(frozen=True, eq=False)
