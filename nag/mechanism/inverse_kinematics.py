@@ -394,7 +394,11 @@ def _product(
 def _step(
     weights: Sequence[np.ndarray], rest: np.ndarray, derivative: np.ndarray
 ) -> list[np.ndarray]:
-    """Steps of Gauss, Newton, Levenberg and Marquardt, the less damped the nearer they are."""
+    """Steps of Gauss, Newton, Levenberg and Marquardt, the less damped the nearer they are.
+
+    From random starts undamped ones lead nowhere; and of many starts one that arrives is enough,
+    so that steps need not be tried as in `nag.witness.gauss_newton`.
+    """
     adjoint = derivative.conj().transpose(0, 2, 1)
     square = adjoint @ derivative
     # Each factor's own size is free, so that the square is singular: no damping is beyond rounding.

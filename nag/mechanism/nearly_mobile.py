@@ -900,8 +900,9 @@ def _fit(chains: Chains, walk: Walk, widest: float) -> Chains | None:
     """The least change of places and axes with which the loops close at a few positions.
 
     First both closing and not changing are least squares, then what is left of the gaps is closed
-    by Gauss and Newton's steps to the least change. None if that leaves gaps, or there are not as
-    many positions with gaps of at most ``widest``.
+    by Gauss and Newton's steps, each followed by one to the least change, which is why they are not
+    those of `nag.numerics.double_newton`. None if that leaves gaps, or there are not as many
+    positions with gaps of at most ``widest``.
     """
     from scipy.linalg import svd
     from scipy.optimize import least_squares

@@ -124,7 +124,10 @@ class RoundsInDoubles:
         return x + h / 6 * (a + 2 * b + 2 * c + d)
 
     def newton(self, x: np.ndarray) -> np.ndarray:
-        """What Newton's method takes from a point, in the variables that are not left."""
+        """What Newton's method takes from a point, in the variables that are not left.
+
+        Of two rounds the second is about derivatives of what the first leaves, block by block.
+        """
         if not len(self.solved):
             jacobian, values = self.evaluator.jacobian(x), self.evaluator.values(x[None])[0]
             return self._place_variables(0.0, np.linalg.solve(jacobian[:, self.columns], values))

@@ -157,7 +157,9 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
     """Gauss-Newton for ``evaluator`` and the slice ``rows`` from the affine point ``z``.
 
     It succeeds when the steps shrink to rounding at once and the residuals vanish with them, as
-    they do near a regular zero and nowhere else.
+    they do near a regular zero and nowhere else. How steps shrink decides here, and how short the
+    last must be follows from the singular values on the way, so that it is no use of
+    `nag.numerics.double_newton`, to which it does not matter.
     """
     a = pad_rows(rows, 1 + len(z))
     step, slow, floor = np.inf, 0, SHARP

@@ -1,8 +1,9 @@
 """Zeros of polynomial systems from starting points that may be far away.
 
-Steps are damped as by Levenberg and Marquardt until the residuals are small; the last ones invert
-the Jacobian at a gap of its singular values only, which keeps the convergence quadratic where its
-rank drops on the zero set (Zeng, rank-r Newton iteration, 2023).
+Steps are damped as by Levenberg and Marquardt until the residuals are small: undamped ones
+(`nag.numerics.double_newton`) would lead from afar to anywhere, or nowhere. Those are the last
+steps, and invert the Jacobian at a gap of its singular values only, which keeps the convergence
+quadratic where its rank drops on the zero set (Zeng, rank-r Newton iteration, 2023).
 """
 
 from __future__ import annotations

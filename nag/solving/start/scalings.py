@@ -55,7 +55,8 @@ def nearest_scaling(
     """Factors of unknowns and parameters that bring ``values`` near to ``target``.
 
     The squared distance of the parameters is made small by Newton's method of Gauss, from random
-    factors and from one.
+    factors and from one. Nothing need vanish, steps are shortened and the best end counts, arrived
+    or not: no zeros are looked for, as by `nag.numerics.double_newton`.
     """
     k = len(values)
     best, nearest = np.zeros(len(weights), dtype=np.complex128), np.inf

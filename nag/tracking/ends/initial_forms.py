@@ -215,7 +215,10 @@ def _is_near_regular_zero(face: Face, terms: Sequence[Sequence[Any]], jacobian: 
 def _sizes_left(
     face: Face, inverse_sizes: Sequence[Any], inverse: np.ndarray, x: Sequence[Any]
 ) -> np.ndarray:
-    """What is left of each form where those that can be solved for vanish; decimal logarithms."""
+    """What is left of each form where those that can be solved for vanish; decimal logarithms.
+
+    Newton's method with one pseudo-inverse, in doubles, for values that are far below these.
+    """
     last = inf
     for _ in range(STEPS):
         values = [v * size for v, size in zip(face.values(x), inverse_sizes, strict=True)]
