@@ -114,7 +114,8 @@ def find_zeros(
             new = ~kept[left]
             if new.any():
                 value, jacobians = equations(here[new], left[new])
-                found = _pseudo_inverses(jacobians, rank)
+                back, scales, adjoint = _factor_inverses(jacobians, rank)
+                found = back @ (scales * adjoint)
                 if inverses is None:
                     inverses = np.empty((len(x), *found.shape[1:]), dtype=found.dtype)
                 inverses[left[new]] = found
@@ -122,14 +123,15 @@ def find_zeros(
             if not new.all():
                 value = values(here, left)
             step = (inverses[left] @ value[:, :, None])[:, :, 0]
-        lengths = np.linalg.norm(step, axis=1)
-        moved = step if units is None else units(here) * step
         size = np.maximum(1.0, np.linalg.norm(here, axis=1))
-        near = np.linalg.norm(moved, axis=1) <= stop.longest * size
-        near &= np.isfinite(lengths)
+        moved = step if units is None else units(here) * step
+        lengths = ways = np.linalg.norm(moved, axis=1)
+        if units is not None:
+            lengths = np.linalg.norm(step, axis=1)
+        near = (ways <= stop.longest * size) & (lengths < np.inf)
         x[left[near]] -= moved[near]
-        size = size if units is None else np.ones(len(left))
-        small, short = lengths < stop.arrived * size, lengths < rounding[left] * size
+        beside = lengths if units is not None else lengths / size
+        small, short = beside < stop.arrived, beside < rounding[left]
         near &= (lengths <= stop.shrinking * before) | small | short
         rests = near & (small | (short & (lengths > STALLED * before)))
         if k == 0:
@@ -152,7 +154,8 @@ def newton_steps(
         rank: see `find_zeros`.
     """
     if rank is not None:
-        return np.asarray((_pseudo_inverses(jacobians, rank) @ values[:, :, None])[:, :, 0])
+        back, scales, adjoint = _factor_inverses(jacobians, rank)
+        return np.asarray((back @ (scales * (adjoint @ values[:, :, None])))[:, :, 0])
     if jacobians.shape[1] == jacobians.shape[2]:
         try:
             return np.asarray(np.linalg.solve(jacobians, values[:, :, None])[:, :, 0])
@@ -168,13 +171,17 @@ def newton_steps(
     return steps
 
 
-def _pseudo_inverses(jacobians: np.ndarray, rank: int | Ranks | None) -> np.ndarray:
-    """Matrices that take values to the shortest steps by which these vanish."""
+def _factor_inverses(
+    jacobians: np.ndarray, rank: int | Ranks | None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Factors, the second one of scales, whose product takes values to the shortest steps."""
     finite = np.isfinite(jacobians).all(axis=(1, 2))
-    u, s, vh = np.linalg.svd(np.where(finite[:, None, None], jacobians, 0), full_matrices=False)
+    whole = bool(finite.all())
+    given = jacobians if whole else np.where(finite[:, None, None], jacobians, 0)
+    u, s, vh = np.linalg.svd(given, full_matrices=False)
     count = jacobians.shape[2] if rank is None else rank(s) if callable(rank) else rank
     kept = np.arange(s.shape[1]) < np.reshape(count, (-1, 1))
     scales = np.where(kept, 1 / np.where(kept, s, 1.0), 0.0)
-    scales[~finite] = np.nan
-    adjoint = u.conj().transpose(0, 2, 1)
-    return np.asarray(vh.conj().transpose(0, 2, 1) @ (scales[:, :, None] * adjoint))
+    if not whole:
+        scales[~finite] = np.nan
+    return vh.conj().transpose(0, 2, 1), scales[:, :, None], u.conj().transpose(0, 2, 1)
