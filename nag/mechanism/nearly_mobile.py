@@ -760,9 +760,8 @@ class Walk:
 
     def close_on(self, chains: Chains) -> Walk:
         """The positions of other chains next to these."""
-        pairs = zip(self.positions, self.tangents, strict=True)
-        found = [close_across(chains, q, tangent) for q, tangent in pairs]
-        return Walk(np.array(found), self.tangents, self.ends)
+        found = _close_all_across(chains, self.positions, self.tangents)
+        return Walk(found, self.tangents, self.ends)
 
 
 def follow_motion(chains: Chains, tangent: Array) -> Walk:
@@ -828,16 +827,23 @@ def close_across(chains: Chains, q: Array, tangent: Array) -> Array:
 
     By Gauss and Newton's steps, as gaps are small.
     """
-    across = chains.across(tangent)
+    return _close_all_across(chains, q[None], tangent[None])[0]
 
-    def opening(x: Array, _: Array) -> tuple[Array, Array]:
-        gaps, rows = chains.linearised(q + across @ x[0])
-        return gaps[None], (rows @ across)[None]
+
+def _close_all_across(chains: Chains, q: Array, tangents: Array) -> Array:
+    """The same for several positions, shape (k, n), each with its own direction."""
+    across = np.array([chains.across(tangent) for tangent in tangents])
+
+    def opening(x: Array, which: Array) -> tuple[Array, Array]:
+        along = across[which]
+        there = q[which] + (along @ x[:, :, None])[:, :, 0]
+        gaps, rows = zip(*map(chains.linearised, there), strict=True)
+        return np.array(gaps), np.array(rows) @ along
 
     stop = Stop(arrived=ROUNDING, longest=np.inf)
-    start = np.zeros((1, across.shape[1]))
+    start = np.zeros((len(q), across.shape[2]))
     ends = find_zeros(opening, start, MOST_STEPS, count_above(ARRIVED), stop)
-    return q + across @ ends.x[0]
+    return q + (across @ ends.x[:, :, None])[:, :, 0]
 
 
 @dataclass(frozen=True)

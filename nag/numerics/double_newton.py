@@ -101,7 +101,7 @@ def find_zeros(
     """
     x = np.array(x)
     first, last = np.zeros(len(x)), np.full(len(x), np.inf)
-    converged, rounding = np.zeros(len(x), dtype=bool), np.broadcast_to(stop.rounding, len(x))
+    converged, rounding = np.zeros(len(x), dtype=bool), np.zeros(len(x)) + stop.rounding
     left, kept = np.arange(len(x)), np.zeros(len(x), dtype=bool)
     inverses: np.ndarray | None = None
     for k in range(steps):
@@ -109,7 +109,7 @@ def find_zeros(
             break
         here, before = x[left], last[left]
         if values is None:
-            step = newton_steps(*equations(here, left), rank)
+            step = _solve(*equations(here, left), rank)
         else:
             new = ~kept[left]
             if new.any():
@@ -123,23 +123,24 @@ def find_zeros(
             if not new.all():
                 value = values(here, left)
             step = (inverses[left] @ value[:, :, None])[:, :, 0]
-        size = np.maximum(1.0, np.linalg.norm(here, axis=1))
-        moved = step if units is None else units(here) * step
-        lengths = ways = np.linalg.norm(moved, axis=1)
-        if units is not None:
-            lengths = np.linalg.norm(step, axis=1)
-        near = (ways <= stop.longest * size) & (lengths < np.inf)
-        x[left[near]] -= moved[near]
-        beside = lengths if units is not None else lengths / size
+        size, lengths, moved = np.maximum(1.0, _lengths(here)), _lengths(step), step
+        if units is None:
+            beside = ways = lengths / size
+        else:
+            moved = units(here) * step
+            beside, ways = lengths, _lengths(moved) / size
+        near = (ways <= stop.longest) & (lengths < np.inf)
+        x[left[near]] = (here - moved)[near]
         small, short = beside < stop.arrived, beside < rounding[left]
-        near &= (lengths <= stop.shrinking * before) | small | short
-        rests = near & (small | (short & (lengths > STALLED * before)))
+        if stop.shrinking < np.inf:
+            near &= (lengths <= stop.shrinking * before) | small | short
+        converged[left] = rests = near & (small | (short & (lengths > STALLED * before)))
         if k == 0:
             first = lengths
         last[left] = np.where(near, lengths, np.inf)
-        converged[left] = rests
-        kept[left] = lengths <= SHRUNK * before
-        left = left[near & ~rests]
+        if values is not None:
+            kept[left] = lengths <= SHRUNK * before
+        left = left[near > rests]
     return NewtonEnds(x, converged, first, last)
 
 
@@ -153,6 +154,14 @@ def newton_steps(
         values, jacobians: shapes ``(P, m)`` and ``(P, m, n)``.
         rank: see `find_zeros`.
     """
+    return _solve(values, jacobians, rank)
+
+
+def _lengths(rows: np.ndarray) -> np.ndarray:
+    return np.asarray(np.sqrt(np.einsum("pi,pi->p", rows, rows.conj()).real))
+
+
+def _solve(values: np.ndarray, jacobians: np.ndarray, rank: int | Ranks | None) -> np.ndarray:
     if rank is not None:
         back, scales, adjoint = _factor_inverses(jacobians, rank)
         return np.asarray((back @ (scales * (adjoint @ values[:, :, None])))[:, :, 0])
@@ -175,13 +184,16 @@ def _factor_inverses(
     jacobians: np.ndarray, rank: int | Ranks | None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Factors, the second one of scales, whose product takes values to the shortest steps."""
-    finite = np.isfinite(jacobians).all(axis=(1, 2))
-    whole = bool(finite.all())
-    given = jacobians if whole else np.where(finite[:, None, None], jacobians, 0)
-    u, s, vh = np.linalg.svd(given, full_matrices=False)
-    count = jacobians.shape[2] if rank is None else rank(s) if callable(rank) else rank
-    kept = np.arange(s.shape[1]) < np.reshape(count, (-1, 1))
-    scales = np.where(kept, 1 / np.where(kept, s, 1.0), 0.0)
-    if not whole:
-        scales[~finite] = np.nan
+    finite = np.isfinite(jacobians)
+    broken = None if finite.all() else ~finite.all(axis=(1, 2))
+    if broken is not None:
+        jacobians = np.where(broken[:, None, None], 0, jacobians)
+    u, s, vh = np.linalg.svd(jacobians, full_matrices=False)
+    scales = 1 / s
+    if callable(rank):
+        scales[np.arange(s.shape[1]) >= rank(s)[:, None]] = 0
+    elif rank is not None:
+        scales[:, rank:] = 0
+    if broken is not None:
+        scales[broken] = np.nan
     return vh.conj().transpose(0, 2, 1), scales[:, :, None], u.conj().transpose(0, 2, 1)

@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.numerics.double_newton import find_zeros
-from nag.numerics.double_ranks import matrix_corank, numerical_corank
+from nag.numerics.double_ranks import numerical_corank
 from nag.numerics.doubles import SHARP, VANISHING
 
 # Damped steps, and those from where residuals are small.
@@ -91,13 +91,13 @@ def polish(evaluator: Evaluator, x: np.ndarray, corank: int | None = None) -> It
         values, jacobian = _balance_rows(evaluator, x[0])
         return values[None], jacobian[None]
 
-    def count_rank(s: np.ndarray) -> np.ndarray:
-        return np.array([n - numerical_corank(s[0], n, SMALL)])
+    coranks = [corank or 0]
 
-    rank = count_rank if corank is None else n - corank
-    ends = find_zeros(equations, x[None], MOST_LAST_STEPS, rank)
+    def count_rank(s: np.ndarray) -> np.ndarray:
+        coranks.append(numerical_corank(s[0], n, SMALL) if corank is None else corank)
+        return np.array([n - coranks[-1]])
+
+    ends = find_zeros(equations, x[None], MOST_LAST_STEPS, count_rank)
     x, step = ends.x[0], float(ends.last[0]) / (1 + float(np.linalg.norm(ends.x[0])))
-    if corank is None:
-        corank = matrix_corank(_balance_rows(evaluator, x)[1], SMALL)
     residual = float(evaluator.residuals(x[None]).max(initial=0.0))
-    return IterationEnd(x, corank, step, step < SHARP and residual < VANISHING)
+    return IterationEnd(x, coranks[-1], step, step < SHARP and residual < VANISHING)
