@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf, log10
+from math import inf
 
 import flint
 import numpy as np
@@ -27,6 +27,7 @@ from nag.numerics.descent import Point, Round
 from nag.numerics.digits import BITS, in_bits, log_norm, middle
 from nag.numerics.double_ranks import INDEPENDENT
 from nag.numerics.exact_system import ExactSystem
+from nag.numerics.newton import step_by_doubles, subtract_step
 from nag.numerics.sharpening import FURTHEST_STEP, GAIN, NEWTON_STEPS, ZERO
 
 # Decimal logarithm of the step of difference quotients: they lose as many of 150 digits, and are
@@ -76,14 +77,10 @@ def find_zero_of_corank(
                 if not np.isfinite(slopes).all():
                     return None
                 inverse = np.linalg.pinv(slopes, rcond=INDEPENDENT)
-            unit = flint.arb(10) ** flint.arb(size)
-            step = inverse @ np.array([complex(value / unit) for value in left])
-            length = size + log10(max(float(np.abs(step).max()), 1e-300))
+            _, length, step = step_by_doubles(inverse, left)
             if length > min(FURTHEST_STEP, last - GAIN):
                 return None
-            last = length
-            moves = [unit * flint.acb(c) for c in step.tolist()]
-            x = [middle(a - b) for a, b in zip(x, moves, strict=True)]
+            last, x = length, subtract_step(x, step, BITS)
     return None
 
 

@@ -15,10 +15,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from math import inf
+from math import inf, log10
 from typing import Protocol
 
 import flint
+import numpy as np
 
 from nag.numerics.digits import LOG10_2, bits_of, in_bits, log_norm, middle
 
@@ -113,6 +114,26 @@ def newton_step(
         return solve_equations(system.jacobian(x, bits), values, bits)
     with in_bits(bits):
         return (inverse * values).entries()
+
+
+def step_by_doubles(
+    inverse: np.ndarray, values: Sequence[flint.acb]
+) -> tuple[float, float, list[flint.acb]]:
+    """Newton's step by an inverse in doubles, to be subtracted, of values far below these.
+
+    Each such step gains as many digits as doubles have, whatever the rank.
+
+    Args:
+        inverse: or pseudo-inverse, of the Jacobian near a zero.
+
+    Returns:
+        Decimal logarithms of the largest value and of the largest entry of the step; the step.
+    """
+    size = log_norm(values)
+    unit = flint.arb(10) ** flint.arb(size)
+    step = inverse @ np.array([complex(value / unit) for value in values])
+    length = size + log10(max(float(np.abs(step).max(initial=0.0)), 1e-300))
+    return size, length, [unit * flint.acb(c) for c in step.tolist()]
 
 
 def move_point(

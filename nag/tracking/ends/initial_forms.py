@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from math import exp, inf, log10, sqrt
+from math import exp, inf, sqrt
 from typing import Any
 
 import flint
@@ -22,6 +22,7 @@ from nag.numerics.ball_polynomials import Factors, MonomialProducts
 from nag.numerics.coincidence import BEYOND
 from nag.numerics.digits import in_bits, log_size
 from nag.numerics.double_ranks import INDEPENDENT
+from nag.numerics.newton import step_by_doubles
 from nag.numerics.sharpening import ZERO
 from nag.tracking.ends.terms import Terms
 from nag.tracking.paths import NEVER
@@ -223,14 +224,11 @@ def _sizes_left(
     for _ in range(STEPS):
         values = [v * size for v, size in zip(face.values(x), inverse_sizes, strict=True)]
         logs = np.array([log_size(v) for v in values])
-        largest = logs.max()
-        if largest < ZERO:
+        if logs.max() < ZERO:
             break
-        unit = flint.arb(10) ** flint.arb(largest)
-        step = inverse @ np.array([complex(v / unit) for v in values])
-        length = largest + log10(max(np.abs(step).max(), 1e-300))
+        _, length, step = step_by_doubles(inverse, values)
         if length > last - GAIN:
             break
         last = length
-        x = [(z * (1 - unit * flint.acb(s))).mid() for z, s in zip(x, step.tolist(), strict=True)]
+        x = [(z * (1 - s)).mid() for z, s in zip(x, step, strict=True)]
     return logs
