@@ -38,7 +38,7 @@ from nag.algebra.given import (
 from nag.errors import ComponentError, EquationError, InputError, NagError, unreadable
 from nag.numerics.read_only import equal_values
 from nag.text.table import join_words
-from nag.tracking.run import DEFAULT_RUN, Run, answers_early, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, answers_early, takes_run
 
 if TYPE_CHECKING:
     import numpy as np
@@ -1582,7 +1582,7 @@ def choose_component(
     from nag.interpolation.point_cloud import Cloud
     from nag.interpolation.precise_samples import SourceError, source_of_component
 
-    rng = run.random(4)
+    rng = run.random(Stream.ELIMINATION)
     problem = given if is_a(given, "nag.mechanism.problem", "Problem") else None
     at: Sequence[Number | complex] | None = None
     if problem is not None:

@@ -120,6 +120,15 @@ def test_points_that_have_arrived_are_stationary_to_rounding(near) -> None:
         assert abs(found.distances[0] - np.sqrt(near[2] - 0.25)) < 1e-12 * near[2]
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_steps_along_a_valley_arrive(seed: int) -> None:
+    # Next to a circle of points that are nearly as near.
+    of = system("x y z", "z - x^2 - y^2")
+    component = decompose(of).components[0]
+    found = real_points_near(of, component, [0.1, 0, 3], starts=6, seed=seed)
+    assert found.stationary.all()
+
+
 def test_a_component_without_real_points_yields_none_and_says_so() -> None:
     of = system("x y", "x^2 + y^2 + 1")
     found = real_points_near(of, decompose(of).components[0], [0, 0])

@@ -34,7 +34,7 @@ from nag.numerics.double_ranks import corank_on_component
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.zero_values import ON, WRITTEN, vanishes_at_all, widen_error
-from nag.tracking.run import Run
+from nag.tracking.run import Run, Stream
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.confirm import find_vanishing
@@ -167,7 +167,7 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     if apart:
         natural = _suitable_coordinates(system, symmetries)
         system = natural.system(system)
-    rng = run.random(11)
+    rng = run.random(Stream.GENERIC_POINTS)
     if zeros is not None:
         parts = [_algebraic(system, zeros)]
     else:
@@ -398,7 +398,7 @@ def _in_orbits(
         ValueError: if points could not be moved to a common slice.
     """
     whole = [c for c in components if c.status is Status.IRREDUCIBLE]
-    rng, natural = run.random(12), coordinates_of(system)
+    rng, natural = run.random(Stream.BRANCHES), coordinates_of(system)
     flag = natural.inverse.rows(random_rows(rng, system.n, system.n))
     whole = [
         witness_at(system, c, to_slice(flag[: c.dimension]), run=run) if c.dimension else c

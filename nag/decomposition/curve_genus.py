@@ -26,7 +26,7 @@ from nag.decomposition.monodromy import locate_points
 from nag.decomposition.rank_drop import rank_drop, rank_drop_points
 from nag.errors import ComponentError, NagError
 from nag.numerics.coincidence import join_labels
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre, move_regular
@@ -105,7 +105,7 @@ def genus(
     check_component(system, component)
     if component.dimension != 1:
         raise NagError(f"the component has dimension {component.dimension}; a curve has 1")
-    rng = run.random(9, 0)
+    rng = run.random(Stream.GENUS, 0)
     natural = coordinates_of(system)
     system = natural.system(system)
     component = carry_component(component, natural, system)

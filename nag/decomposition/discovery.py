@@ -28,7 +28,7 @@ from nag.decomposition.reduction import Reduction
 from nag.numerics.double_ranks import NEARLY_SINGULAR, largest_corank
 from nag.numerics.doubles import ARRIVED, MULTIPLE, ROUNDED
 from nag.numerics.zero_values import LEAST
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.fibres import whole_space
 from nag.witness.gauss_newton import CLOSE, descend, polish
 from nag.witness.given_component import check_system
@@ -81,7 +81,7 @@ def discover(
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
     given, system = system, as_real(system)
-    rng = run.random(7)
+    rng = run.random(Stream.DISCOVERY)
     reduction = Reduction.of(system, scaled=True)
     search = _Discovery(reduction, CommonSlices.random(reduction.equations, rng), rng, run)
     search.from_random_points(starts)

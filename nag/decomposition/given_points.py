@@ -21,7 +21,7 @@ from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import coincident
 from nag.numerics.doubles import MULTIPLE
 from nag.numerics.zero_values import LEAST, ON
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre, admit_end, move
 from nag.witness.gauss_newton import polish
@@ -154,7 +154,7 @@ def components_through_points(
         A decomposition that is complete if every point led to a component that was confirmed; it
         says nothing of components through none of the points.
     """
-    rng = run.random(11)
+    rng = run.random(Stream.GIVEN_POINTS)
     reduction = Reduction.of(system, scaled=True)
     slices, counts, notes = _on_common_slices(starts, reduction, rng, run)
     found = assemble_components(slices.points, reduction, rng, run)

@@ -42,7 +42,7 @@ from nag.numerics.local_dimension import LocalDimension, exact_numbers
 from nag.numerics.tangent_cone import tangent_cone
 from nag.numerics.zero_values import LEAST, ON
 from nag.tracking.evaluations import ZERO, Evaluations, count_evaluations
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.tracking.settings import find_settings
 from nag.witness.cutting import Cut, find_cut
 from nag.witness.exact_points import IN_DOUBLE_DOUBLE
@@ -174,7 +174,7 @@ def grow_component(
         dimensions = [_dimension_at(restrict_to_part(system, p), point[list(p)]) for p in parts]
         if sum(dimensions) == dimension:
             return _grow_product(system, parts, dimensions, point, seconds, run)
-    rng = run.random(12)
+    rng = run.random(Stream.GROWTH)
     reduction = Reduction.of(system, scaled=True)
     allowance = _Allowance(seconds - MADE_READY * _count_factors(system.polynomials))
     points = _first_point(reduction, point, dimension, allowance, rng, run)

@@ -27,7 +27,7 @@ from nag.decomposition.superset import (
 from nag.numerics.double_ranks import NEARLY_SINGULAR, corank_on_component
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.zero_values import LEAST, ON
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import Equations
@@ -109,7 +109,7 @@ def intersect_factors(first: Operand, second: Operand, *, run: Run) -> Decomposi
     whole = _union(first.reduction.system, second.reduction.system)
     natural = coordinates_of(whole)
     common = Reduction.of(natural.system(whole))
-    rng = run.random(5)
+    rng = run.random(Stream.INTERSECTION)
     if any(f and f.degree == 0 for f in common.reduced.polynomials):
         # Linear equations of both contradict each other, exactly.
         nothing = judge_components(common.system, (), PathCounts(), run)
@@ -182,7 +182,7 @@ def intersect_equations(
     factor = Operand.of(system, component).carry(natural)
     common = Reduction.of(natural.system(whole))
 
-    rng = run.random(6)
+    rng = run.random(Stream.COMMON_SLICES)
     superset = _meet_equations(factor, natural.system(equations), rng, run)
     notes, points = superset.doubts, {}
     for d, found in superset.fibres.items():

@@ -12,7 +12,7 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.numerics.system_facts import SystemFacts
-from nag.tracking.run import Run
+from nag.tracking.run import Run, Stream
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 
@@ -56,7 +56,7 @@ class Task:
     @cached_property
     def rng(self) -> np.random.Generator:
         """The random numbers of what is tried before equations are intersected one by one."""
-        return self.run.random(3)
+        return self.run.random(Stream.DECOMPOSITION)
 
 
 @dataclass(frozen=True, eq=False)

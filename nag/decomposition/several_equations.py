@@ -21,6 +21,7 @@ from nag.decomposition.method import Attempt, Task
 from nag.decomposition.orbits import Action
 from nag.decomposition.superset import Superset, intersection_order, witness_superset
 from nag.decomposition.toric_section import section_at_once, turns_to_cut
+from nag.tracking.run import Stream
 from nag.witness.fibres import whole_space
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, PathCounts
@@ -32,7 +33,7 @@ def decompose_section(task: Task) -> Attempt:
     if turns is None:
         return Attempt()
     flag, rng = _random_flag(task)
-    own = task.run.random(23)
+    own = task.run.random(Stream.ALL_AT_ONCE)
     superset, spent = section_at_once(task.reduction, turns, flag, own, task.run)
     if superset is None:
         return Attempt(None, spent)

@@ -49,7 +49,7 @@ from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordin
 from nag.numerics.precise_point import POINT_DIGITS
 from nag.numerics.read_only import Several, equal_values
 from nag.text.table import data_frame, lines_of, one_line
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.given_component import check_system
 from nag.witness.projection import ProjectionError, project
@@ -201,7 +201,7 @@ def singular_parameters(
     """
     n = _variables(system, count)
     natural = natural_coordinates(system.polynomials, system.n)
-    whole = _null_space_system(natural.system(system), n, run.random(8))
+    whole = _null_space_system(natural.system(system), n, run.random(Stream.NULL_SPACES_OF_MEMBERS))
     found = decompose(whole, run=run)
     ideal, components = _ideal(whole), expand_orbits(found).components
     family = _Family(whole, ideal, tuple(range(n, n + count)), run)
@@ -300,7 +300,7 @@ class _Family:
 
     def cloud(self, sources: Sequence[Source]) -> Cloud:
         """Points of components of one dimension, one after the other."""
-        rng = self.run.random(9)
+        rng = self.run.random(Stream.SINGULAR_MEMBERS)
         return Cloud(sources[0], AmbientVariables.itself(self.whole), rng, self.run, sources[1:])
 
 
@@ -471,7 +471,7 @@ def _sets_together(family: _Family, images: Sequence[_ParameterImage]) -> list[P
         InterpolationError: if some are conjugate to others that are not among them.
         _OpenError: if equations are not known for another reason.
     """
-    rng, sources = family.run.random(10), [i.cloud.source for i in images]
+    rng, sources = family.run.random(Stream.DISCRIMINANT), [i.cloud.source for i in images]
     dimension, coordinates = images[0].dimension, family.coordinates
     found = []
     for each in conjugate_classes(sources, coordinates, dimension, rng, family.run):

@@ -33,7 +33,7 @@ from nag.numerics.tangent_cone import TangentCone, tangent_cone
 from nag.numerics.zero_values import all_vanish
 from nag.text.json_text import pairs
 from nag.text.table import data_frame, lines_of, one_line
-from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, Stream, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.component_equations import (
     component_fibres,
@@ -384,7 +384,7 @@ def singular_locus(
     whole = carry_decomposition(given, natural)
     chosen = list(range(len(whole.components))) if only is None else sorted(set(only))
     found, run = run.found, run.without_found
-    own = _own_equations(whole, run.random(8), run)
+    own = _own_equations(whole, run.random(Stream.NULL_SPACES), run)
     search = _SingularSearch(whole, own, run)
     if found is not None:
         found(search.told())
@@ -393,7 +393,7 @@ def singular_locus(
         if found is not None:
             found(search.told())
     search.of_pairs(chosen)
-    rng = run.random(7)
+    rng = run.random(Stream.SINGULAR_POINTS)
     sets = _judge_candidates(search, rng, run)
     if not natural.is_identity:
         sets = tuple(_carry_back(one, natural, given.system) for one in sets)

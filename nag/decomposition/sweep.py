@@ -35,7 +35,7 @@ from nag.text.progress import REMARK, stage_text
 from nag.text.table import align, count_text, data_frame, known_or_nan, named_apart, named_line
 from nag.tracking import blocks
 from nag.tracking.paths import PathStatus
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.tracking.track import track
 from nag.witness.witness import Decomposition, WitnessSet
 
@@ -197,7 +197,7 @@ def sweep(
         run: how it is worked out; its ``found`` is told of the values that are done.
     """
     told, run = run.found, run.without_found
-    how, rng = run, run.random(13)
+    how, rng = run, run.random(Stream.SWEEP)
     distinct = list(dict.fromkeys(values))
     general, reason = None, "a single value: there is no other one to follow components from"
     if len(distinct) > 1:

@@ -17,7 +17,7 @@ from nag.algebra.polynomial import ROUND_NUMBERS, Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.zero_sums import smallest_zero_sums
 from nag.numerics.doubles import CLEAR
-from nag.tracking.run import Run
+from nag.tracking.run import Run, Stream
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, join_points
@@ -294,7 +294,7 @@ def linear_trace(
     """
     if not component.dimension or not component.degree:
         return None
-    rng = np.random.default_rng([seed, 23, index])
+    rng = np.random.default_rng([seed, Stream.TRACE, index])
     try:
         return has_linear_trace(system, component, rng, Run())
     except (ValueError, OverflowError):

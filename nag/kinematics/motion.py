@@ -61,7 +61,7 @@ from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.read_only import RealArray, Several, equal_values
 from nag.real.curve import RealCurve
 from nag.text.table import count_text, data_frame, join_words, one_line
-from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, Stream, takes_run
 from nag.witness.frame import count_expanded, expand_orbits
 from nag.witness.witness import Decomposition, WitnessSet
 
@@ -1304,7 +1304,7 @@ def _find_idle(problem: Problem, run: Run) -> tuple[str, int]:
     if problem.reference is None:
         return "", 0
     try:
-        found = find_moving_parts(made.mechanism, 1 + problem.free, run.random(46))
+        found = find_moving_parts(made.mechanism, 1 + problem.free, run.random(Stream.MOVING_PARTS))
     except NotClear:
         return "", 0
     # What moves alone where nothing else does is the motion itself.

@@ -23,7 +23,7 @@ from nag.mechanism.pose_model import PoseModel
 from nag.mechanism.quaternion import conjugate
 from nag.mechanism.rods import RodModel
 from nag.numerics.double_ranks import NEARLY_SINGULAR, SINGULAR, matrix_corank
-from nag.tracking.run import Run
+from nag.tracking.run import Run, Stream
 from nag.witness.witness import WitnessSet
 
 # General points at which twists are compared.
@@ -54,7 +54,7 @@ def find_body_freedoms(made: Model, component: WitnessSet, body: str, run: Run) 
         raise NotClear(f"joints that the equations leave out move {body}")
     chain = JointChains.of(made.mechanism, None)
     source = source_of_component(made.system, component, False)
-    cloud = Cloud(source, AmbientVariables.itself(made.system), run.random(50), run)
+    cloud = Cloud(source, AmbientVariables.itself(made.system), run.random(Stream.BODY_CLOUD), run)
     bases, poses = [], []
     for point, tangents in cloud.tangents(POINTS):
         directions = tangents / np.linalg.norm(tangents, axis=1, keepdims=True)

@@ -33,7 +33,7 @@ from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
 from nag.numerics.digits import bits_of, in_bits, to_ball
 from nag.numerics.precise_point import POINT_DIGITS
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.component_equations import component_fibres
 from nag.witness.confirm import zero_in_digits
 from nag.witness.fibres import Fibre, move
@@ -180,7 +180,7 @@ def bonds(
     loop = _loop(model)
     if component.dimension != 1:
         raise NagError(f"the component has dimension {component.dimension}; a curve has 1")
-    rng = run.random(10)
+    rng = run.random(Stream.BONDS)
     search = _Ends(loop, component, rng, run)
     order = loop.joints
     found: dict[_Kind, set[Fraction]] = {}

@@ -19,7 +19,7 @@ from nag.decomposition.given_points import best_lifted, components_through_point
 from nag.mechanism.framework_model import FrameworkModel
 from nag.mechanism.isotropic import conjugates
 from nag.numerics.zero_values import LEAST
-from nag.tracking.run import Run
+from nag.tracking.run import Run, Stream
 from nag.witness.component_equations import component_fibres
 from nag.witness.membership import Membership, is_member
 from nag.witness.witness import Decomposition, Status, WitnessSet
@@ -62,7 +62,7 @@ def _carry_over(
     """Components in z as components in x and y; None if they cannot be, or not for certain."""
     chosen = list(found.components)
     if symmetries:
-        chosen = _one_of_each_pair(parts, found, run.random(17), run)
+        chosen = _one_of_each_pair(parts, found, run.random(Stream.MIRROR_IMAGES), run)
     starts = [(c.dimension, best_lifted(c, lambda z: _in_the_plane(parts, z))) for c in chosen]
     answer = components_through_points(parts.system, starts, run=run, symmetries=symmetries)
     counted = sum(c.orbit for c in answer.components)

@@ -20,7 +20,7 @@ from nag.mechanism.inverse_kinematics import find_all_joints, real_ways
 from nag.mechanism.joint_factors import Charts
 from nag.mechanism.loop_product import Element, displacement, factors_in
 from nag.mechanism.quaternion import dual_conjugate
-from nag.tracking.run import Run
+from nag.tracking.run import Run, Stream
 
 # Coordinates of a general pose of a chain are whole numbers up to it.
 LARGEST = 64
@@ -44,7 +44,7 @@ def count_ways(elements: Sequence[Element], run: Run) -> int | None:
 
     None where there are infinitely many, or their number is not known.
     """
-    rng = run.random(51)
+    rng = run.random(Stream.LEG_WAYS)
     values = {
         f: tuple(Fraction(x) for x in rng.integers(1, LARGEST, f.dimension + 1).tolist())
         for f in factors_in(elements)

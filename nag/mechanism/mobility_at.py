@@ -54,7 +54,7 @@ from nag.numerics.second_order import count_unreal_directions
 from nag.numerics.zero_values import ON
 from nag.real.real_through import is_real_through
 from nag.text.table import count_text
-from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, Stream, takes_run
 from nag.witness.frame import expand_orbits
 from nag.witness.given_component import round_point
 from nag.witness.membership import rounded_error
@@ -270,7 +270,7 @@ def _fibre_product(
     system: PolynomialSystem, at: tuple[Number, ...], seed: int
 ) -> FibreProduct | None:
     """It is asked for before a model is chosen, and when the answer is made."""
-    return find_fibre_product(system, at, Run(seed=seed).random(47))
+    return find_fibre_product(system, at, Run(seed=seed).random(Stream.FIBRE_PRODUCT))
 
 
 def _has_four_bars(given: Any) -> bool:
@@ -389,7 +389,9 @@ def _with_moving(
     if report.unreal:
         return replace(report, unclear="no real motion has all of its freedoms")
     try:
-        moving = find_moving_parts(mechanism, report.local_dimension, run.random(46), places, of)
+        moving = find_moving_parts(
+            mechanism, report.local_dimension, run.random(Stream.MOVING_PARTS), places, of
+        )
     except NotClear as reason:
         return replace(report, unclear=str(reason))
     return replace(report, moving=moving)
@@ -413,7 +415,9 @@ def _with_components(
     if detail == "through" and first.local.upper == 0:
         return replace(first, components=((problem.free, 1),), real=(True,), rests_on=ISOLATED)
     if detail == "through":
-        beside = leave_singular_point(problem.system, at, first.local, run.random(48))
+        beside = leave_singular_point(
+            problem.system, at, first.local, run.random(Stream.BESIDE_SINGULAR)
+        )
         if beside is not None:
             return _with_only_component(first, problem, beside, ONE_BRANCH, budget, run)
     paths = fewest_estimated_paths(problem.system)

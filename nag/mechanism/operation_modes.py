@@ -71,7 +71,7 @@ from nag.mechanism.platform import LegEquations, PlatformModel, platform_model
 from nag.numerics.coincidence import LEAST
 from nag.numerics.double_ranks import NEARLY_SINGULAR, matrix_corank
 from nag.numerics.zero_values import NONZERO
-from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, ENDED_EARLY, Run, Stream, takes_run
 from nag.witness.gauss_newton import descend
 from nag.witness.membership import (
     Membership,
@@ -145,7 +145,7 @@ def modes_in_steps(
     check_mechanism(given)
     check_size(budget, "budget")
     run.tell("legs", 0, 4)
-    model = platform_model(parallel_robot(given, platform), run.random(41))
+    model = platform_model(parallel_robot(given, platform), run.random(Stream.PARALLEL_ROBOT))
     paths = fewest_estimated_paths(model.system)
     if paths * LEAST_SECONDS > budget:
         note = (
@@ -252,7 +252,7 @@ class _Reach:
 
 def _judge_reach(model: PlatformModel, found: Decomposition, run: Run) -> list[_Reach]:
     """Which legs reach each component."""
-    rng, length = run.random(42), model.length
+    rng, length = run.random(Stream.MODE_POSES), model.length
     poses = np.array([model.study(c.points)[0] for c in found.components]).reshape(-1, 8)
     limits = _find_limits(model, poses, run)
     residuals = _residuals_beside(model, poses, limits, rng)
@@ -499,7 +499,7 @@ def _describe(
         odd = mirrored == index and component.degree % 2 == 1
         return replace(mode, reality=ModeReality.REAL) if odd else mode
     poses = _normalise_real_parts(model.study(points).real)
-    residuals = _residuals(model, poses, length, run.random(43), real=True)
+    residuals = _residuals(model, poses, length, run.random(Stream.REAL_POSES), real=True)
     # The pose that most legs reach, the first of several.
     best = int(np.argmin((residuals >= REACHED).sum(axis=1)))
     point, pose, near = points[best], poses[best], residuals[best]
@@ -531,7 +531,7 @@ def _reached_point(
     basis = np.array([[float(c) for c in v] for v in null_space(rows, 8)])
     forms = Evaluator.of((study_quadric(), *mode.quadratic), 8)
     chains = [leg.leg.elements() for leg in model.legs]
-    found = find_reached_pose(chains, basis, forms, pose, length, run.random(46))
+    found = find_reached_pose(chains, basis, forms, pose, length, run.random(Stream.REACHED_POSE))
     if found is None:
         return None
     study, residuals = found
@@ -589,7 +589,9 @@ def _cloud(model: PlatformModel, component: WitnessSet, run: Run) -> Cloud:
     names = (COORDINATES[0], *system.variables)
     images = (*_pose(model), *Polynomial.variables(system.n)[7:])
     ambient = AmbientVariables.of(system, names, range(1, len(names)), images)
-    return Cloud(source_of_component(system, component, False), ambient, run.random(44), run)
+    return Cloud(
+        source_of_component(system, component, False), ambient, run.random(Stream.MODE_CLOUD), run
+    )
 
 
 def _reduce_form(form: Polynomial, linear: Sequence[Polynomial]) -> Polynomial:
@@ -623,7 +625,7 @@ def _real_points(model: PlatformModel, mode: OperationMode, run: Run) -> Iterato
     They are looked for from zeros of the mode's own equations: from elsewhere Newton's method for
     those of the legs leads to other modes as well.
     """
-    rng, n = run.random(45), model.system.n
+    rng, n = run.random(Stream.MODE_SAMPLES), model.system.n
     reference = np.array([float(x) for x in model.reference])
     rows = [[f.terms.get(e, 0) for e in UNITS] for f in mode.linear]
     basis = np.array([[float(c) for c in v] for v in null_space(rows, 8)])

@@ -42,7 +42,7 @@ from nag.mechanism.loops import LoopStructure
 from nag.mechanism.platform import LegEquations, PlatformModel, platform_model
 from nag.mechanism.quaternion import DualQuaternion, multiply, norm_squared, scale
 from nag.text.table import count_text, join_words
-from nag.tracking.run import Run
+from nag.tracking.run import Run, Stream
 
 # The same model each time: random numbers are those of this seed.
 SEED = 40
@@ -121,7 +121,7 @@ class PoseModel:
             Which of the points each configuration is above; all of them, entry by entry; and what
             is not known.
         """
-        model, rng = self.platform, run.random(52)
+        model, rng = self.platform, run.random(Stream.POSE_MODEL)
         counts = [None if _idle(leg) else count_ways(leg.middle, run) for leg in model.legs]
         missing: dict[str, int] = {}
         index: list[int] = []

@@ -34,7 +34,7 @@ from nag.numerics.double_ranks import matrix_corank
 from nag.numerics.doubles import ROUGH
 from nag.numerics.zero_values import ON
 from nag.text.table import count_text
-from nag.tracking.run import Run
+from nag.tracking.run import Run, Stream
 from nag.witness.frame import expand_orbits
 from nag.witness.gauss_newton import IterationEnd, descend, polish
 from nag.witness.real_points import STARTS
@@ -194,7 +194,7 @@ def real_assemblies(parts: AssemblyModel, seed: int = 0) -> Iterator[IterationEn
         size = 1 + sqrt(max(squares))
     evaluator = Evaluator.of(system.polynomials, system.n)
     nonzero = Evaluator.of(system.nonzero, system.n)
-    rng = np.random.default_rng([seed, 19])
+    rng = np.random.default_rng([seed, Stream.REAL_ASSEMBLIES])
     for _ in range(STARTS):
         near = descend(evaluator, size * rng.standard_normal(system.n))
         if near is None:

@@ -178,13 +178,16 @@ def _plot_surfaces(
     from nag.interpolation.point_cloud import AmbientVariables, Cloud
     from nag.interpolation.precise_samples import source_of_component
     from nag.pictures.surface_picture import draw_surface
+    from nag.tracking.run import Stream
 
     if len(onto) != len(AXES):
         raise NagError("onto: surfaces are drawn in three variables")
     equations, rows = [], []
     for number, component in chosen.items():
         source = source_of_component(answer.system, component)
-        cloud = Cloud(source, AmbientVariables.itself(answer.system), run.random(4), run)
+        cloud = Cloud(
+            source, AmbientVariables.itself(answer.system), run.random(Stream.PLOTTED_CLOUD), run
+        )
         found = eliminate_component(cloud, {}, tuple(onto), None, False, run.tell)
         if found.dimension != component.dimension or len(found.generators) != 1:
             raise ComponentError(f"component {number}: its image is no surface there")

@@ -53,7 +53,7 @@ from nag.real.fibre_table import (
 )
 from nag.real.real_fibres import SpecialFibre, infinite_fibre, real_fibre, special_fibre
 from nag.real.tracked_fibres import TrackedFibres, ordinary_fibre, special_fibres_of
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre
@@ -120,10 +120,10 @@ def find_real_curve(component: WitnessSet, *, run: Run = DEFAULT_RUN) -> RealCur
     fibres = component_fibres(system, component)
     equations = _equations(system, component, fibres)
     curve = _Projected(system, component, fibres, equations, turns_of(system), run)
-    by_paths = curve.has_few_paths and curve.is_real(run.random(11, ATTEMPTS))
+    by_paths = curve.has_few_paths and curve.is_real(run.random(Stream.REAL_CURVE, ATTEMPTS))
     reason, level = "", 0 if by_paths else BY_PATHS
     for attempt in range(ATTEMPTS):
-        rng = run.random(11, attempt)
+        rng = run.random(Stream.REAL_CURVE, attempt)
         try:
             digits = None if level < BY_PATHS else DIGITS[level - BY_PATHS]
             return _in_given_coordinates(curve.find(digits, rng), given, natural)

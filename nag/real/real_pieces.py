@@ -41,7 +41,7 @@ from nag.real.real_equations import (
 from nag.real.real_through import is_other_than_its_conjugate
 from nag.solving.solve import solve
 from nag.text.table import lines_of, one_line, point_text
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
@@ -263,7 +263,7 @@ def _of_larger_set(component: WitnessSet, run: Run) -> RealPieces:
     if cut.aux:
         reason = "the component is not reduced: its nearest points are not looked for"
         return _near_random_points(component, reason, run)
-    rng = run.random(12)
+    rng = run.random(Stream.REAL_PIECES)
     target = [Fraction(int(c), 64) for c in rng.integers(-128, 128, system.n)]
     nearest = nearest_points_system(cut, target)
     if np.prod([float(f.degree) for f in nearest.polynomials]) > MOST_PATHS:
@@ -428,7 +428,7 @@ def _near_random_points(component: WitnessSet, why: str, run: Run) -> RealPieces
     """What Newton's method finds round random points."""
     system = component._known_system()
     size = float(np.median(np.abs(component.points)))
-    rng = run.random(13)
+    rng = run.random(Stream.CRITICAL_POINTS)
     for scale in SIZES:
         for _ in range(PLACES):
             near = scale * max(size, 1.0) * rng.standard_normal(system.n)

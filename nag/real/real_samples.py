@@ -27,7 +27,7 @@ from nag.real.real_pieces import (
 )
 from nag.real.real_through import is_other_than_its_conjugate
 from nag.real.spherical_chart import SphericalChart
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.real_points import real_points_near
 from nag.witness.sampling import NoRealPointsError, Samples, SamplingError
 from nag.witness.witness import WitnessSet
@@ -79,7 +79,7 @@ def sample_real(component: WitnessSet, count: int, *, run: Run = DEFAULT_RUN) ->
     """
     check_type(component, WitnessSet, "component", "one of the components of a nag.Decomposition")
     check_whole(count, "count")
-    rng = run.random(14)
+    rng = run.random(Stream.REAL_SAMPLES)
     system = component._known_system()
     system.check_real_coordinates()
     if component.dimension and system.imaginary:

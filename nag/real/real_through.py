@@ -20,7 +20,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.doubles import EPS
 from nag.numerics.zero_values import ON
-from nag.tracking.run import Run
+from nag.tracking.run import Run, Stream
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre, move
 from nag.witness.membership import Membership, membership_in
@@ -85,7 +85,7 @@ def is_real_through(
         fibres = component_fibres(system, component)
     except ValueError:
         return None
-    rng = run.random(49)
+    rng = run.random(Stream.REAL_PIECE_AT_POINT)
     count = multiplicity_at(point + 0j, accuracy, fibres, rng, run)
     if count is not None and count % 2:
         return True

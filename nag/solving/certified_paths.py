@@ -29,6 +29,7 @@ from nag.tracking.certified_paths import (
     prove_zeros_near,
 )
 from nag.tracking.moving_discs import MovingSystem
+from nag.tracking.run import Stream
 
 # More paths would take long.
 MOST_PATHS = 4096
@@ -125,7 +126,7 @@ def prove_paths(result: SolveResult, threads: int = 1) -> ProvedPaths:
     """
     problem, start = _start(result.system, result.start, result.seed, threads)
     homotopy = start.homotopy
-    rng = np.random.default_rng([result.seed, 19])
+    rng = np.random.default_rng([result.seed, Stream.CERTIFIED_PATHS])
     patches = np.zeros((len(homotopy.groups), homotopy.N), dtype=complex)
     for g, indices in enumerate(homotopy.groups):
         normal = rng.standard_normal((2, len(indices)))

@@ -33,7 +33,7 @@ from nag.solving.start.target import StartSystem
 from nag.text.progress import REMARK
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
-from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, TellFound, answers_early
+from nag.tracking.run import DEFAULT_RUN, UNFINISHED, Run, Stream, TellFound, answers_early
 from nag.tracking.settings import Settings, find_settings, tighten
 from nag.tracking.track import PathsSoFar, track
 
@@ -200,7 +200,7 @@ def by_turns(task: SolveTask, _: Others) -> SolveResult | None:
     if task.start != "auto":
         return None
     run = task.run
-    given = task.system, task.problem.target, run.settings, run.random(31), run.threads
+    given = task.system, task.problem.target, run.settings, run.random(Stream.TURNS), run.threads
     found = isotropic(*given)
     return None if found is None else _track_from(task, *found)
 

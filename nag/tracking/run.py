@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
+from enum import IntEnum
 from functools import wraps
 from os import PathLike
 from typing import Any, TypeVar
@@ -26,6 +27,58 @@ UNFINISHED = f"{ENDED_EARLY}, some of it perhaps twice and multiplicities perhap
 Found = Callable[[Any], None]
 # Seconds between two times that what grows is told of, at least.
 BETWEEN = 1.0
+
+
+class Stream(IntEnum):
+    """The parts of the work that draw random numbers of their own: each is one part's alone."""
+
+    MEMBERSHIP = 1
+    MOVING_SLICE = 2
+    DECOMPOSITION = 3
+    PROJECTION = 4
+    INTERSECTION = 5
+    COMMON_SLICES = 6
+    DISCOVERY = 7
+    NULL_SPACES_OF_MEMBERS = 8
+    GENUS = 9
+    DISCRIMINANT = 10
+    GIVEN_POINTS = 11
+    BRANCHES = 12
+    SWEEP = 13
+    REAL_SAMPLES = 14
+    MIRROR_IMAGES = 17
+    REAL_ASSEMBLIES = 19
+    ALL_AT_ONCE = 23
+    TURNS = 31
+    PARALLEL_ROBOT = 41
+    MODE_POSES = 42
+    REAL_POSES = 43
+    MODE_CLOUD = 44
+    MODE_SAMPLES = 45
+    MOVING_PARTS = 46
+    FIBRE_PRODUCT = 47
+    BESIDE_SINGULAR = 48
+    REAL_PIECE_AT_POINT = 49
+    BODY_CLOUD = 50
+    LEG_WAYS = 51
+    POSE_MODEL = 52
+    SAMPLING = 53
+    ELIMINATION = 54
+    PLOTTED_CLOUD = 55
+    SINGULAR_POINTS = 56
+    NULL_SPACES = 57
+    REAL_POINTS = 58
+    SINGULAR_MEMBERS = 59
+    BONDS = 60
+    GENERIC_POINTS = 61
+    REAL_CURVE = 62
+    GROWTH = 63
+    REAL_PIECES = 64
+    CRITICAL_POINTS = 65
+    REACHED_POSE = 66
+    CERTIFIED_LOOPS = 67
+    CERTIFIED_PATHS = 68
+    TRACE = 69
 
 
 @dataclass(frozen=True)
@@ -106,7 +159,7 @@ class Run:
         return self.settings if isinstance(self.settings, str) else "custom"
 
     def random(self, *stream: int) -> np.random.Generator:
-        """The random numbers of a part of the work, by numbers that no other part uses."""
+        """The random numbers of a part of the work, by its `Stream` and numbers of its own."""
         return np.random.default_rng([self.seed, *stream] if stream else self.seed)
 
     def tell(self, stage: str, done: int, total: int) -> None:

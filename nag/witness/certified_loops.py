@@ -26,6 +26,7 @@ from nag.numerics.read_only import equal_values
 from nag.tracking import blocks
 from nag.tracking.certified_paths import ProvedZeros, certified_paths, prove_zeros_near
 from nag.tracking.moving_discs import MovingPart, MovingSystem
+from nag.tracking.run import Stream
 from nag.witness.certificate import certify_witness_points
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre
@@ -109,7 +110,7 @@ def prove_all(decomposition: Decomposition, seed: int = 0) -> tuple[ProvedMonodr
     for k, component in enumerate(decomposition.components):
         blocks.tell("proving loops of components", k, len(decomposition.components))
         try:
-            rng = np.random.default_rng([seed, 19, k])
+            rng = np.random.default_rng([seed, Stream.CERTIFIED_LOOPS, k])
             found.append(prove_monodromy(decomposition.system, component, rng))
         except (ValueError, OverflowError):
             found.append(ProvedMonodromy((), np.arange(component.degree), 0, False))

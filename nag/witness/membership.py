@@ -27,7 +27,7 @@ from nag.numerics.read_only import Several, equal_values
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import LEAST, NONZERO, ON
 from nag.text.table import data_frame, lines_of, one_line
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.close_points import BASIN, DIGITS, PointInWords, distance, with_newton_constant
 from nag.witness.component_equations import component_fibres, component_system
@@ -404,7 +404,7 @@ def memberships(
     """
     check_decomposition(decomposition)
     check_error(accuracy, "accuracy")
-    rng = run.random(1)
+    rng = run.random(Stream.MEMBERSHIP)
     system = decomposition.system
     point = in_doubles(point, system.variables)
     if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > NONZERO:

@@ -13,7 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.double_ranks import DEPENDENT
 from nag.numerics.zero_values import ON
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.exact_points import SharpPoints, sharpen_points
@@ -111,7 +111,7 @@ def witness_at(
     """
     check_component(system, component)
     _check_slice(target, component)
-    rng = run.random(2)
+    rng = run.random(Stream.MOVING_SLICE)
     goal, natural = orthonormal_rows(target.rows), coordinates_of(system)
     own = natural.system(system)
     here = carry_component(component, natural, own)

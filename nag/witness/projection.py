@@ -20,7 +20,7 @@ from nag.numerics.double_ranks import matrix_corank
 from nag.numerics.doubles import EPS, ROUGH
 from nag.numerics.read_only import ComplexArray, equal_values, fixed_array
 from nag.text.table import one_line
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.change_of_coordinates import (
     carry_component,
     carry_points,
@@ -153,7 +153,7 @@ def project(
         raise NagError(
             f"coordinates: {list(chosen)} are given; give at least one variable, each once"
         )
-    rng = run.random(4)
+    rng = run.random(Stream.PROJECTION)
     natural = coordinates_of(system)
     system = natural.system(system)
     component = carry_component(component, natural, system)

@@ -21,7 +21,7 @@ from nag.numerics.coincidence import coincident
 from nag.numerics.read_only import BooleanArray, RealArray, Several, equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
 from nag.text.table import one_line
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre
@@ -143,7 +143,7 @@ def real_points_near(
     if system.imaginary:
         raise NagError("component: its equations have complex coefficients; use find_real_points")
     near = _real_vector(near, system.n)
-    rng = run.random(8)
+    rng = run.random(Stream.REAL_POINTS)
     # Distances are those in the units that are given.
     natural = coordinates_of(system).without_scales
     system, near = natural.system(system), natural.points(near)
@@ -243,9 +243,10 @@ def _nearest(
 def _step_towards(fibre: Fibre, z: np.ndarray, near: np.ndarray) -> tuple[float, np.ndarray]:
     """The distance to the foot of ``near`` on the tangent space, and a step along that space.
 
-    The step is Newton's for a stationary distance, where that leads downhill: the curvature of the
-    set is the equations' second derivatives, each times its Lagrange multiplier. Else it leads to
-    the foot.
+    The step is Newton's for a stationary distance, turned round along the axes of the curvature on
+    which that would lead uphill (Greenstadt, On the relative efficiencies of gradient methods, Math.
+    Comp. 21 (1967)). The curvature of the set is the equations' second derivatives, each times its
+    Lagrange multiplier.
     """
     n, evaluator = fibre.cut.n, fibre.cut.evaluator
     _, _, vh = np.linalg.svd(evaluator.balanced_jacobian(z).real)
@@ -263,13 +264,13 @@ def _step_towards(fibre: Fibre, z: np.ndarray, near: np.ndarray) -> tuple[float,
     turned = (slopes[: len(aside)] - slopes[len(aside) :]).transpose(0, 2, 1) @ multipliers
     bent = turned @ tangent / (2 * np.linalg.norm(aside, axis=1, keepdims=True))
     curvature = along.T @ along - (bent + bent.T) / 2
-    try:
-        np.linalg.cholesky(curvature)
-    except np.linalg.LinAlgError:
-        return pull, foot
-    step = along @ np.linalg.solve(curvature, along.T @ (near - z[:n]))
+    sizes, axes = np.linalg.eigh(curvature)
+    # Towards a minimum along an axis of the curvature, away from a maximum.
+    sizes = np.maximum(np.abs(sizes), STILL * max(1.0, float(np.abs(sizes).max())))
+    step = along @ (axes @ (axes.T @ (along.T @ (near - z[:n])) / sizes))
     # No point that is nearer than this one lies further from it.
-    return pull, step if np.linalg.norm(step) <= 2 * np.linalg.norm(near - z[:n]) else foot
+    longest = 2 * float(np.linalg.norm(near - z[:n]))
+    return pull, step * min(1.0, longest / max(float(np.linalg.norm(step)), 1e-300))
 
 
 def _real_zero(fibre: Fibre, everything: Evaluator, z: np.ndarray) -> np.ndarray | None:

@@ -20,7 +20,7 @@ from nag.numerics.read_only import ComplexArray, RealArray, Several, equal_value
 from nag.numerics.zero_values import ON
 from nag.text.json_text import pairs, real_or_null
 from nag.text.table import data_frame, one_line
-from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.run import DEFAULT_RUN, Run, Stream, takes_run
 from nag.witness.change_of_coordinates import carry_component, carry_points, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.exact_points import SharpPoints
@@ -206,7 +206,7 @@ def sample(
     """
     check_component(system, component)
     check_whole(count, "count")
-    rng = run.random(3)
+    rng = run.random(Stream.SAMPLING)
     if not component.dimension:
         drawn = rng.integers(len(component.points), size=count)
         at, evaluator = component.points[drawn], Evaluator.of(system.polynomials, system.n)
