@@ -244,9 +244,9 @@ def _step_towards(fibre: Fibre, z: np.ndarray, near: np.ndarray) -> tuple[float,
     """The distance to the foot of ``near`` on the tangent space, and a step along that space.
 
     The step is Newton's for a stationary distance, turned round along the axes of the curvature on
-    which that would lead uphill (Greenstadt, On the relative efficiencies of gradient methods, Math.
-    Comp. 21 (1967)). The curvature of the set is the equations' second derivatives, each times its
-    Lagrange multiplier.
+    which that would lead uphill (Greenstadt, On the relative efficiencies of gradient methods,
+    Math. Comp. 21 (1967)). The curvature of the set is the equations' second derivatives, each
+    times its Lagrange multiplier.
     """
     n, evaluator = fibre.cut.n, fibre.cut.evaluator
     _, _, vh = np.linalg.svd(evaluator.balanced_jacobian(z).real)
