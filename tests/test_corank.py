@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
 from nag.numerics.corank import find_zero_of_corank
 from nag.numerics.deflation import asks_for_more
 from nag.numerics.descent import Round
@@ -17,6 +18,7 @@ from nag.numerics.digits import BITS, in_bits, log_norm, to_point
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.sharpening import ZERO
 from nag.numerics.singular_point import Place, analyse
+from nag.solving.solve import solve
 
 
 def _system(variables: str, *texts: str) -> tuple[Polynomial, ...]:
@@ -131,3 +133,32 @@ def test_a_double_zero_of_two_paths_stays_isolated():
     equations = _system("x y", "x - y^2", "(2*y - 1)^2")
     end = analyse(equations, np.array([0.25, 0.5]), 1e-14, np.random.default_rng(0), most=2)
     assert (end.place, end.multiplicity) == (Place.ISOLATED, 2)
+
+
+def test_a_zero_beside_a_node_is_not_taken_for_the_node():
+    # Two lines that meet, and zeros within 1e-17 of where they do.
+    e = "1/10^17"
+    equations = _system(
+        "x y z",
+        f"(x - 1)*y*(x - 1 - {e}) + z*(x + 2*y + 3*z + 5)",
+        f"(x - 1)*y*(y - 2*{e}) + z*(3*x - y + z - 7)",
+        f"(x - 1)*y*(z + x - 1 + y - 3*{e}) + z*(x - 2*y + 2*z + 4)",
+    )
+    result = solve(PolynomialSystem(("x", "y", "z"), equations), start="total")
+    assert len(result.solutions) == 7
+
+
+@pytest.mark.parametrize("start", ["auto", "total"])
+@pytest.mark.parametrize("power", [6, 7, 8, 11])
+def test_a_zero_beside_where_three_lines_meet_is_found(power: int, start: str) -> None:
+    x, y, z, e = "(x - 1)", "(y + 2*x)", "(z - 3*y)", f"1/10^{power}"
+    first, second = f"{y}*({x} - {z})", f"{x}*({y} - {z})"
+    third = f"{x}*{y}*({x} + {y} + {z} - 3*{e})"
+    equations = _system(
+        "x y z",
+        f"{first} + 2*{second}",
+        f"3*{first} - {second}",
+        f"{third} + (x + 2)*{first} + (y - z + 1)*{second}",
+    )
+    result = solve(PolynomialSystem(("x", "y", "z"), equations), start=start)
+    assert len(result.solutions) == 1 and result.complete and result.positive_dimensional

@@ -204,7 +204,9 @@ def test_a_five_bars_circuits_are_one_where_its_rods_reach_everywhere_and_two_el
             assert np.ptp(circuit.values.values[:, column]) < FIT
     table = driven.table()
     pairs = set(zip(table["driven"].tolist(), table["circuit"].tolist(), strict=True))
-    assert pairs == {(0, 1), (0, 2), (30, 1), (30, 2), (60, 2)}
+    # The crank at 60 degrees carries on what one of the two circuits becomes.
+    both = {(0, 1), (0, 2), (30, 1), (30, 2)}
+    assert pairs in (both | {(60, 1)}, both | {(60, 2)})
     lengths = [c for c in driven.continuations if c.moves]
     assert sorted((c.first, len(c.members)) for c in lengths) == [(0, 2), (0, 3)]
 

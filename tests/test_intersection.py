@@ -161,7 +161,9 @@ def test_what_an_intersection_finds_can_be_worked_with() -> None:
     (circle,) = both.components[0].intersect(both.components[1]).components
     x = sample(both.system, circle, 5).points
     assert np.abs(x[:, 2] - 0.5).max() < 1e-14
-    assert np.abs(x[:, 0] ** 2 + x[:, 1] ** 2 - 0.75).max() < 1e-13
+    squares = x[:, 0] ** 2, x[:, 1] ** 2
+    sizes = 0.75 + sum(map(np.abs, squares))
+    assert (np.abs(sum(squares) - 0.75) < 1e-14 * sizes).all()
 
 
 def test_the_curves_of_the_rhombus_cross_in_its_flat_poses() -> None:

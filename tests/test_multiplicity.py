@@ -66,9 +66,8 @@ def test_gradients_whose_difference_is_an_error_of_the_point_are_not_independent
     x, y = Polynomial.variables(2)
     # At (1, 0) both gradients are (1, 1); the point is known to 1e-4.
     gradients = Gradients.of([x * x + y * 2, x + x * y], 2)
-    near = np.array([1 + 8e-5, 0.0])
-    assert gradients.rank(near, 1e-4) == 1
-    assert gradients.rank(near, 1e-12) == 2
+    near = np.array([[1 + 8e-5, 0.0], [1 + 8e-5, 0.0]])
+    assert gradients.ranks(near, np.array([[1e-4], [1e-12]])).tolist() == [1, 2]
 
 
 @pytest.mark.parametrize("seed", range(2))

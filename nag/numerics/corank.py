@@ -16,15 +16,16 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import inf
 
 import flint
 import numpy as np
 
-from nag.numerics.descent import Point, Round
-from nag.numerics.digits import BITS, in_bits, log_norm, middle
+from nag.numerics.ball_ranks import regular_block
+from nag.numerics.descent import Point, Round, descend
+from nag.numerics.digits import BITS, DIGITS, in_bits, log_norm, log_size, middle
 from nag.numerics.double_ranks import INDEPENDENT
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import step_by_doubles, subtract_step
@@ -33,15 +34,29 @@ from nag.numerics.sharpening import FURTHEST_STEP, GAIN, NEWTON_STEPS, ZERO
 # Decimal logarithm of the step of difference quotients: they lose as many of 150 digits, and are
 # known to as many, beyond what doubles ask for.
 QUOTIENT_STEP = -40
+# Decides: Decimal logarithm of a quotient that is zero: ten digits of its error.
+NOTHING = QUOTIENT_STEP + 10.0
+# The order of the series that tell what terms of higher order are.
+CUBIC = 3
+# Decides: Decimal logarithm of what a shift makes, beside its length, of terms of higher order,
+# where equations are of size one: three derivatives of a cubic one, and a digit.
+SHIFTED = 1.5
 
 
 @dataclass(frozen=True, eq=False)
 class _Blocks:
-    """A Jacobian about a regular block: the Schur complement, ``A^-1 B``, and ``C A^-1``."""
+    """A Jacobian about a regular block.
+
+    Attributes:
+        complement: the Schur complement.
+        rows, columns: the matrices U and V, whose product with the Jacobian between them it is.
+        inverse: decimal logarithm of the largest entry of the block's inverse.
+    """
 
     complement: flint.acb_mat
-    right: flint.acb_mat
-    left: flint.acb_mat
+    rows: flint.acb_mat
+    columns: flint.acb_mat
+    inverse: float
 
 
 def find_zero_of_corank(
@@ -71,9 +86,11 @@ def find_zero_of_corank(
             if size < ZERO:
                 return x, size
             if inverse is None:
-                slopes = np.vstack(
-                    [_rounded(jacobian), _slopes(system, x, jacobian, block, blocks)]
-                )
+                changes = [
+                    _rounded(blocks.rows * each) for each in _changes(system, x, jacobian, blocks)
+                ]
+                bending = np.stack(changes, axis=1).reshape(-1, system.n)
+                slopes = np.vstack([_rounded(jacobian), bending])
                 if not np.isfinite(slopes).all():
                     return None
                 inverse = np.linalg.pinv(slopes, rcond=INDEPENDENT)
@@ -84,41 +101,94 @@ def find_zero_of_corank(
     return None
 
 
+def may_hide_others(
+    system: ExactSystem, point: Sequence[flint.acb], block: Round, reach: float
+) -> bool:
+    """Whether zeros may lie within ``reach`` of one that are on no set with it.
+
+    A block of the Jacobian is regular at the zero, and the Schur complement vanishes. Within a
+    reach in which the block may become singular nothing is said of others. Nor is it where a
+    combination of the equations that remain has quadratic terms that are not zero, but no larger
+    than what such a shift makes of terms of higher order: these decide then what lies beside.
+
+    Args:
+        reach: decimal logarithm.
+    """
+    with in_bits(BITS):
+        x = list(map(middle, point))
+        jacobian = system.functions.jacobian(x, BITS)
+        blocks = _divide(jacobian, block)
+        if blocks is None:
+            return True
+        shadow = reach + SHIFTED + max(0.0, blocks.inverse)
+        if shadow > 0:
+            return True
+        changes = [
+            (blocks.rows * each * blocks.columns).mid().tolist()
+            for each in _changes(system, x, jacobian, blocks)
+        ]
+        count = blocks.complement.nrows()
+        quadratic = [[c for each in changes for c in each[i]] for i in range(count)]
+        if not _are_small(quadratic, shadow, NOTHING):
+            return False
+    # What terms of higher order are in fact takes longer to say.
+    descent = descend(system, DIGITS, x, [block], CUBIC)
+    if descent is None:
+        return True
+    ring, series = descent.ring, descent.remaining
+    keys = sorted({k for one in series for k in one if ring.degree(k) == CUBIC - 1})
+    quadratic = [[one.get(k, flint.acb(0)) for k in keys] for one in series]
+    cubic = [log_size(c) for one in series for k, c in one.items() if ring.degree(k) == CUBIC]
+    return _are_small(quadratic, max(cubic, default=-inf) + reach + SHIFTED, ZERO)
+
+
+def _are_small(rows: list[list[flint.acb]], limit: float, nothing: float) -> bool:
+    """Whether a combination of rows is not nothing, but no larger than a limit (logarithms)."""
+    columns = len(rows[0]) if rows else 0
+    if not columns or limit <= nothing:
+        return False
+    with in_bits(BITS):
+        ranks = [regular_block(rows, columns, size).rank for size in (limit, nothing)]
+    return ranks[0] < ranks[1]
+
+
 def _divide(jacobian: flint.acb_mat, block: Round) -> _Blocks | None:
     """The parts of a Jacobian about a block; None where this may be singular."""
-    below, beside = _others(jacobian, block)
+    rows, columns = jacobian.nrows(), jacobian.ncols()
+    below = [i for i in range(rows) if i not in block.rows]
+    beside = [j for j in range(columns) if j not in block.columns]
     try:
-        a = _part(jacobian, block.rows, block.columns)
-        right = a.solve(_part(jacobian, block.rows, beside)).mid()
-        c = _part(jacobian, below, block.columns)
-        left = a.transpose().solve(c.transpose()).transpose().mid()
+        inverse = _part(jacobian, block.rows, block.columns).inv().mid()
     except ZeroDivisionError:
         return None
-    complement = (_part(jacobian, below, beside) - c * right).mid()
-    return _Blocks(complement, right, left)
+    right = (inverse * _part(jacobian, block.rows, beside)).mid()
+    left = (_part(jacobian, below, block.columns) * inverse).mid()
+    u = _placed(left, below, block.rows, rows)
+    v = _placed(right.transpose(), beside, block.columns, columns).transpose()
+    complement = (u * _part(jacobian, range(rows), beside)).mid()
+    return _Blocks(complement, u, v, log_norm(inverse.entries()))
 
 
-def _slopes(
-    system: ExactSystem, x: Point, jacobian: flint.acb_mat, block: Round, blocks: _Blocks
-) -> np.ndarray:
-    """The derivatives of the Schur complement, row by row, by quotients of differences."""
-    below, beside = _others(jacobian, block)
-    rows, columns = np.eye(jacobian.nrows())[below] + 0j, np.eye(system.n)[:, beside] + 0j
-    rows[:, list(block.rows)] = -_rounded(blocks.left)
-    columns[list(block.columns)] = -_rounded(blocks.right)
+def _placed(
+    part: flint.acb_mat, own: Sequence[int], others: Sequence[int], width: int
+) -> flint.acb_mat:
+    """Rows of length ``width`` with one at ``own``, one in each, and minus a part at ``others``."""
+    placed = flint.acb_mat(len(own), width)
+    for i, place in enumerate(own):
+        placed[i, place] = 1
+        for j, other in enumerate(others):
+            placed[i, other] = -part[i, j]
+    return placed
+
+
+def _changes(
+    system: ExactSystem, x: Point, jacobian: flint.acb_mat, blocks: _Blocks
+) -> Iterator[flint.acb_mat]:
+    """How the Jacobian changes along each column of V, by quotients of differences."""
     h = flint.arb(10) ** flint.arb(QUOTIENT_STEP)
-    changes = []
-    for direction in columns.T.tolist():
-        moved = [middle(a + h * flint.acb(v)) for a, v in zip(x, direction, strict=True)]
-        change = (system.functions.jacobian(moved, BITS) - jacobian) * flint.acb(1 / h)
-        changes.append(rows @ _rounded(change.mid()))
-    return np.stack(changes, axis=1).reshape(-1, system.n)
-
-
-def _others(jacobian: flint.acb_mat, block: Round) -> tuple[list[int], list[int]]:
-    """The rows and the columns that are not those of a block."""
-    below = [i for i in range(jacobian.nrows()) if i not in block.rows]
-    return below, [j for j in range(jacobian.ncols()) if j not in block.columns]
+    for direction in blocks.columns.transpose().tolist():
+        moved = [middle(a + h * v) for a, v in zip(x, direction, strict=True)]
+        yield ((system.functions.jacobian(moved, BITS) - jacobian) * flint.acb(1 / h)).mid()
 
 
 def _part(matrix: flint.acb_mat, rows: Sequence[int], columns: Sequence[int]) -> flint.acb_mat:

@@ -28,7 +28,7 @@ import flint
 import numpy as np
 
 from nag.numerics.ball_ranks import regular_block
-from nag.numerics.corank import find_zero_of_corank
+from nag.numerics.corank import find_zero_of_corank, may_hide_others
 from nag.numerics.descent import Descent, Point, Round, descend, total_work
 from nag.numerics.digits import DIGITS, SPARE, log_norm, log_size, middle, working_digits
 from nag.numerics.exact_system import ExactSystem
@@ -250,12 +250,17 @@ def asks_for_more(corank: int, most: int | None) -> bool:
 def _find_singular(
     system: ExactSystem, x: Sequence[flint.acb], this: Round, farthest: float
 ) -> DeflatedPoint | None:
-    """The zero of a round's corank near a point, without deflation; None if it is not found."""
+    """The zero of a round's corank near a point, without deflation.
+
+    None if it is not found, or if the point may stand for another zero beside it.
+    """
     found = find_zero_of_corank(system, x, this)
     if found is None:
         return None
     point, defect = found
     if log_norm(a - b for a, b in zip(point, x, strict=True)) > farthest:
+        return None
+    if may_hide_others(system, point, this, farthest):
         return None
     return DeflatedPoint(point, (this,), 0, defect, -inf)
 

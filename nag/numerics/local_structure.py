@@ -13,6 +13,7 @@ import numpy as np
 from nag.algebra.exact_ranks import FIELDS, PrimeField
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_ranks import Digits, Field, UnclearRank
+from nag.numerics.corank import may_hide_others
 from nag.numerics.curves import curve_through, is_exact_zero, point_beside
 from nag.numerics.deflation import (
     MOST_WORK,
@@ -21,7 +22,7 @@ from nag.numerics.deflation import (
     asks_for_more,
     deflate,
 )
-from nag.numerics.descent import series_cost
+from nag.numerics.descent import Round, series_cost
 from nag.numerics.digits import (
     DIGITS,
     LOG10_2,
@@ -40,7 +41,7 @@ from nag.numerics.implicit_function import eliminate
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.precise_point import POINT_DIGITS, PrecisePoint
 from nag.numerics.series_zeros import find_zeros_of_cluster
-from nag.numerics.sharpening import ZERO, sharpen
+from nag.numerics.sharpening import ARRIVED, ZERO, sharpen
 from nag.numerics.singular_point import Place, SingularEnd
 
 # Decimal logarithms of the factors by which the error may exceed what is claimed, in this order.
@@ -146,7 +147,13 @@ def _judge_point(
             reasons.append(str(reason))
             continue
         if found.exact:
-            return _at_zero(system, found, rng, effort)
+            end = _at_zero(system, found, rng, effort)
+            # Of a cluster all zeros are looked for, each known far better than they lie apart.
+            sure = depth or end.place is not Place.ON_COMPONENT
+            if sure or not _may_be_another(system, found, reach):
+                return end
+            reasons.append("a zero on a larger set was found, and others may lie as near")
+            continue
         reasons.append(f"what should vanish there is of size 1e{found.defect:.0f}")
         if found.free or depth == DEEPEST:
             continue
@@ -157,6 +164,14 @@ def _judge_point(
             return _cluster(system, found, nearby)
     here = doubles(_undo_scales(system, y))
     return _leave_undecided(here, 10**claimed, reasons[0] if reasons else "")
+
+
+def _may_be_another(system: ExactSystem, found: DeflatedPoint, reach: float) -> bool:
+    """Whether a point may stand for an isolated zero beside the one on a set that was found."""
+    if not system.most_zeros:
+        return False
+    block = Round(found.rounds[0].rows, found.rounds[0].columns)
+    return may_hide_others(system, found.point, block, max(reach + 1, ARRIVED))
 
 
 def _at_zero(
