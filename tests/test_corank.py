@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.decomposition.decompose import decompose
 from nag.numerics.corank import find_zero_of_corank
 from nag.numerics.deflation import asks_for_more
 from nag.numerics.descent import Round
@@ -162,3 +163,20 @@ def test_a_zero_beside_where_three_lines_meet_is_found(power: int, start: str) -
     )
     result = solve(PolynomialSystem(("x", "y", "z"), equations), start=start)
     assert len(result.solutions) == 1 and result.complete and result.positive_dimensional
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("power", [14, 15, 17, 20])
+def test_a_zero_nearer_to_a_line_than_doubles_tell_is_not_lost_in_silence(
+    power: int, seed: int
+) -> None:
+    x, y, z, e = "(3*x - 1)", "(7*y - 2*x + 1)", "(z - 2)", f"1/10^{power}"
+    equations = _system(
+        "x y z",
+        f"{x}*({x} - {e} + {y}) + {y}*(z + 3)",
+        f"{x}*({y} + 2*{z}) + {y}*(x - 5)",
+        f"{x}*({z} - {x} + {e}) + {y}*(y + 2*z + 1)",
+    )
+    answer = decompose(PolynomialSystem(("x", "y", "z"), equations), seed=seed)
+    points = sum(component.dimension == 0 for component in answer.components)
+    assert points == 4 or not answer.complete

@@ -12,7 +12,7 @@ import numpy as np
 
 from nag.algebra.exact_ranks import FIELDS, PrimeField
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.ball_ranks import Digits, Field, UnclearRank
+from nag.numerics.ball_ranks import Digits, Field, UnclearRank, regular_block
 from nag.numerics.corank import may_hide_others
 from nag.numerics.curves import curve_through, is_exact_zero, point_beside
 from nag.numerics.deflation import (
@@ -65,6 +65,7 @@ MOST_DIGITS = 2000
 ERROR, ROUNDED = 1e-120, 1e-135
 # Clusters of clusters are not resolved further than this.
 DEEPEST = 3
+OTHERS = "a zero on a larger set was found, and others may lie as near"
 
 
 @dataclass(frozen=True)
@@ -150,14 +151,21 @@ def _judge_point(
             end = _at_zero(system, found, rng, effort)
             # Of a cluster all zeros are looked for, each known far better than they lie apart.
             sure = depth or end.place is not Place.ON_COMPONENT
-            if sure or not _may_be_another(system, found, reach):
+            if sure or not _may_be_another(system, found.point, reach):
                 return end
-            reasons.append("a zero on a larger set was found, and others may lie as near")
+            reasons.append(OTHERS)
             continue
         reasons.append(f"what should vanish there is of size 1e{found.defect:.0f}")
         if found.free or depth == DEEPEST:
             continue
         nearby = _resolve_cluster(system, found, reach, rng, effort, spread, depth)
+        if len(nearby) == 1 and nearby[0].place is Place.ON_COMPONENT and nearby[0].precise:
+            centre = nearby[0].precise.centre
+            point = [times_power_of_two(c, -k) for c, k in zip(centre, system.scales, strict=True)]
+            if depth or not _may_be_another(system, point, reach):
+                return nearby[0]
+            reasons.append(OTHERS)
+            continue
         if len(nearby) == 1 and (found.corank > 1 or nearby[0].place is Place.ON_COMPONENT):
             return nearby[0]
         if nearby:
@@ -166,12 +174,13 @@ def _judge_point(
     return _leave_undecided(here, 10**claimed, reasons[0] if reasons else "")
 
 
-def _may_be_another(system: ExactSystem, found: DeflatedPoint, reach: float) -> bool:
-    """Whether a point may stand for an isolated zero beside the one on a set that was found."""
+def _may_be_another(system: ExactSystem, zero: Sequence[flint.acb], reach: float) -> bool:
+    """Whether what is known to ``10^reach`` may be an isolated zero beside one on a set."""
     if not system.most_zeros:
         return False
-    block = Round(found.rounds[0].rows, found.rounds[0].columns)
-    return may_hide_others(system, found.point, block, max(reach + 1, ARRIVED))
+    found = regular_block(system.values_at(DIGITS).jacobian(zero), system.n, ZERO)
+    block = Round(tuple(found.rows), tuple(found.columns))
+    return may_hide_others(system, zero, block, max(reach + 1, ARRIVED))
 
 
 def _at_zero(
