@@ -110,7 +110,7 @@ def test_a_step_is_explained_by_its_parts() -> None:
     assert [part.name for part in cost.parts] == [part.name for part in PARTS]
     assert all(part.flops > 0 and part.microseconds > 0 for part in cost.parts)
     spent = sum(part.microseconds for part in cost.parts)
-    assert cost.between == pytest.approx(cost.microseconds - spent)
+    assert cost.unexplained == pytest.approx(cost.microseconds - spent)
 
 
 def test_parts_are_told_beside_what_their_arithmetic_takes() -> None:

@@ -190,7 +190,7 @@ class StepCost:
     parts: tuple[PartCost, ...]
 
     @property
-    def between(self) -> float:
+    def unexplained(self) -> float:
         """Microseconds that no part explains."""
         return self.microseconds - sum(part.microseconds for part in self.parts)
 

@@ -66,7 +66,7 @@ def step_table(costs: list[StepCost], rate: float) -> list[str]:
         flops = sum(part.flops for part in cost.parts)
         rows = [("a step", flops, cost.microseconds)]
         rows += [(part.name, part.flops, part.microseconds) for part in cost.parts]
-        rows.append(("between them", 0, cost.between))
+        rows.append(("between them", 0, cost.unexplained))
         for k, (name, count, takes) in enumerate(rows):
             bound = 1e6 * count / rate
             ratio = f"{takes / bound:.2f}" if count else "-"

@@ -834,7 +834,7 @@ def _close_all_across(chains: Chains, q: Array, tangents: Array) -> Array:
     """The same for several positions, shape (k, n), each with its own direction."""
     across = np.array([chains.across(tangent) for tangent in tangents])
 
-    def opening(x: Array, which: Array) -> tuple[Array, Array]:
+    def linearise_gaps(x: Array, which: Array) -> tuple[Array, Array]:
         along = across[which]
         there = q[which] + (along @ x[:, :, None])[:, :, 0]
         gaps, rows = zip(*map(chains.linearised, there), strict=True)
@@ -842,7 +842,7 @@ def _close_all_across(chains: Chains, q: Array, tangents: Array) -> Array:
 
     stop = Stop(arrived=ROUNDING, longest=np.inf)
     start = np.zeros((len(q), across.shape[2]))
-    ends = find_zeros(opening, start, MOST_STEPS, count_above(ARRIVED), stop)
+    ends = find_zeros(linearise_gaps, start, MOST_STEPS, count_above(ARRIVED), stop)
     return q + (across @ ends.x[:, :, None])[:, :, 0]
 
 

@@ -25,7 +25,7 @@ import numpy as np
 
 from nag.numerics.ball_ranks import regular_block
 from nag.numerics.descent import Point, Round, descend
-from nag.numerics.digits import BITS, DIGITS, in_bits, log_norm, log_size, middle
+from nag.numerics.digits import BITS, DIGITS, doubles, in_bits, log_norm, log_size, middle
 from nag.numerics.double_ranks import INDEPENDENT
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import step_by_doubles, subtract_step
@@ -86,11 +86,11 @@ def find_zero_of_corank(
             if size < ZERO:
                 return x, size
             if inverse is None:
-                changes = [
-                    _rounded(blocks.rows * each) for each in _changes(system, x, jacobian, blocks)
-                ]
-                bending = np.stack(changes, axis=1).reshape(-1, system.n)
-                slopes = np.vstack([_rounded(jacobian), bending])
+                changes = [blocks.rows * each for each in _changes(system, x, jacobian, blocks)]
+                count = blocks.complement.nrows()
+                bending = [doubles(each.entries()).reshape(count, system.n) for each in changes]
+                plain = doubles(jacobian.entries()).reshape(-1, system.n)
+                slopes = np.vstack([plain, np.stack(bending, axis=1).reshape(-1, system.n)])
                 if not np.isfinite(slopes).all():
                     return None
                 inverse = np.linalg.pinv(slopes, rcond=INDEPENDENT)
@@ -163,13 +163,13 @@ def _divide(jacobian: flint.acb_mat, block: Round) -> _Blocks | None:
         return None
     right = (inverse * _part(jacobian, block.rows, beside)).mid()
     left = (_part(jacobian, below, block.columns) * inverse).mid()
-    u = _placed(left, below, block.rows, rows)
-    v = _placed(right.transpose(), beside, block.columns, columns).transpose()
+    u = _place_part(left, below, block.rows, rows)
+    v = _place_part(right.transpose(), beside, block.columns, columns).transpose()
     complement = (u * _part(jacobian, range(rows), beside)).mid()
     return _Blocks(complement, u, v, log_norm(inverse.entries()))
 
 
-def _placed(
+def _place_part(
     part: flint.acb_mat, own: Sequence[int], others: Sequence[int], width: int
 ) -> flint.acb_mat:
     """Rows of length ``width`` with one at ``own``, one in each, and minus a part at ``others``."""
@@ -193,9 +193,3 @@ def _changes(
 
 def _part(matrix: flint.acb_mat, rows: Sequence[int], columns: Sequence[int]) -> flint.acb_mat:
     return flint.acb_mat(len(rows), len(columns), [matrix[i, j] for i in rows for j in columns])
-
-
-def _rounded(matrix: flint.acb_mat) -> np.ndarray:
-    """A matrix as complex doubles."""
-    entries = [complex(c) for c in matrix.entries()]
-    return np.array(entries).reshape(matrix.nrows(), matrix.ncols())

@@ -45,8 +45,6 @@ EARLY, MOST_EARLY = (1 << 32) + 2, 1 << 19
 # Where only a finite set is of interest, one path of so many is tracked and judged first, if these
 # are so many, and at most so many: where one ends on a larger set, the others need not be tracked.
 TRIED_OF, LEAST_TRIED, MOST_TRIED = 32, 8, 64
-# The stream of random numbers of these.
-TRIED = (1 << 32) + 3
 
 # Answers what is left of a task by the methods after the one that asks.
 Others = Callable[[SolveTask], SolveResult]
@@ -358,7 +356,9 @@ def _track_some(task: SolveTask, begin: StartSystem, reason: str) -> PathSearch:
     # An isolated zero may be the end of paths that are left out.
     some = replace(begin, complete=False)
     paths = track(begin.homotopy, begin.points[chosen], task.run.settings, task.run.threads)
-    return PathSearch.of(task, task.problem, some, reason, paths, task.run.random(TRIED))
+    return PathSearch.of(
+        task, task.problem, some, reason, paths, task.run.random(Stream.TRIED_PATHS)
+    )
 
 
 def _result_so_far(search: PathSearch) -> SolveResult:

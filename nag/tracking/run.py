@@ -79,6 +79,7 @@ class Stream(IntEnum):
     CERTIFIED_LOOPS = 67
     CERTIFIED_PATHS = 68
     TRACE = 69
+    TRIED_PATHS = 70
 
 
 @dataclass(frozen=True)
